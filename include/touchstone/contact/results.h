@@ -1,0 +1,62 @@
+#ifndef touchstone_contact_results_h
+#define touchstone_contact_results_h
+
+#include <touchstone/contact/row.h>
+#include <touchstone/types.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Result at one slave node; each rank has those it owns. */
+  struct ContactPoint
+  {
+    unsigned int           pair;
+    Index                  node;
+    dealii::Point<dim>     reference_position;
+    dealii::Tensor<1, dim> displacement;
+    dealii::Tensor<1, dim> normal;
+    double                 gap;
+    /** Tributary area. */
+    double                 area;
+    /** Normal force divided by tributary area. */
+    double                 pressure;
+    /** Contact force divided by tributary area. */
+    dealii::Tensor<1, dim> traction;
+    /** Accumulated tangential slip, length. */
+    dealii::Tensor<1, dim> slip;
+    ContactStatus          status;
+  };
+
+  /** @brief A slave face as polygon for pictures: nodes in lexicographic order,
+   * 4 for degree 1 and 9 for degree 2. */
+  struct ContactFace
+  {
+    unsigned int         pair;
+    unsigned int         degree;
+    std::array<Index, 9> nodes;
+  };
+
+  /** @brief Sums over the slave nodes of one pair, over all ranks. */
+  struct PairResult
+  {
+    /** Force of the master on the slave body. */
+    dealii::Tensor<1, dim> force;
+    /** Moment of that force about the origin of the reference frame. */
+    dealii::Tensor<1, dim> moment;
+    /** Tributary area of the nodes in contact. */
+    double area = 0.;
+    double max_pressure = 0.;
+    /** Largest penetration, >= 0, length. */
+    double       max_penetration = 0.;
+    unsigned int active          = 0;
+    unsigned int stick           = 0;
+    unsigned int slip            = 0;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,76 @@
+#ifndef touchstone_contact_row_h
+#define touchstone_contact_row_h
+
+#include <touchstone/types.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What a contact row does at present. */
+  enum class ContactStatus : int
+  {
+    /** No master face within reach, or beyond the edge of the master surface. */
+    no_partner = -1,
+    /** A master face is there, but the gap is open. */
+    open = 0,
+    /** In contact, free to slide. */
+    slip = 1,
+    /** In contact, held in the tangential directions. */
+    stick = 2,
+    /** All components constrained, compression and tension. */
+    tied = 3
+  };
+
+  /** @brief One term of a stencil: weight @p weight on the node @p node (the
+   * unknowns of node k are 3k, 3k+1, 3k+2). */
+  struct StencilEntry
+  {
+    Index  node;
+    double weight;
+  };
+
+  /**
+   * @brief One slave node must not move through a weighted combination of
+   * master nodes: the only thing that enforcement knows of contact.
+   *
+   * With M = [I, -w_1 I, ...] the gap is g = n . (M x + offset) and the contact
+   * force f = lambda n acts as M^T f. An obstacle is a row with an empty stencil.
+   */
+  struct ContactRow
+  {
+    /** Number of the contact pair. */
+    unsigned int pair = 0;
+    /** The slave node; owned by this rank. */
+    Index slave = invalid_index;
+    /** Master nodes and their weights, which sum to one; may be owned by any
+     * rank. */
+    std::vector<StencilEntry> stencil;
+    /** Unit outward normal of the master surface at the contact point. */
+    dealii::Tensor<1, dim> normal;
+    /** Gap vector x_s - x_contact, length. */
+    dealii::Tensor<1, dim> gap_vector;
+    /** Gap, negative for penetration, length. */
+    double gap = 0.;
+    /** Tributary area of the slave node in the reference state. */
+    double area = 0.;
+    /** Size of the slave faces at the node, length; makes gaps nondimensional. */
+    double size = 1.;
+    /** Contact force on the slave node, force: lambda_n n + t_T. */
+    dealii::Tensor<1, dim> force;
+    /** Normal contact force, >= 0 in compression. */
+    double lambda = 0.;
+    ContactStatus status = ContactStatus::no_partner;
+
+    bool
+    active() const
+    {
+      return status >= ContactStatus::slip;
+    }
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,53 @@
+#ifndef touchstone_mesh_forest_h
+#define touchstone_mesh_forest_h
+
+#include <touchstone/mesh/geometry.h>
+#include <touchstone/scene/scene.h>
+#include <touchstone/types.h>
+
+#include <deal.II/distributed/tria.h>
+
+namespace Touchstone
+{
+  /**
+   * @brief All bodies of a scene in one distributed triangulation.
+   *
+   * The bodies' coarse meshes are concatenated, never merged, so bodies that
+   * touch stay apart. The material id of a cell is the number of its body;
+   * boundary ids are unique over all bodies.
+   */
+  class Forest
+  {
+  public:
+    /** @throws InputError for bad meshes and boundaries that do not exist. */
+    Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
+
+    dealii::parallel::distributed::Triangulation<dim> triangulation;
+
+    unsigned int
+    n_bodies() const;
+
+    /**
+     * @brief The boundary id of a boundary, by its name or its number.
+     * @throws InputError in the name of @p section and @p key, which lists the
+     * boundaries that the body has.
+     */
+    dealii::types::boundary_id
+    boundary_id(unsigned int       body,
+                const std::string &name,
+                const std::string &section,
+                const std::string &key) const;
+
+    /** @brief Exact shape of a boundary, or null where only the mesh is known. */
+    std::shared_ptr<const AnalyticSurface>
+    surface(dealii::types::boundary_id id) const;
+
+  private:
+    /** Boundary names of each body, with ids that are unique in the forest. */
+    std::vector<std::map<std::string, dealii::types::boundary_id>> names;
+    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>>
+      surfaces;
+  };
+} // namespace Touchstone
+
+#endif

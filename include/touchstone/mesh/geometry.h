@@ -1,0 +1,69 @@
+#ifndef touchstone_mesh_geometry_h
+#define touchstone_mesh_geometry_h
+
+#include <touchstone/mesh/analytic_surface.h>
+#include <touchstone/registry.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/grid/manifold.h>
+#include <deal.II/grid/tria_description.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief The coarse mesh of one body, with boundary and manifold ids that are
+   * its own (the forest renumbers them).
+   */
+  struct BodyMesh
+  {
+    std::vector<dealii::Point<3>>    vertices;
+    std::vector<dealii::CellData<3>> cells;
+    /** Faces with boundary ids (every boundary face has one) and manifold ids. */
+    dealii::SubCellData subcells;
+    /** Names of boundary ids; a boundary can also be called by its number. */
+    std::map<std::string, dealii::types::boundary_id> boundary_names;
+    /** Manifolds of cells and faces for refinement and curved mappings. */
+    std::map<dealii::types::manifold_id, std::shared_ptr<dealii::Manifold<3>>>
+      manifolds;
+    /** Exact shape of curved boundaries, for contact. */
+    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>>
+      surfaces;
+  };
+
+  /**
+   * @brief How a body is shaped and meshed. Registered by name; its parameters
+   * stand in the subsection "Body NAME/Geometry".
+   */
+  class Geometry
+  {
+  public:
+    virtual ~Geometry() = default;
+
+    virtual void
+    declare(dealii::ParameterHandler &prm) = 0;
+
+    /** @throws InputError */
+    virtual void
+    check(const std::string &section) const = 0;
+
+    /**
+     * @brief Make the coarse mesh.
+     * @param factor  Multiplies the cells of each direction, 0.5 < factor < 2;
+     *                1 leaves them as given (the forest refines by powers of two).
+     * @param section Section for error messages.
+     * @param folder  Folder of the scene file, for relative mesh file names.
+     * @throws InputError e.g. for a mesh file that cannot be read.
+     */
+    virtual BodyMesh
+    create(double factor, const std::string &section, const std::string &folder) const = 0;
+  };
+
+  using GeometryRegistry = Registry<Geometry>;
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,82 @@
+#ifndef touchstone_scene_body_parameters_h
+#define touchstone_scene_body_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  class Geometry;
+
+  /** @brief Section "Body NAME/Material": isotropic linear elasticity. */
+  struct MaterialParameters
+  {
+    /** Young's modulus, force per area; must be positive. */
+    double young_modulus = 0.;
+    /** Poisson's ratio, -1 < nu < 0.5. */
+    double poisson_ratio = 0.3;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /**
+   * @brief Section "Body NAME/Boundary BOUNDARY": what is prescribed on one
+   * boundary of one body. Every value is an expression in x, y, z, t
+   * (reference coordinates and time); an empty one prescribes nothing.
+   */
+  struct BoundaryParameters
+  {
+    /** Prescribed displacement components, length. */
+    std::string displacement_x, displacement_y, displacement_z;
+    /** Traction components, force per reference area. */
+    std::string traction_x, traction_y, traction_z;
+    /** Pressure against the outward normal, force per reference area. */
+    std::string pressure;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    /** Every expression parses; a component is not both moved and loaded. */
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief How the cells of a body interpolate strain. */
+  enum class ElementType
+  {
+    full,
+    b_bar,
+    incompatible_modes
+  };
+
+  /** @brief Section "Body NAME". */
+  struct BodyParameters
+  {
+    std::string name;
+    /** Name under which the geometry is registered ("box", "tube", ...). */
+    std::string geometry_name = "box";
+    /** The geometry with its own parameters read. */
+    std::shared_ptr<Geometry> geometry;
+    /** "full", "b-bar" or "incompatible modes" as the user wrote it. */
+    std::string element_name = "incompatible modes";
+    MaterialParameters material;
+    /** Boundaries on which the normal displacement is zero (must be plane). */
+    std::vector<std::string> symmetry;
+    /** Boundaries on which all displacements are zero. */
+    std::vector<std::string> fixed;
+    /** Boundaries with a subsection "Boundary NAME" of their own. */
+    std::vector<std::string> conditions;
+    std::map<std::string, BoundaryParameters> boundaries;
+
+    ElementType
+    element() const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,81 @@
+#ifndef touchstone_scene_contact_parameters_h
+#define touchstone_scene_contact_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Section "Obstacle NAME": a rigid body given by one formula. */
+  struct ObstacleParameters
+  {
+    std::string name;
+    /** "plane", "sphere" or "cylinder". */
+    std::string shape = "plane";
+    /** A point of the plane, the centre of the sphere, or a point of the axis. */
+    dealii::Tensor<1, 3> point;
+    /** Outward normal of the plane, or direction of the cylinder's axis. */
+    dealii::Tensor<1, 3> direction{{0., 0., 1.}};
+    /** Radius of sphere or cylinder, length. */
+    double radius = 1.;
+    /** The bodies are "outside" of the sphere or cylinder, or "inside". */
+    std::string side = "outside";
+    /** Rigid motion as expressions in t, length. */
+    std::string motion_x = "0", motion_y = "0", motion_z = "0";
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief Section "Contact pair NAME". */
+  struct ContactPairParameters
+  {
+    std::string name;
+    std::string slave_body;
+    std::vector<std::string> slave_boundaries;
+    /** Master body and its boundaries, or the name of an obstacle. */
+    std::string master_body;
+    std::vector<std::string> master_boundaries;
+    std::string obstacle;
+    /** Name under which the pairing is registered ("pointwise"). */
+    std::string pairing = "pointwise";
+    /** "frictionless" or "tied". */
+    std::string behaviour = "frictionless";
+    /** "finite" (search in each iteration) or "small" (reference pairing). */
+    std::string sliding = "finite";
+    /** "manifold": gaps and normals from the exact surfaces where the geometry
+     * knows them; "faceted": from the faces of the mesh. */
+    std::string contact_geometry = "manifold";
+    /** Farthest distance at which a slave node looks for a master face,
+     * length; 0 chooses it from the size of the faces. */
+    double search_distance = 0.;
+    /** How far beyond the edge of the master surface a slave node is still
+     * held, as a fraction of the face. */
+    double edge_tolerance = 0.01;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief Section "Contact": how all pairs of the scene are enforced. */
+  struct ContactParameters
+  {
+    /** Name under which the enforcement is registered
+     * ("elimination", "lagrange multipliers"). */
+    std::string enforcement = "elimination";
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,70 @@
+#ifndef touchstone_scene_scene_h
+#define touchstone_scene_scene_h
+
+#include <touchstone/scene/body_parameters.h>
+#include <touchstone/scene/contact_parameters.h>
+#include <touchstone/scene/solver_parameters.h>
+
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Everything a scene file says, read, complete and checked.
+   *
+   * The lists "Bodies", "Contact pairs" and "Obstacles" name the subsections
+   * "Body NAME", "Contact pair NAME" and "Obstacle NAME" that follow.
+   */
+  class Scene
+  {
+  public:
+    std::string title;
+    std::vector<BodyParameters> bodies;
+    std::vector<ObstacleParameters> obstacles;
+    std::vector<ContactPairParameters> pairs;
+    DiscretisationParameters discretisation;
+    ContactParameters contact;
+    LoadSteppingParameters load_stepping;
+    NewtonParameters newton;
+    LinearSolverParameters linear_solver;
+    OutputParameters output;
+    ReferenceParameters reference;
+
+    /**
+     * @brief Read a scene file and the overrides of the command line.
+     * @param text      The contents of the scene file.
+     * @param file_name Its name, for messages, relative mesh files and the
+     *                  default output folder.
+     * @param overrides Entries "Section/Sub section/Key=value".
+     * @throws InputError with section, key, value and remedy.
+     */
+    Scene(const std::string              &text,
+          const std::string              &file_name,
+          const std::vector<std::string> &overrides);
+
+    Scene(const Scene &) = delete;
+    Scene &
+    operator=(const Scene &) = delete;
+
+    /** @brief All parameters with their defaults and documentation, in a form
+     * that can be read back. */
+    void
+    print(std::ostream &out) const;
+
+    /** @brief Number of the body called @p name. */
+    unsigned int
+    body_index(const std::string &name) const;
+
+  private:
+    dealii::ParameterHandler prm;
+
+    /** Rules across sections. */
+    void
+    check() const;
+  };
+} // namespace Touchstone
+
+#endif

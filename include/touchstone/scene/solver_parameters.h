@@ -1,0 +1,107 @@
+#ifndef touchstone_scene_solver_parameters_h
+#define touchstone_scene_solver_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Section "Discretisation". */
+  struct DiscretisationParameters
+  {
+    /** Polynomial degree of FE_Q, 1 or 2, for all bodies. */
+    unsigned int degree = 1;
+    /** Multiplies the number of cells per direction of built-in geometries;
+     * whole powers of two refine the mesh with its manifolds. Meshes from
+     * files accept powers of two only. */
+    double refinement_factor = 1.;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief Section "Load stepping". */
+  struct LoadSteppingParameters
+  {
+    double end_time = 1.;
+    /** Number of steps when none is cut. */
+    unsigned int steps = 1;
+    /** A step that does not converge is halved at most this many times. */
+    unsigned int maximum_cuts = 8;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief Section "Newton": the semismooth Newton method of a step. */
+  struct NewtonParameters
+  {
+    /** Out-of-balance force relative to the forces that act; no unit. */
+    double residual_tolerance = 1e-9;
+    /** Gap or penetration relative to the size of the slave faces; no unit. */
+    double gap_tolerance = 1e-8;
+    unsigned int maximum_iterations = 40;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief Section "Linear solver". */
+  struct LinearSolverParameters
+  {
+    /** "MUMPS" or "Belos CG". */
+    std::string type = "MUMPS";
+    /** Largest true relative residual that is accepted of a solve. */
+    double tolerance = 1e-8;
+    unsigned int maximum_iterations = 2000;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief Section "Output". */
+  struct OutputParameters
+  {
+    /** Folder; empty: output/STEM for a scene file STEM.prm. */
+    std::string directory;
+    /** Write solution and contact VTU files every so many steps; 0: never. */
+    unsigned int vtu_interval = 1;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+
+  /**
+   * @brief Section "Reference solution": the exact answer that the result is
+   * held against; what it gives stands under `errors` in summary.json.
+   */
+  struct ReferenceParameters
+  {
+    /** Name under which the reference is registered ("none",
+     * "interference fit", "hertz", "uniform stress", ...). */
+    std::string type = "none";
+    /** The contact pair that is compared; empty: the first. */
+    std::string pair;
+    /** Named numbers that the type asks for ("radius: 10, pressure: 5"). */
+    std::string values;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif
