@@ -59,6 +59,18 @@ namespace Touchstone
     double area = 0.;
     /** Size of the slave faces at the node, length; makes gaps nondimensional. */
     double size = 1.;
+    /** Scale of contact forces per gap, force per length: Young's modulus of the
+     * slave body times area over size. The complementarity constant c. */
+    double stiffness = 1.;
+    /** Body of the slave node, and of the stencil. */
+    unsigned int body = 0, master_body = 0;
+    /** Current position of the slave node. */
+    dealii::Point<dim> position;
+    /** Held in all components, in tension too. */
+    bool tied = false;
+    /** Conditions of the row that the constraint graph took and refused: what a
+     * refused one asks for is decided by others. */
+    unsigned int accepted = 0, refused = 0;
     /** Contact force on the slave node, force: lambda_n n + t_T. */
     dealii::Tensor<1, dim> force;
     /** Normal contact force, >= 0 in compression. */
@@ -69,6 +81,20 @@ namespace Touchstone
     active() const
     {
       return status >= ContactStatus::slip;
+    }
+
+    /** @brief Active, but all that it asks for is decided by others. */
+    bool
+    dropped() const
+    {
+      return accepted == 0 && refused > 0;
+    }
+
+    /** @brief Take note of what the constraint graph said to a condition. */
+    void
+    take(const bool was_accepted)
+    {
+      ++(was_accepted ? accepted : refused);
     }
   };
 } // namespace Touchstone

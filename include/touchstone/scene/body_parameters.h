@@ -20,10 +20,8 @@ namespace Touchstone
     /** Poisson's ratio, -1 < nu < 0.5. */
     double poisson_ratio = 0.3;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /**
@@ -40,11 +38,9 @@ namespace Touchstone
     /** Pressure against the outward normal, force per reference area. */
     std::string pressure;
 
-    void
-    declare(dealii::ParameterHandler &prm);
+    void declare(dealii::ParameterHandler &prm);
     /** Every expression parses; a component is not both moved and loaded. */
-    void
-    check(const std::string &section) const;
+    void check(const std::string &section) const;
   };
 
   /** @brief How the cells of a body interpolate strain. */
@@ -59,23 +55,35 @@ namespace Touchstone
   struct BodyParameters
   {
     std::string name;
-    /** Name under which the geometry is registered ("box", "tube", ...). */
+    /** Name under which the geometry is registered ("box", "tube", ...), the
+     * key "Type" of the subsection "Geometry". */
     std::string geometry_name = "box";
     /** The geometry with its own parameters read. */
     std::shared_ptr<Geometry> geometry;
-    /** "full", "b-bar" or "incompatible modes" as the user wrote it. */
-    std::string element_name = "incompatible modes";
+    /** "full", "b-bar" or "incompatible modes"; "automatic" takes incompatible
+     * modes for degree 1 and full for degree 2, and is replaced by the scene. */
+    std::string        element_name = "automatic";
     MaterialParameters material;
     /** Boundaries on which the normal displacement is zero (must be plane). */
     std::vector<std::string> symmetry;
     /** Boundaries on which all displacements are zero. */
     std::vector<std::string> fixed;
     /** Boundaries with a subsection "Boundary NAME" of their own. */
-    std::vector<std::string> conditions;
+    std::vector<std::string>                  conditions;
     std::map<std::string, BoundaryParameters> boundaries;
 
-    ElementType
-    element() const;
+    /** @brief "Body NAME". */
+    std::string section() const;
+    ElementType element() const;
+
+    /**
+     * @brief Declare all entries, those of the geometry included; @p conditions
+     * must be known before, for it names subsections.
+     * @param geometry_type Name under which the geometry is registered.
+     */
+    void declare(dealii::ParameterHandler &prm, const std::string &geometry_type);
+    /** @param degree Polynomial degree of the discretisation. */
+    void check(unsigned int degree) const;
   };
 } // namespace Touchstone
 

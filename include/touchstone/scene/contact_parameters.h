@@ -26,27 +26,29 @@ namespace Touchstone
     /** Rigid motion as expressions in t, length. */
     std::string motion_x = "0", motion_y = "0", motion_z = "0";
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    /** @brief "Obstacle NAME". */
+    std::string section() const;
+
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /** @brief Section "Contact pair NAME". */
   struct ContactPairParameters
   {
-    std::string name;
-    std::string slave_body;
+    std::string              name;
+    std::string              slave_body;
     std::vector<std::string> slave_boundaries;
     /** Master body and its boundaries, or the name of an obstacle. */
-    std::string master_body;
+    std::string              master_body;
     std::vector<std::string> master_boundaries;
-    std::string obstacle;
+    std::string              obstacle;
     /** Name under which the pairing is registered ("pointwise"). */
     std::string pairing = "pointwise";
     /** "frictionless" or "tied". */
     std::string behaviour = "frictionless";
-    /** "finite" (search in each iteration) or "small" (reference pairing). */
+    /** "finite" (search in each iteration) or "small" (reference pairing);
+     * tied pairs are always "small". */
     std::string sliding = "finite";
     /** "manifold": gaps and normals from the exact surfaces where the geometry
      * knows them; "faceted": from the faces of the mesh. */
@@ -58,10 +60,11 @@ namespace Touchstone
      * held, as a fraction of the face. */
     double edge_tolerance = 0.01;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    /** @brief "Contact pair NAME". */
+    std::string section() const;
+
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /** @brief Section "Contact": how all pairs of the scene are enforced. */
@@ -71,10 +74,8 @@ namespace Touchstone
      * ("elimination", "lagrange multipliers"). */
     std::string enforcement = "elimination";
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 } // namespace Touchstone
 

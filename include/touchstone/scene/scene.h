@@ -12,6 +12,8 @@
 
 namespace Touchstone
 {
+  class SceneText;
+
   /**
    * @brief Everything a scene file says, read, complete and checked.
    *
@@ -21,17 +23,17 @@ namespace Touchstone
   class Scene
   {
   public:
-    std::string title;
-    std::vector<BodyParameters> bodies;
-    std::vector<ObstacleParameters> obstacles;
+    std::string                        title;
+    std::vector<BodyParameters>        bodies;
+    std::vector<ObstacleParameters>    obstacles;
     std::vector<ContactPairParameters> pairs;
-    DiscretisationParameters discretisation;
-    ContactParameters contact;
-    LoadSteppingParameters load_stepping;
-    NewtonParameters newton;
-    LinearSolverParameters linear_solver;
-    OutputParameters output;
-    ReferenceParameters reference;
+    DiscretisationParameters           discretisation;
+    ContactParameters                  contact;
+    LoadSteppingParameters             load_stepping;
+    NewtonParameters                   newton;
+    LinearSolverParameters             linear_solver;
+    OutputParameters                   output;
+    ReferenceParameters                reference;
 
     /**
      * @brief Read a scene file and the overrides of the command line.
@@ -45,25 +47,28 @@ namespace Touchstone
           const std::string              &file_name,
           const std::vector<std::string> &overrides);
 
-    Scene(const Scene &) = delete;
-    Scene &
-    operator=(const Scene &) = delete;
+    Scene(const Scene &)            = delete;
+    Scene &operator=(const Scene &) = delete;
 
     /** @brief All parameters with their defaults and documentation, in a form
      * that can be read back. */
-    void
-    print(std::ostream &out) const;
+    void print(std::ostream &out) const;
 
     /** @brief Number of the body called @p name. */
-    unsigned int
-    body_index(const std::string &name) const;
+    unsigned int body_index(const std::string &name) const;
 
   private:
     dealii::ParameterHandler prm;
 
-    /** Rules across sections. */
-    void
-    check() const;
+    /** Make the bodies, obstacles and pairs that the lists name. */
+    void read_lists(const SceneText &text);
+    /** Bind every entry to its member. */
+    void declare(const SceneText &text);
+    /** Replace what stands for an automatic choice. */
+    void resolve(const SceneText &text, const std::string &file_name);
+    /** Each section, then the rules across sections. */
+    void check() const;
+    void check_pair(const ContactPairParameters &pair) const;
   };
 } // namespace Touchstone
 

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,10 +19,8 @@ namespace Touchstone
      * files accept powers of two only. */
     double refinement_factor = 1.;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /** @brief Section "Load stepping". */
@@ -33,10 +32,8 @@ namespace Touchstone
     /** A step that does not converge is halved at most this many times. */
     unsigned int maximum_cuts = 8;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /** @brief Section "Newton": the semismooth Newton method of a step. */
@@ -45,13 +42,11 @@ namespace Touchstone
     /** Out-of-balance force relative to the forces that act; no unit. */
     double residual_tolerance = 1e-9;
     /** Gap or penetration relative to the size of the slave faces; no unit. */
-    double gap_tolerance = 1e-8;
+    double       gap_tolerance      = 1e-8;
     unsigned int maximum_iterations = 40;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /** @brief Section "Linear solver". */
@@ -60,13 +55,11 @@ namespace Touchstone
     /** "MUMPS" or "Belos CG". */
     std::string type = "MUMPS";
     /** Largest true relative residual that is accepted of a solve. */
-    double tolerance = 1e-8;
+    double       tolerance          = 1e-8;
     unsigned int maximum_iterations = 2000;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /** @brief Section "Output". */
@@ -77,10 +70,8 @@ namespace Touchstone
     /** Write solution and contact VTU files every so many steps; 0: never. */
     unsigned int vtu_interval = 1;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 
   /**
@@ -97,10 +88,11 @@ namespace Touchstone
     /** Named numbers that the type asks for ("radius: 10, pressure: 5"). */
     std::string values;
 
-    void
-    declare(dealii::ParameterHandler &prm);
-    void
-    check(const std::string &section) const;
+    /** @brief The named numbers. @throws InputError in the name of @p section. */
+    std::map<std::string, double> numbers(const std::string &section) const;
+
+    void declare(dealii::ParameterHandler &prm);
+    void check(const std::string &section) const;
   };
 } // namespace Touchstone
 

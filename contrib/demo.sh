@@ -1,0 +1,17 @@
+#!/bin/sh
+# From a fresh Debian 12 to a first result: install, build, run the press fit,
+# and say which files to open.
+set -eu
+. "$(dirname -- "$0")/setup.sh"
+install_packages
+build_program touchstone
+
+cd "$root"
+say "Running prm/press_fit.prm"
+"$build/touchstone" prm/press_fit.prm
+
+say "Open in ParaView:"
+echo "   $root/output/press_fit/solution.pvd   displacement and stress of the tubes"
+echo "   $root/output/press_fit/contact.pvd    pressure and gap between them"
+say "All figures:"
+echo "   $root/output/press_fit/summary.json"

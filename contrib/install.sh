@@ -1,0 +1,5 @@
+#!/bin/sh
+# Install the Debian 12 packages that Touchstone needs, as root or with sudo.
+set -eu
+. "$(dirname -- "$0")/setup.sh"
+install_packages

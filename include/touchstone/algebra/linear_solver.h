@@ -1,0 +1,77 @@
+#ifndef touchstone_algebra_linear_solver_h
+#define touchstone_algebra_linear_solver_h
+
+#include <touchstone/algebra/linear_system.h>
+#include <touchstone/registry.h>
+#include <touchstone/scene/solver_parameters.h>
+
+#include <Epetra_MultiVector.h>
+
+namespace Touchstone
+{
+  /** @brief What linear solvers have done so far; the same on all ranks. */
+  struct LinearSolverCounts
+  {
+    unsigned int solves                = 0;
+    unsigned int iterations            = 0;
+    unsigned int factorisations        = 0;
+    unsigned int preconditioner_setups = 0;
+  };
+
+  /**
+   * @brief Solves condensed systems; registered under the name that the scene
+   * file uses.
+   */
+  class LinearSolver
+  {
+  public:
+    explicit LinearSolver(const LinearSolverParameters &parameters)
+      : parameters(parameters)
+    {}
+
+    virtual ~LinearSolver() = default;
+
+    /**
+     * @brief Solve and check the true residual.
+     * @param system   The condensed system.
+     * @param modes    Rigid-body modes of the bodies, columns over the rows of
+     *                 the displacement unknowns; for multigrid.
+     * @param solution Result, over the rows of the matrix.
+     * @throws LinearSolverFailure if the residual stays above the tolerance,
+     *         SingularSystem if the matrix turns out singular.
+     */
+    void
+    solve(const CondensedSystem    &system,
+          const Epetra_MultiVector &modes,
+          Epetra_Vector            &solution);
+
+    const LinearSolverCounts &
+    counts() const
+    {
+      return count;
+    }
+
+    /** @brief True relative residual of the last solve. */
+    double
+    last_residual() const
+    {
+      return residual;
+    }
+
+  protected:
+    const LinearSolverParameters parameters;
+    LinearSolverCounts           count;
+
+    virtual void
+    do_solve(const CondensedSystem    &system,
+             const Epetra_MultiVector &modes,
+             Epetra_Vector            &solution) = 0;
+
+  private:
+    double residual = 0.;
+  };
+
+  using LinearSolverRegistry = Registry<LinearSolver, const LinearSolverParameters &>;
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,76 @@
+#ifndef touchstone_algebra_linear_system_h
+#define touchstone_algebra_linear_system_h
+
+#include <touchstone/algebra/vector.h>
+#include <touchstone/types.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief One matrix entry given by global numbers; may lie in a row of any
+   * rank, and entries at the same place add up. */
+  struct MatrixTerm
+  {
+    Index  row, column;
+    double value;
+  };
+
+  /**
+   * @brief The linear system of a Newton iteration as its parts: continuum
+   * stiffness, contact terms, extra unknowns, constraints, right-hand side.
+   *
+   * The displacement unknowns come first; extra unknowns (multipliers) of all
+   * ranks follow, numbered by rank.
+   */
+  struct LinearSystem
+  {
+    /** Continuum stiffness without any condition; symmetric pattern. */
+    const Matrix *stiffness = nullptr;
+    /** Added to the diagonal of the displacement block, force per length; may
+     * be empty. */
+    Vector diagonal_shift;
+    /** Contact terms, of displacement and extra unknowns. */
+    std::vector<MatrixTerm> terms;
+    /** Number of extra unknowns of this rank, and number of the first. */
+    Index n_extra = 0, first_extra = 0;
+    /** Conditions on the displacement increment. */
+    dealii::AffineConstraints<double> constraints;
+    /** Out-of-balance forces, and right-hand side of the extra unknowns. */
+    Vector              rhs;
+    std::vector<double> extra_rhs;
+    bool                symmetric = true;
+    /** Positive definite: no multipliers. */
+    bool definite = true;
+  };
+
+  /**
+   * @brief A linear system with its constraints condensed out, T^T A T y = T^T
+   * (b - A g) for x = T y + g, as plain distributed rows that both back ends
+   * understand.
+   *
+   * Rows that no constraint and no contact term touches are copied, so the cost
+   * beyond the copy is that of the constrained neighbourhood. Constrained
+   * unknowns keep a diagonal entry and a zero right-hand side.
+   */
+  class CondensedSystem
+  {
+  public:
+    explicit CondensedSystem(const LinearSystem &system);
+
+    std::unique_ptr<Epetra_CrsMatrix> matrix;
+    std::unique_ptr<Epetra_Vector>    rhs;
+    /** Marks rows of constrained unknowns, in the order of the local rows. */
+    std::vector<char> constrained;
+    bool              symmetric, definite;
+  };
+} // namespace Touchstone
+
+#endif

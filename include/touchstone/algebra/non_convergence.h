@@ -1,0 +1,42 @@
+#ifndef touchstone_algebra_non_convergence_h
+#define touchstone_algebra_non_convergence_h
+
+#include <stdexcept>
+
+namespace Touchstone
+{
+  /**
+   * @brief A step could not be solved: the load step is cut and tried again, or
+   * the run ends with this as its reason.
+   */
+  class NonConvergence : public std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
+  /** @brief Newton ran out of iterations, or its residual grew without bound. */
+  class NewtonFailure : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief The active set came back to one it had before, again and again. */
+  class ActiveSetCycle : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief The linear solver broke down or its true residual is too large. */
+  class LinearSolverFailure : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief A body can move without resistance. */
+  class SingularSystem : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+} // namespace Touchstone
+
+#endif

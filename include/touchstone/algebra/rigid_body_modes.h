@@ -1,0 +1,80 @@
+#ifndef touchstone_algebra_rigid_body_modes_h
+#define touchstone_algebra_rigid_body_modes_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/solid/solid.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <Epetra_MultiVector.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What the bodies can do without resistance under given conditions. */
+  struct FreeMotion
+  {
+    /** Dimension of the space of free rigid motions. */
+    unsigned int n_modes = 0;
+    /** Orthonormal basis, 6 rows per body (translations, rotations). */
+    dealii::FullMatrix<double> basis;
+    /** Bodies that take part. */
+    std::set<unsigned int> bodies;
+    /** "body 'punch' can move in direction z; ..." */
+    std::string description;
+  };
+
+  /**
+   * @brief The six rigid motions of each body: near-null space of multigrid, and
+   * test for missing supports.
+   */
+  class RigidBodyModes
+  {
+  public:
+    RigidBodyModes(const Scene &scene, const Solid &solid);
+
+    /** @brief Three translations and three rotations at the unknowns that this
+     * rank owns. Bodies share the six columns: a column restricted to a body is a
+     * mode of that body, and aggregates do not span bodies. */
+    const Epetra_MultiVector &
+    columns() const
+    {
+      return *modes;
+    }
+
+    /**
+     * @brief Rigid motions that violate none of the conditions.
+     *
+     * The stiffness lets all rigid motions of all bodies go free, so the null
+     * space of the constrained system is that of the Gram matrix R^T B^T B R of
+     * the conditions B on the rigid motions R, a matrix of 6 rows per body.
+     */
+    FreeMotion
+    free_motion(const std::vector<Condition> &conditions) const;
+
+    /**
+     * @brief Diagonal terms that keep free motions finite: a fraction of the
+     * diagonal of the stiffness on the bodies that take part.
+     *
+     * Added to the tangent but not to the residual, they slow the way to
+     * equilibrium and do not change it (a proximal point step). The fraction is
+     * such that the free motion under @p unbalanced is about @p distance.
+     */
+    Vector
+    stabilisation(const FreeMotion &motion, const Vector &unbalanced, double distance) const;
+
+  private:
+    const Scene                        &scene;
+    const Solid                        &solid;
+    std::unique_ptr<Epetra_MultiVector> modes;
+    std::vector<dealii::Point<dim>>     centres;
+    std::vector<double>                 sizes;
+    /** Body of each owned unknown, in the order of the rows. */
+    std::vector<unsigned int> row_body;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,121 @@
+#ifndef touchstone_contact_contact_h
+#define touchstone_contact_contact_h
+
+#include <touchstone/contact/pairing.h>
+#include <touchstone/contact/results.h>
+#include <touchstone/scene/scene.h>
+
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief All contact pairs of a scene: their surfaces, their rows, the active
+   * set, and the one place where contact history is committed or rolled back.
+   */
+  class Contact
+  {
+  public:
+    /** @throws InputError for boundaries that do not exist, surfaces without
+     * faces, and pairs whose roles form a circle. */
+    Contact(const Scene &scene, const Forest &forest, const Solid &solid);
+
+    /** @brief Rows of this rank, pair after pair. */
+    std::vector<std::vector<ContactRow>> rows;
+
+    /** @brief Make the rows describe the displacement @p u (owned unknowns). */
+    void
+    update(const Vector &u, double time);
+
+    /** @brief What an update of the active set did, over all ranks. */
+    struct ActiveSetUpdate
+    {
+      unsigned int active  = 0;
+      unsigned int changes = 0;
+      /** Identifies the set, to notice that it comes back. */
+      std::uint64_t signature = 0;
+      /** Largest |gap| of active and penetration of open rows, relative to the
+       * size of the faces. */
+      double gap = 0.;
+    };
+
+    /**
+     * @brief Decide which rows are active: lambda - c g > 0.
+     *
+     * @param caution 0 changes every row that asks for it; larger values change
+     *                only those that ask most strongly, which breaks cycles.
+     */
+    ActiveSetUpdate
+    update_active_set(double gap_tolerance, unsigned int caution);
+
+    /** @brief Add the contact forces M^T f of all rows to @p force. */
+    void
+    add_forces(Vector &force) const;
+
+    /** @brief Keep the state of the rows: the step has converged. */
+    void
+    commit();
+
+    /** @brief Go back to the last committed state: the step is repeated. */
+    void
+    rollback();
+
+    /** @brief Results at this rank's slave nodes in displacement @p u. */
+    std::vector<ContactPoint>
+    points(const Vector &u) const;
+
+    /** @brief Slave faces of this rank, for pictures. */
+    std::vector<ContactFace>
+    faces() const;
+
+    /** @brief Sums per pair over all ranks. */
+    std::vector<PairResult>
+    results(const Vector &u) const;
+
+    unsigned int
+    n_searches() const
+    {
+      return searches;
+    }
+
+    /** @brief Text on gaps and overlaps as the bodies are placed, a line per pair. */
+    std::vector<std::string>
+    start_report() const;
+
+  private:
+    struct Pair
+    {
+      const ContactPairParameters *parameters;
+      std::unique_ptr<Surface>     slave, master;
+      std::shared_ptr<Pairing>     pairing;
+      unsigned int                 slave_body = 0, master_body = 0;
+      /** Stiffness scale: Young's modulus of the slave body. */
+      double modulus = 1.;
+      bool   tied = false;
+      /** Pairing of the reference state, kept for small sliding and tied. */
+      bool                    small = false;
+      std::vector<ContactRow> reference;
+    };
+
+    const Solid                         &solid;
+    const Scene                         &scene;
+    std::vector<Pair>                    pairs;
+    std::vector<std::vector<ContactRow>> committed;
+    /** Displacement with the ghosts that the surfaces need. */
+    Vector       ghosted;
+    /** The same for the stencils of reference pairings. */
+    Vector       stencil_values;
+    unsigned int searches = 0;
+    bool         started  = false;
+
+    void
+    make_reference(Pair &pair, std::vector<ContactRow> &pair_rows, double time);
+    void
+    update_small(Pair &pair, std::vector<ContactRow> &pair_rows, const Vector &u);
+    void
+    check_roles() const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,59 @@
+#ifndef touchstone_contact_enforcement_h
+#define touchstone_contact_enforcement_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/linear_system.h>
+#include <touchstone/contact/contact.h>
+#include <touchstone/registry.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Turns active rows into parts of the linear system, and its solution
+   * into contact forces. Never asks where a row came from. Registered by name.
+   *
+   * In each Newton iteration: recover() with the prescribed displacements in the
+   * graph, then the active set is updated, then enforce(), then the system is
+   * solved, then update().
+   */
+  class Enforcement
+  {
+  public:
+    virtual ~Enforcement() = default;
+
+    /** @brief Whether the system becomes indefinite by multipliers. */
+    virtual bool
+    has_multipliers() const = 0;
+
+    /**
+     * @brief Bring the contact forces of the rows up to date before they are
+     * judged.
+     * @param unbalanced External minus internal forces, without contact forces.
+     * @param graph      Holds the prescribed displacements only.
+     */
+    virtual void
+    recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) = 0;
+
+    /** @brief Offer the active rows to the graph and add terms and extra unknowns
+     * to the system, whose right-hand side holds no contact forces.
+     * Rows take note of what the graph refuses. */
+    virtual void
+    enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) = 0;
+
+    /** @brief Take the values of this rank's extra unknowns. */
+    virtual void
+    update(Contact &contact, const std::vector<double> &extra) = 0;
+  };
+
+  using EnforcementRegistry = Registry<Enforcement>;
+
+  /** @brief The conditions that a row puts on the displacement increment: none if
+   * it is open, along the normal if it is free to slide, in all directions if it
+   * is held. Resets its count of accepted and refused conditions. */
+  std::vector<Condition>
+  start_row(ContactRow &row);
+} // namespace Touchstone
+
+#endif

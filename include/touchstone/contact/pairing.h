@@ -1,0 +1,57 @@
+#ifndef touchstone_contact_pairing_h
+#define touchstone_contact_pairing_h
+
+#include <touchstone/contact/row.h>
+#include <touchstone/contact/search.h>
+#include <touchstone/contact/surface.h>
+#include <touchstone/registry.h>
+#include <touchstone/scene/contact_parameters.h>
+
+#include <functional>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What a pairing is made from. */
+  struct PairingInput
+  {
+    const ContactPairParameters *parameters;
+    const ObstacleParameters    *obstacle;
+    const Solid                 *solid;
+    const Surface               *slave;
+    /** Null for an obstacle. */
+    const Surface *master;
+  };
+
+  /**
+   * @brief Makes the rows of a contact pair: one for each slave node of this
+   * rank, in the order of Surface::owned_nodes(). Registered by name.
+   */
+  class Pairing
+  {
+  public:
+    explicit Pairing(const PairingInput &input)
+      : input(input)
+    {}
+
+    virtual ~Pairing() = default;
+
+    /**
+     * @brief Read the deformed surfaces: set stencil, normal, gap_vector, gap and
+     * status (no_partner where there is none) of all rows. What else the rows
+     * hold is left alone.
+     * @param u    Displacement with ghosts; the surfaces have been moved to it.
+     * @param time For obstacles that move.
+     * @param rows Rows of this pair, already there.
+     */
+    virtual void
+    update(const Vector &u, double time, std::vector<ContactRow> &rows) = 0;
+
+  protected:
+    const PairingInput input;
+  };
+
+  using PairingRegistry = Registry<Pairing, const PairingInput &>;
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,88 @@
+#ifndef touchstone_drive_simulation_h
+#define touchstone_drive_simulation_h
+
+#include <touchstone/drive/static_problem.h>
+#include <touchstone/output/contact_output.h>
+#include <touchstone/output/folder.h>
+#include <touchstone/output/log.h>
+#include <touchstone/output/progress.h>
+#include <touchstone/output/reference_solution.h>
+#include <touchstone/output/statistics.h>
+#include <touchstone/output/summary.h>
+#include <touchstone/output/volume_output.h>
+
+#include <deal.II/base/timer.h>
+
+#include <iosfwd>
+
+namespace Touchstone
+{
+  /** @brief A run of one scene: load steps, output, summary. */
+  class Simulation
+  {
+  public:
+    /**
+     * @param folder_of_scene For mesh files with relative names.
+     * @param terminal        Where progress is shown; null shows none.
+     * @throws InputError, OutputError
+     */
+    Simulation(const Scene       &scene,
+               const std::string &folder_of_scene,
+               std::ostream      *terminal,
+               MPI_Comm           communicator);
+
+    /**
+     * @brief Run all load steps and write all output.
+     * @return what the run came to; its `converged` says whether every step did.
+     * A step that cannot be made to converge ends the run with the last converged
+     * state on disk.
+     */
+    RunSummary
+    run();
+
+    /** @brief Comparison with the reference solution, for people. */
+    const std::vector<std::string> &
+    comparison() const
+    {
+      return comparison_lines;
+    }
+
+  private:
+    const Scene         &scene;
+    const MPI_Comm       communicator;
+    dealii::Timer        wall;
+    dealii::TimerOutput  timer;
+    OutputFolder         folder;
+    Log                  log;
+    Forest               forest;
+    Solid                solid;
+    StaticProblem        problem;
+    Progress             progress;
+    Statistics           statistics;
+    VolumeOutput         volume_output;
+    ContactOutput        contact_output;
+    std::shared_ptr<ReferenceSolution> reference;
+    RunSummary                         summary;
+    std::vector<std::string>           comparison_lines;
+    unsigned int                       last_picture = dealii::numbers::invalid_unsigned_int;
+
+    /** Solve the step to @p time. @return Newton iterations. */
+    unsigned int
+    solve_step(double time);
+    void
+    record_step(unsigned int step, double time, double size, unsigned int newton, unsigned int cuts);
+    void
+    write_pictures(unsigned int step, double time);
+    void
+    load_stepping();
+    void
+    finish_summary();
+  };
+
+  /** @brief Build all that a run needs, without solving.
+   * @throws InputError */
+  void
+  validate(const Scene &scene, const std::string &folder_of_scene, MPI_Comm communicator);
+} // namespace Touchstone
+
+#endif

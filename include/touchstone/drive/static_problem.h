@@ -1,0 +1,116 @@
+#ifndef touchstone_drive_static_problem_h
+#define touchstone_drive_static_problem_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/linear_solver.h>
+#include <touchstone/algebra/rigid_body_modes.h>
+#include <touchstone/contact/contact.h>
+#include <touchstone/contact/enforcement.h>
+#include <touchstone/drive/newton.h>
+#include <touchstone/solid/boundary_conditions.h>
+
+#include <deal.II/base/timer.h>
+
+#include <memory>
+#include <string>
+
+namespace Touchstone
+{
+  /** @brief Equilibrium of all bodies under loads and contact at one time. */
+  class StaticProblem : public NonlinearProblem
+  {
+  public:
+    StaticProblem(const Scene &scene, const Forest &forest, Solid &solid, dealii::TimerOutput &timer);
+
+    /** @brief Look at the bodies as they are placed. @return lines on gaps and
+     * overlaps of the contact pairs. */
+    std::vector<std::string>
+    start();
+
+    /** @brief Start a step to time @p t from the committed state. */
+    void
+    begin_step(double t);
+
+    /** @brief Keep the present state: displacement and contact history. */
+    void
+    commit();
+
+    /** @brief Return to the committed state. */
+    void
+    rollback();
+
+    NewtonState
+    residual(unsigned int caution) override;
+    void
+    linearize() override;
+    int
+    solve() override;
+    void
+    update() override;
+
+    /** @brief Displacement without ghosts, length. */
+    const Vector &
+    displacement() const
+    {
+      return u;
+    }
+
+    /** @brief Displacement with the ghosts of the mesh. */
+    Vector
+    ghosted_displacement() const;
+
+    std::vector<Reaction>
+    reactions() const;
+
+    const Contact &
+    contact_state() const
+    {
+      return contact;
+    }
+
+    const LinearSolverCounts &
+    linear_counts() const
+    {
+      return solver->counts();
+    }
+
+    unsigned int
+    n_assemblies() const
+    {
+      return assemblies;
+    }
+
+    /** @brief What happened in the present step that the user should know: rows
+     * dropped, bodies stabilised; empty if nothing. Collective. */
+    std::string
+    remarks() const;
+
+  private:
+    const Scene                  &scene;
+    Solid                        &solid;
+    dealii::TimerOutput          &timer;
+    BoundaryConditions            boundary_conditions;
+    Contact                       contact;
+    std::shared_ptr<Enforcement>  enforcement;
+    std::shared_ptr<LinearSolver> solver;
+    std::unique_ptr<RigidBodyModes> modes;
+    dealii::AffineConstraints<double> hanging;
+
+    double                           time = 0.;
+    Vector                           u, committed_u, external, internal, unbalanced, increment;
+    ConstraintGraph                  graph;
+    std::unique_ptr<LinearSystem>    system;
+    std::unique_ptr<CondensedSystem> condensed;
+    std::vector<double>              extra;
+    unsigned int                     assemblies = 0;
+    std::string                      stabilised;
+
+    /** Length against which a missed prescribed displacement is measured. */
+    double length = 1.;
+
+    void
+    check_supports();
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,61 @@
+#ifndef touchstone_output_picture_series_h
+#define touchstone_output_picture_series_h
+
+#include <touchstone/output/folder.h>
+
+#include <deal.II/base/data_out_base.h>
+
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief The files of a sequence of pictures: NAME_0007.vtu (serial), or
+   * NAME_0007.pvtu with a piece NAME_0007.RANK.vtu for each rank, and NAME.pvd
+   * that says which picture belongs to which time.
+   *
+   * deal.II's own write_vtu_with_pvtu_record() leaves the other ranks waiting if
+   * the disk is full for one of them.
+   */
+  class PictureSeries
+  {
+  public:
+    /** @param folder Must outlive this object.
+     * @param name   Common beginning of the file names. */
+    PictureSeries(const OutputFolder &folder, const std::string &name);
+
+    /** @brief Write the picture of one step; its flags are set by the caller.
+     * Collective. @throws OutputError */
+    template <int patch_dim>
+    void
+    write(const dealii::DataOutInterface<patch_dim, 3> &data,
+          const unsigned int                            step,
+          const double                                  time)
+    {
+      std::ostringstream piece, record;
+      data.write_vtu(piece);
+      if (folder.rank == 0)
+        data.write_pvtu_record(record, piece_names(step));
+      write(piece.str(), record.str(), step, time);
+    }
+
+  private:
+    const OutputFolder                         &folder;
+    const std::string                           name;
+    std::vector<std::pair<double, std::string>> times_and_names;
+
+    std::string
+    stem(unsigned int step) const;
+
+    std::vector<std::string>
+    piece_names(unsigned int step) const;
+
+    void
+    write(const std::string &piece, const std::string &record, unsigned int step, double time);
+  };
+} // namespace Touchstone
+
+#endif

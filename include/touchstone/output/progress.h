@@ -1,0 +1,65 @@
+#ifndef touchstone_output_progress_h
+#define touchstone_output_progress_h
+
+#include <touchstone/output/log.h>
+
+#include <deal.II/base/timer.h>
+
+namespace Touchstone
+{
+  /** @brief The state of one Newton iteration. */
+  struct IterationRecord
+  {
+    unsigned int iteration = 0;
+    /** Out-of-balance force relative to the forces that act; no unit. */
+    double residual = 0.;
+    /** Largest violation of the gap, relative to the slave faces; no unit. */
+    double       gap    = 0.;
+    unsigned int active = 0;
+    /** Contact rows whose status changed. */
+    unsigned int changes = 0;
+    /** Of the linear solve; negative for a direct solver. */
+    int linear_iterations = -1;
+  };
+
+  /** @brief Shows how far a run has come. */
+  class Progress
+  {
+  public:
+    /**
+     * @param log      Must outlive this object.
+     * @param end_time Time at which the run ends.
+     */
+    Progress(Log &log, double end_time);
+
+    /** @brief "Step 2/4   t = 0.5": a step to the time @p time begins.
+     * @param steps Number of steps expected in all. */
+    void
+    begin_step(unsigned int step, unsigned int steps, double time);
+
+    void
+    iteration(const IterationRecord &record);
+
+    /** @brief The step converged at the time given in begin_step(). */
+    void
+    end_step(unsigned int newton_iterations);
+
+    /** @brief The step did not converge, for @p reason, and is tried again with
+     * the step size @p step_size. */
+    void
+    cut_step(const std::string &reason, double step_size);
+
+  private:
+    Log          &log;
+    const double  end_time;
+    double        time;
+    bool          header_due;
+    dealii::Timer timer;
+  };
+
+  /** @brief A duration for people, e.g. "7.3 s", "2 min 05 s", "1 h 30 min". */
+  std::string
+  readable_duration(double seconds);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,82 @@
+#ifndef touchstone_output_summary_h
+#define touchstone_output_summary_h
+
+#include <touchstone/contact/results.h>
+#include <touchstone/output/json.h>
+
+#include <cstdint>
+#include <iosfwd>
+#include <map>
+#include <string>
+
+namespace Touchstone
+{
+  /** @brief What a run came to: the contents of summary.json. */
+  struct RunSummary
+  {
+    std::string   title, version;
+    bool          converged = false;
+    unsigned int  ranks     = 1;
+    std::uint64_t cells     = 0;
+    std::uint64_t unknowns  = 0;
+    /** Load steps that converged. */
+    unsigned int steps = 0;
+
+    struct Iterations
+    {
+      unsigned int newton = 0;
+      /** Iterations in which the contact state changed. */
+      unsigned int contact      = 0;
+      unsigned int linear_total = 0;
+      /** Per linear solve. */
+      double linear_mean = 0.;
+    };
+    Iterations iterations;
+
+    struct Counts
+    {
+      unsigned int assemblies            = 0;
+      unsigned int factorisations        = 0;
+      unsigned int preconditioner_setups = 0;
+      unsigned int searches              = 0;
+    };
+    Counts counts;
+
+    /** @brief Seconds; all are wall clock but cpu, which is summed over ranks. */
+    struct Seconds
+    {
+      double wall          = 0.;
+      double cpu           = 0.;
+      double assembly      = 0.;
+      double linear_solver = 0.;
+      double search        = 0.;
+      double output        = 0.;
+    };
+    Seconds seconds;
+
+    /** Summed over ranks, MB. */
+    double peak_memory_mb = 0.;
+
+    /** Result of each contact pair, by its name. */
+    std::map<std::string, PairResult> contact;
+    /** Force of the support on the body, by body and boundary. */
+    std::map<std::string, std::map<std::string, dealii::Tensor<1, dim>>> reactions;
+    /** Relative errors against the reference solution; no unit. */
+    std::map<std::string, double> errors;
+    /** Why the run did not converge; empty if it did. */
+    std::string failure;
+
+    Json
+    to_json() const;
+
+    /**
+     * @brief Print results and errors, without times, such that the text is the
+     * same for any number of ranks and any solver: six digits, and what is below
+     * 1e-9 of the largest force (moment) counts as zero.
+     */
+    void
+    print_results(std::ostream &out) const;
+  };
+} // namespace Touchstone
+
+#endif

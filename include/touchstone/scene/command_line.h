@@ -1,0 +1,39 @@
+#ifndef touchstone_scene_command_line_h
+#define touchstone_scene_command_line_h
+
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What the user wants, as the command line says it. */
+  struct CommandLine
+  {
+    bool help             = false;
+    bool version          = false;
+    bool validate         = false;
+    bool print_parameters = false;
+    /** Print nothing but the results, which do not depend on the machine. */
+    bool results_only = false;
+    /** Entries "Section/Key=value"; "--output DIR" is one of them. */
+    std::vector<std::string> overrides;
+    std::string              scene_file;
+
+    /**
+     * @brief Read the options of the environment variable TOUCHSTONE_OPTIONS,
+     * which has blanks between them, and then the arguments of main().
+     * @throws InputError for options that are unknown or lack their value, and
+     * if there is not exactly one scene file (none with help or version).
+     */
+    static CommandLine parse(int argc, const char *const *argv);
+
+    /** @brief The text of --help. */
+    static std::string usage();
+  };
+
+  /** @brief The contents of a scene file.
+   * @throws InputError if it cannot be read, is empty or is not text. */
+  std::string read_scene_file(const std::string &name);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,74 @@
+#ifndef touchstone_scene_scene_text_h
+#define touchstone_scene_scene_text_h
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief One "set KEY = VALUE" of a scene file or of the command line. */
+  struct SceneEntry
+  {
+    /** Subsections joined by "/"; empty at the top level. */
+    std::string section;
+    std::string key;
+    std::string value;
+    /** Line of the scene file; 0 for an override of the command line. */
+    unsigned int line;
+  };
+
+  /**
+   * @brief A scene file and its overrides taken apart into entries.
+   *
+   * The syntax is that of deal.II's ParameterHandler. The lines are read here
+   * and not there because a message that helps needs the section, the key and
+   * the line all at once, and because the names of the subsections are only
+   * known when the lists that name them have been read.
+   */
+  class SceneText
+  {
+  public:
+    /** @throws InputError for lines that cannot be read, subsections that are
+     * not closed, keys that are set twice and malformed overrides. */
+    SceneText(const std::string              &text,
+              const std::string              &file_name,
+              const std::vector<std::string> &overrides = {});
+
+    /** @brief In the order of the file, then the overrides. */
+    const std::vector<SceneEntry> &entries() const;
+
+    /** @brief The subsections that occur, each with its (first) line. */
+    const std::map<std::string, unsigned int> &sections() const;
+
+    /** @brief The value that counts, or @p otherwise where nothing is set. */
+    std::string
+    value(const std::string &section, const std::string &key, const std::string &otherwise) const;
+
+    /** @brief Whether a value is given in the file or on the command line. */
+    bool is_set(const std::string &section, const std::string &key) const;
+
+    /** @brief "line 12 of x.prm" or "command line". */
+    std::string place(unsigned int line) const;
+
+  private:
+    const std::string                   file_name;
+    std::vector<SceneEntry>             all_entries;
+    std::map<std::string, unsigned int> all_sections;
+
+    void read_file(const std::string &text);
+    void read_line(const std::string &line, unsigned int number, std::vector<std::string> &path);
+    void read_override(const std::string &text);
+    /** Also the subsections around it occur. */
+    void              note_section(const std::string &section, unsigned int line);
+    const SceneEntry *find(const std::string &section, const std::string &key) const;
+  };
+
+  /** @brief "A/B" from its parts. */
+  std::string join_path(const std::vector<std::string> &parts);
+
+  /** @brief The parts of "A/B". */
+  std::vector<std::string> split_path(const std::string &section);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,97 @@
+#ifndef touchstone_solid_boundary_conditions_h
+#define touchstone_solid_boundary_conditions_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/solid/solid.h>
+
+#include <deal.II/base/function_parser.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Reaction force on one boundary of one body. */
+  struct Reaction
+  {
+    std::string            body, boundary;
+    dealii::Tensor<1, dim> force;
+  };
+
+  /**
+   * @brief What the scene prescribes on the boundaries of the bodies: loads as
+   * nodal forces, displacements and symmetry as conditions.
+   */
+  class BoundaryConditions
+  {
+  public:
+    /** @throws InputError for boundaries that do not exist, and for a symmetry
+     * boundary that is not plane. */
+    BoundaryConditions(const Scene &scene, const Forest &forest, const Solid &solid);
+
+    /** @brief Nodal forces of tractions and pressures at time @p t. */
+    void
+    external_force(double t, Vector &force) const;
+
+    /**
+     * @brief Offer the prescribed displacements at time @p t, as increments from
+     * @p u, to the constraint graph.
+     * @return the largest amount by which @p u misses them, length.
+     */
+    double
+    prescribe(double t, const Vector &u, ConstraintGraph &graph) const;
+
+    /**
+     * @brief Forces that the supports exert on the bodies.
+     * @param unbalanced Internal minus external minus contact forces at each
+     *                   unknown (no ghosts).
+     */
+    std::vector<Reaction>
+    reactions(const Vector &unbalanced) const;
+
+  private:
+    using Function = std::shared_ptr<dealii::FunctionParser<dim>>;
+
+    /** One direction prescribed at one owned node. */
+    struct Prescribed
+    {
+      Index                  node;
+      dealii::Tensor<1, dim> direction;
+      /** Null for zero. */
+      Function           value;
+      dealii::Point<dim> position;
+      unsigned int       body;
+      /** Which reaction it belongs to. */
+      unsigned int support;
+    };
+
+    struct Load
+    {
+      dealii::types::boundary_id boundary;
+      std::array<Function, dim>  traction;
+      Function                   pressure;
+    };
+
+    const Solid            &solid;
+    std::vector<Prescribed> prescribed;
+    std::vector<Load>       loads;
+    std::vector<Reaction>   supports;
+
+    void
+    prescribe_on(dealii::types::boundary_id    boundary,
+                 const dealii::Tensor<1, dim> &direction,
+                 const Function               &value,
+                 unsigned int                  body,
+                 unsigned int                  support);
+
+    /** Outward normal of a plane boundary, the same on all ranks. */
+    dealii::Tensor<1, dim>
+    plane_normal(dealii::types::boundary_id boundary,
+                 const std::string         &section,
+                 const std::string         &name) const;
+  };
+} // namespace Touchstone
+
+#endif

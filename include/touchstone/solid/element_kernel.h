@@ -1,0 +1,118 @@
+#ifndef touchstone_solid_element_kernel_h
+#define touchstone_solid_element_kernel_h
+
+#include <touchstone/scene/body_parameters.h>
+#include <touchstone/types.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Stiffness and stress of one hexahedron, small strain, isotropic
+   * linear elasticity.
+   *
+   * Element types:
+   * - full: the displacement element;
+   * - b_bar: the volumetric strain is its mean over the cell
+   *   (Hughes 1980, Int. J. Numer. Meth. Engng 15), for nearly incompressible
+   *   materials;
+   * - incompatible_modes: three quadratic modes per component, condensed in the
+   *   cell, with the modification that passes the patch test on distorted cells
+   *   (Taylor, Beresford and Wilson 1976, same journal 10), for bending.
+   */
+  class ElementKernel
+  {
+  public:
+    ElementKernel(const dealii::Mapping<dim>       &mapping,
+                  const dealii::FiniteElement<dim> &fe,
+                  ElementType                       type,
+                  const MaterialParameters         &material);
+
+    /** @brief Go to a cell. */
+    void
+    reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
+
+    /** @brief Number of displacement unknowns of a cell. */
+    unsigned int
+    n_dofs() const
+    {
+      return dim * n_nodes;
+    }
+
+    /** @brief Stiffness over the cell's unknowns, in the order node-component
+     * (see cell_nodes()), force per length. */
+    const dealii::FullMatrix<double> &
+    stiffness();
+
+    /** @brief Stress at quadrature point @p q of the displacement @p u (in the
+     * order of stiffness()); call set_displacement() first. */
+    void
+    set_displacement(const std::vector<double> &u);
+
+    unsigned int
+    n_quadrature_points() const
+    {
+      return n_points;
+    }
+
+    dealii::SymmetricTensor<2, dim>
+    stress(unsigned int q) const;
+
+    dealii::Point<dim>
+    point(unsigned int q) const
+    {
+      return values.quadrature_point(q);
+    }
+
+    double
+    volume(unsigned int q) const
+    {
+      return values.JxW(q);
+    }
+
+    /** @brief The unknown of a cell's local numbering that is component @p d of
+     * local node @p a. */
+    unsigned int
+    local_dof(const unsigned int a, const unsigned int d) const
+    {
+      return node_dof[dim * a + d];
+    }
+
+    unsigned int
+    nodes_per_cell() const
+    {
+      return n_nodes;
+    }
+
+  private:
+    const ElementType   type;
+    const double        lambda, mu;
+    dealii::QGauss<dim> quadrature;
+    /** A scalar copy of the element: all components have the same shapes. */
+    const dealii::FE_Q<dim>                scalar_fe;
+    dealii::FEValues<dim>                  values;
+    dealii::FEValues<dim>                  centre;
+    std::vector<unsigned int>              node_dof;
+    const unsigned int                     n_nodes, n_modes, n_points;
+    /** Gradients of shapes and incompatible modes, [point][shape]. */
+    std::vector<std::vector<dealii::Tensor<1, dim>>> gradients;
+    std::vector<dealii::Tensor<1, dim>>              mean_gradients;
+    double                                           cell_volume = 0.;
+    dealii::FullMatrix<double>                       full, condensed, recovery;
+    std::vector<double>                              displacement;
+    double                                           mean_dilatation = 0.;
+
+    void
+    integrate();
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,154 @@
+#include <touchstone/algebra/linear_solver.h>
+#include <touchstone/algebra/non_convergence.h>
+
+#include <BelosBlockCGSolMgr.hpp>
+#include <BelosEpetraAdapter.hpp>
+#include <BelosLinearProblem.hpp>
+#include <Teuchos_ParameterList.hpp>
+#include <Teuchos_RCP.hpp>
+#include <ml_MultiLevelPreconditioner.h>
+
+#include <memory>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /**
+     * Conjugate gradients from Belos with smoothed aggregation from ML. The
+     * near-null space are the rigid-body modes of the bodies, set to zero at
+     * constrained unknowns.
+     * Vanek, Mandel and Brezina (1996), Computing 56.
+     */
+    class BelosCg : public LinearSolver
+    {
+    public:
+      explicit BelosCg(const LinearSolverParameters &parameters)
+        : LinearSolver(parameters)
+      {}
+
+    private:
+      /** The matrix that the multigrid was made from; ML keeps a reference. */
+      std::unique_ptr<Epetra_CrsMatrix>                     preconditioned_matrix;
+      std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> preconditioner;
+      std::vector<double>                                   null_space;
+      /** Iterations of the first solve with the present preconditioner. */
+      int fresh_iterations = 0;
+
+      void
+      set_up(const CondensedSystem &system, const Epetra_MultiVector &modes);
+
+      /** One run of conjugate gradients. @return iterations, -1 if it failed. */
+      int
+      iterate(const CondensedSystem &system, Epetra_Vector &solution);
+
+      void
+      do_solve(const CondensedSystem    &system,
+               const Epetra_MultiVector &modes,
+               Epetra_Vector            &solution) override;
+    };
+
+    const LinearSolverRegistry::Entry<BelosCg>
+      entry("Belos CG",
+            "conjugate gradients with algebraic multigrid (ML), for symmetric "
+            "positive definite systems");
+
+
+
+    void
+    BelosCg::set_up(const CondensedSystem &system, const Epetra_MultiVector &modes)
+    {
+      preconditioner.reset();
+      preconditioned_matrix = std::make_unique<Epetra_CrsMatrix>(*system.matrix);
+      const int n           = modes.MyLength();
+      null_space.assign(static_cast<std::size_t>(n) * modes.NumVectors(), 0.);
+      for (int v = 0; v < modes.NumVectors(); ++v)
+        for (int i = 0; i < n; ++i)
+          if (!system.constrained[i])
+            null_space[static_cast<std::size_t>(v) * n + i] = modes[v][i];
+
+      Teuchos::ParameterList list;
+      ML_Epetra::SetDefaults("SA", list);
+      list.set("ML output", 0);
+      list.set("PDE equations", 3);
+      list.set("aggregation: type", "Uncoupled");
+      list.set("aggregation: threshold", 0.02);
+      list.set("smoother: type", "Chebyshev");
+      list.set("smoother: sweeps", 2);
+      list.set("smoother: Chebyshev alpha", 20.);
+      list.set("coarse: type", "Amesos-KLU");
+      list.set("coarse: max size", 1000);
+      list.set("null space: type", "pre-computed");
+      list.set("null space: dimension", modes.NumVectors());
+      list.set("null space: vectors", null_space.data());
+      list.set("null space: add default vectors", false);
+      preconditioner =
+        std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*preconditioned_matrix, list, true);
+      ++count.preconditioner_setups;
+      fresh_iterations = 0;
+    }
+
+
+
+    int
+    BelosCg::iterate(const CondensedSystem &system, Epetra_Vector &solution)
+    {
+      using Problem = Belos::LinearProblem<double, Epetra_MultiVector, Epetra_Operator>;
+      const auto problem =
+        Teuchos::rcp(new Problem(Teuchos::rcpFromRef<Epetra_Operator>(*system.matrix),
+                                 Teuchos::rcpFromRef<Epetra_MultiVector>(solution),
+                                 Teuchos::rcpFromRef<Epetra_MultiVector>(*system.rhs)));
+      problem->setLeftPrec(Teuchos::rcp(
+        new Belos::EpetraPrecOp(Teuchos::rcpFromRef<Epetra_Operator>(*preconditioner))));
+      problem->setProblem();
+      const auto list = Teuchos::rcp(new Teuchos::ParameterList());
+      list->set("Maximum Iterations", static_cast<int>(parameters.maximum_iterations));
+      list->set("Convergence Tolerance", parameters.tolerance);
+      list->set("Verbosity", static_cast<int>(Belos::Errors));
+      Belos::BlockCGSolMgr<double, Epetra_MultiVector, Epetra_Operator> solver(problem, list);
+      bool                                                              converged = false;
+      try
+        {
+          converged = solver.solve() == Belos::Converged;
+        }
+      // An indefinite matrix or preconditioner shows as a failed factorisation of
+      // a 1 x 1 block; Belos derives its exceptions from logic_error.
+      catch (const std::logic_error &error)
+        {
+          throw LinearSolverFailure(std::string("Belos CG broke down: ") + error.what());
+        }
+      count.iterations += solver.getNumIters();
+      return converged ? solver.getNumIters() : -1;
+    }
+
+
+
+    void
+    BelosCg::do_solve(const CondensedSystem    &system,
+                      const Epetra_MultiVector &modes,
+                      Epetra_Vector            &solution)
+    {
+      if (!system.definite || !system.symmetric)
+        throw LinearSolverFailure("Belos CG needs a symmetric positive definite system");
+      // A preconditioner of an earlier active set serves as long as it does not
+      // cost half as many iterations again; a set-up costs about ten of them.
+      const bool fits = preconditioner && preconditioned_matrix->RowMap().SameAs(system.matrix->RowMap());
+      if (!fits)
+        set_up(system, modes);
+      int iterations = iterate(system, solution);
+      if (iterations < 0 && fresh_iterations > 0)
+        {
+          set_up(system, modes);
+          solution.PutScalar(0.);
+          iterations = iterate(system, solution);
+        }
+      if (iterations < 0)
+        throw LinearSolverFailure("Belos CG did not converge in " +
+                                  std::to_string(parameters.maximum_iterations) + " iterations");
+      if (fresh_iterations == 0)
+        fresh_iterations = std::max(iterations, 1);
+      else if (iterations > fresh_iterations * 3 / 2 + 5)
+        preconditioner.reset();
+    }
+  } // namespace
+} // namespace Touchstone

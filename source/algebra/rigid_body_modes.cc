@@ -1,0 +1,221 @@
+#include <touchstone/algebra/rigid_body_modes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Displacement of mode @p k (three translations, three rotations) at
+     * position @p x from the centre. */
+    Tensor<1, dim>
+    mode(const unsigned int k, const Tensor<1, dim> &x)
+    {
+      Tensor<1, dim> e;
+      e[k % dim] = 1.;
+      return k < dim ? e : cross_product_3d(e, x);
+    }
+  } // namespace
+
+
+
+  RigidBodyModes::RigidBodyModes(const Scene &scene, const Solid &solid)
+    : scene(scene)
+    , solid(solid)
+    , modes(std::make_unique<Epetra_MultiVector>(solid.stiffness().trilinos_matrix().RowMap(), 6))
+    , centres(scene.bodies.size())
+    , sizes(scene.bodies.size())
+  {
+    const unsigned int     n_bodies = scene.bodies.size();
+    std::vector<double>    count(n_bodies), lower(dim * n_bodies, 1e300), upper(dim * n_bodies, -1e300);
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              double &l = lower[dim * cell->material_id() + d];
+              double &u = upper[dim * cell->material_id() + d];
+              l         = std::min(l, cell->vertex(v)[d]);
+              u         = std::max(u, cell->vertex(v)[d]);
+            }
+    Utilities::MPI::min(lower, solid.communicator, lower);
+    Utilities::MPI::max(upper, solid.communicator, upper);
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        double diagonal = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            centres[b][d] = 0.5 * (lower[dim * b + d] + upper[dim * b + d]);
+            diagonal += std::pow(upper[dim * b + d] - lower[dim * b + d], 2);
+          }
+        sizes[b] = 0.5 * std::sqrt(diagonal);
+      }
+
+    row_body.resize(modes->MyLength());
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            {
+              const int row = modes->Map().LID(static_cast<int>(dofs[i]));
+              if (row < 0)
+                continue;
+              row_body[row] = cell->material_id();
+              const Tensor<1, dim> x =
+                solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i)) -
+                centres[0];
+              for (unsigned int k = 0; k < 6; ++k)
+                (*modes)[k][row] = mode(k, x / sizes[0])[dofs[i] % dim];
+            }
+        }
+  }
+
+
+
+  FreeMotion
+  RigidBodyModes::free_motion(const std::vector<Condition> &conditions) const
+  {
+    const unsigned int  n_bodies = scene.bodies.size();
+    const unsigned int  n        = 6 * n_bodies;
+    std::vector<double> gram(n * n, 0.);
+    for (const Condition &condition : conditions)
+      {
+        std::vector<std::pair<unsigned int, double>> row;
+        const auto add = [&](const unsigned int b, const Tensor<1, dim> &x, const double sign) {
+          for (unsigned int k = 0; k < 6; ++k)
+            row.emplace_back(6 * b + k,
+                             sign * (condition.direction * mode(k, (x - centres[b]) / sizes[b])));
+        };
+        add(condition.body, condition.position, 1.);
+        if (!condition.stencil.empty())
+          add(condition.master_body, condition.master_position, -1.);
+        for (const auto &[i, vi] : row)
+          for (const auto &[j, vj] : row)
+            gram[i * n + j] += vi * vj;
+      }
+    Utilities::MPI::sum(gram, solid.communicator, gram);
+
+    // A motion counts as free if the conditions resist it by less than one part
+    // in 1e8 of the best-resisted one (a resistance over a hundredth of a body's
+    // size is 1e4 times larger).
+    LAPACKFullMatrix<double> matrix(n, n);
+    double                   largest = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          matrix(i, j) = gram[i * n + j];
+          largest      = std::max(largest, std::abs(gram[i * n + j]));
+        }
+    dealii::Vector<double>     eigenvalues;
+    FreeMotion                 result;
+    FullMatrix<double>        &eigenvectors = result.basis;
+    if (largest == 0.)
+      {
+        eigenvectors = IdentityMatrix(n);
+        result.n_modes = n;
+      }
+    else
+      {
+        matrix.compute_eigenvalues_symmetric(
+          -largest, 1e-8 * largest, 1e-12 * largest, eigenvalues, eigenvectors);
+        result.n_modes = eigenvalues.size();
+      }
+    if (result.n_modes == 0)
+      return result;
+
+    // How much of each elementary motion lies in the free space.
+    std::ostringstream text;
+    const char        *names = "xyz";
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        std::string mixed;
+        for (unsigned int k = 0; k < 6; ++k)
+          {
+            double share = 0.;
+            for (unsigned int v = 0; v < result.n_modes; ++v)
+              share += std::pow(eigenvectors(6 * b + k, v), 2);
+            if (share > 1e-3)
+              {
+                result.bodies.insert(b);
+                mixed += (mixed.empty() ? "" : " or ");
+                mixed += (k < dim ? "move in " : "turn about ");
+                mixed += names[k % dim];
+                if (share < 0.99)
+                  mixed += " (together with other motions)";
+              }
+          }
+        if (!mixed.empty())
+          text << (text.str().empty() ? "" : "; ") << "body '" << scene.bodies[b].name << "' can "
+               << mixed;
+      }
+    result.description = text.str();
+    return result;
+  }
+
+
+
+  Vector
+  RigidBodyModes::stabilisation(const FreeMotion &motion,
+                                const Vector     &unbalanced,
+                                const double      distance) const
+  {
+    Vector      shift(solid.owned, solid.communicator);
+    const auto &stiffness = solid.stiffness().trilinos_matrix();
+    Epetra_Vector diagonal(stiffness.RowMap());
+    stiffness.ExtractDiagonalCopy(diagonal);
+
+    // Work of the unbalanced forces on the modes of each body; sum of diagonals.
+    const unsigned int  n = 6 * scene.bodies.size();
+    std::vector<double> sums(n + scene.bodies.size(), 0.);
+    for (unsigned int row = 0; row < row_body.size(); ++row)
+      {
+        const unsigned int b = row_body[row];
+        // The columns turn about the centre of the first body, in its size.
+        double translation[dim] = {};
+        for (unsigned int d = 0; d < dim; ++d)
+          translation[d] = (*modes)[d][row];
+        const double force = unbalanced.begin()[row];
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            Tensor<1, dim> e;
+            e[k] = 1.;
+            Tensor<1, dim> direction;
+            for (unsigned int d = 0; d < dim; ++d)
+              direction[d] = translation[d];
+            const double about_first = (*modes)[dim + k][row] * sizes[0];
+            const double offset = cross_product_3d(e, centres[0] - centres[b]) * direction;
+            sums[6 * b + k] += force * translation[k];
+            sums[6 * b + dim + k] += force * (about_first + offset) / sizes[b];
+          }
+        sums[n + b] += diagonal[row] / dim;
+      }
+    Utilities::MPI::sum(sums, solid.communicator, sums);
+
+    double fraction = 1e-7;
+    for (unsigned int v = 0; v < motion.n_modes; ++v)
+      {
+        double work = 0., resistance = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            work += motion.basis(i, v) * sums[i];
+            resistance += motion.basis(i, v) * motion.basis(i, v) * sums[n + i / 6];
+          }
+        fraction = std::max(fraction, std::abs(work) / (resistance * distance));
+      }
+    for (unsigned int row = 0; row < row_body.size(); ++row)
+      if (motion.bodies.count(row_body[row]) > 0)
+        shift.begin()[row] = fraction * diagonal[row];
+    return shift;
+  }
+} // namespace Touchstone

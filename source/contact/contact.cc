@@ -1,0 +1,447 @@
+#include <touchstone/contact/contact.h>
+#include <touchstone/scene/input_error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A surface that just touches, up to this fraction of a face, starts in
+     * contact: otherwise a body that only rests on another would have no support
+     * in the first iteration. */
+    constexpr double touching = 1e-6;
+  } // namespace
+
+
+
+  Contact::Contact(const Scene &scene, const Forest &forest, const Solid &solid)
+    : solid(solid)
+    , scene(scene)
+    , ghosted(solid.owned, solid.relevant, solid.communicator)
+  {
+    for (const ContactPairParameters &parameters : scene.pairs)
+      {
+        const std::string section = "Contact pair " + parameters.name;
+        const bool        exact   = (parameters.contact_geometry == "manifold");
+        const auto        make    = [&](const std::string              &body,
+                              const std::vector<std::string> &boundaries,
+                              const std::string              &key) {
+          std::set<types::boundary_id> ids;
+          for (const std::string &name : boundaries)
+            ids.insert(forest.boundary_id(scene.body_index(body), name, section, key));
+          auto surface =
+            std::make_unique<Surface>(solid, forest, scene.body_index(body), ids, exact);
+          if (surface->largest_face() == 0.)
+            throw InputError(section, key, "", "these boundaries have no faces", "check the mesh.");
+          return surface;
+        };
+
+        Pair pair;
+        pair.parameters = &parameters;
+        pair.slave_body = scene.body_index(parameters.slave_body);
+        pair.modulus    = scene.bodies[pair.slave_body].material.young_modulus;
+        pair.tied       = (parameters.behaviour == "tied");
+        pair.slave = make(parameters.slave_body, parameters.slave_boundaries, "Slave boundaries");
+        const ObstacleParameters *obstacle = nullptr;
+        for (const ObstacleParameters &o : scene.obstacles)
+          if (o.name == parameters.obstacle)
+            obstacle = &o;
+        pair.master_body = numbers::invalid_unsigned_int;
+        if (obstacle == nullptr)
+          {
+            pair.master_body = scene.body_index(parameters.master_body);
+            pair.master =
+              make(parameters.master_body, parameters.master_boundaries, "Master boundaries");
+          }
+        pair.small   = pair.tied || (obstacle == nullptr && parameters.sliding == "small");
+        pair.pairing = PairingRegistry::make(obstacle ? "obstacle" : parameters.pairing,
+                                             {&parameters,
+                                              obstacle,
+                                              &solid,
+                                              pair.slave.get(),
+                                              pair.master.get()});
+
+        std::vector<ContactRow> pair_rows;
+        for (const SurfaceNode &node : pair.slave->owned_nodes())
+          {
+            ContactRow row;
+            row.pair        = pairs.size();
+            row.slave       = node.node;
+            row.area        = node.area;
+            row.size        = node.size;
+            row.body        = pair.slave_body;
+            row.master_body = pair.master_body;
+            row.stiffness   = pair.modulus * node.area / node.size;
+            row.tied        = pair.tied;
+            pair_rows.push_back(row);
+          }
+        rows.push_back(pair_rows);
+        pairs.push_back(std::move(pair));
+      }
+    check_roles();
+    committed = rows;
+  }
+
+
+
+  void
+  Contact::check_roles() const
+  {
+    // Pair p leads to pair q if master nodes of p are slave nodes of q. Rows that
+    // depend on each other in a circle cannot be eliminated, and make multipliers
+    // dependent.
+    std::vector<std::set<unsigned int>> next(pairs.size());
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (unsigned int q = 0; q < pairs.size(); ++q)
+        {
+          int shared = 0;
+          if (p != q && pairs[p].master)
+            {
+              std::set<Index> slaves;
+              for (const SurfaceNode &node : pairs[q].slave->owned_nodes())
+                slaves.insert(node.node);
+              for (const Face &face : pairs[p].master->owned_faces())
+                for (unsigned int m = 0; m < face.n_nodes(); ++m)
+                  shared |= slaves.count(face.nodes[m]);
+            }
+          if (Utilities::MPI::max(shared, solid.communicator))
+            next[p].insert(q);
+        }
+    const std::function<bool(unsigned int, unsigned int, std::set<unsigned int> &)> reaches =
+      [&](const unsigned int from, const unsigned int to, std::set<unsigned int> &seen) {
+        for (const unsigned int q : next[from])
+          if (q == to || (seen.insert(q).second && reaches(q, to, seen)))
+            return true;
+        return false;
+      };
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        std::set<unsigned int> seen;
+        if (reaches(p, p, seen))
+          throw InputError("Contact pair " + pairs[p].parameters->name,
+                           "Master boundaries",
+                           "",
+                           "its master surface is, over other pairs, also its slave surface",
+                           "give each surface one role around such a circle of pairs.");
+      }
+  }
+
+
+
+  void
+  Contact::make_reference(Pair &pair, std::vector<ContactRow> &pair_rows, const double time)
+  {
+    Vector zero(solid.owned, solid.relevant, solid.communicator);
+    pair.slave->move(zero);
+    if (pair.master)
+      pair.master->move(zero);
+    pair.pairing->update(zero, time, pair_rows);
+    ++searches;
+    pair.reference = pair_rows;
+
+    // Stencils may refer to unknowns that are not in the ghost layer.
+    IndexSet needed = solid.relevant;
+    for (const Pair &p : pairs)
+      for (const ContactRow &row : p.reference)
+        for (const StencilEntry &entry : row.stencil)
+          needed.add_range(dim * entry.node, dim * entry.node + dim);
+    needed.compress();
+    stencil_values.reinit(solid.owned, needed, solid.communicator);
+  }
+
+
+
+  void
+  Contact::update_small(Pair &pair, std::vector<ContactRow> &pair_rows, const Vector &u)
+  {
+    stencil_values = u;
+    for (std::size_t k = 0; k < pair_rows.size(); ++k)
+      {
+        ContactRow &row = pair_rows[k];
+        if (row.status == ContactStatus::no_partner)
+          continue;
+        row.gap_vector = pair.tied ? Tensor<1, dim>() : pair.reference[k].gap_vector;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            row.gap_vector[d] += stencil_values(dim * row.slave + d);
+            for (const StencilEntry &entry : row.stencil)
+              row.gap_vector[d] -= entry.weight * stencil_values(dim * entry.node + d);
+          }
+        row.gap = row.gap_vector * row.normal;
+      }
+  }
+
+
+
+  void
+  Contact::update(const Vector &u, const double time)
+  {
+    ghosted = u;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        Pair &pair = pairs[p];
+        if (pair.small)
+          {
+            if (!started)
+              make_reference(pair, rows[p], time);
+          }
+        else
+          {
+            pair.slave->move(ghosted);
+            if (pair.master)
+              pair.master->move(ghosted);
+            pair.pairing->update(ghosted, time, rows[p]);
+            ++searches;
+          }
+      }
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (pairs[p].small)
+        update_small(pairs[p], rows[p], u);
+
+    for (auto &pair_rows : rows)
+      for (unsigned int k = 0; k < pair_rows.size(); ++k)
+        {
+          ContactRow &row = pair_rows[k];
+          for (unsigned int d = 0; d < dim; ++d)
+            row.position[d] = ghosted(dim * row.slave + d);
+          row.position += pairs[row.pair].slave->owned_nodes()[k].reference;
+          if (!started && row.status == ContactStatus::open)
+            {
+              if (row.tied)
+                row.status = ContactStatus::tied;
+              else if (row.gap < touching * row.size)
+                row.status = ContactStatus::slip;
+            }
+        }
+    started = true;
+  }
+
+
+
+  Contact::ActiveSetUpdate
+  Contact::update_active_set(const double gap_tolerance, const unsigned int caution)
+  {
+    // How strongly a row asks to change its state, as a nondimensional gap; 0 if
+    // it does not. The tolerance keeps rows that are neither open nor loaded
+    // from chattering.
+    const auto demand = [&](const ContactRow &row) {
+      if (row.tied || row.status == ContactStatus::no_partner)
+        return 0.;
+      const double trial = row.lambda / (row.stiffness * row.size) - row.gap / row.size;
+      if (row.active())
+        return trial < -gap_tolerance ? -trial : 0.;
+      return -row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.;
+    };
+
+    double threshold = 0.;
+    if (caution > 0)
+      {
+        for (const auto &pair_rows : rows)
+          for (const ContactRow &row : pair_rows)
+            threshold = std::max(threshold, demand(row));
+        threshold = Utilities::MPI::max(threshold, solid.communicator) * (caution == 1 ? 0.5 : 0.999);
+      }
+
+    ActiveSetUpdate result;
+    for (auto &pair_rows : rows)
+      for (ContactRow &row : pair_rows)
+        {
+          if (row.status == ContactStatus::no_partner)
+            {
+              if (row.lambda != 0. || row.force.norm() != 0.)
+                ++result.changes;
+              row.lambda = 0.;
+              row.force  = Tensor<1, dim>();
+              continue;
+            }
+          if (row.refused == 0 && (row.active() || row.gap < 0.))
+            result.gap = std::max(result.gap,
+                                  (row.tied ? row.gap_vector.norm() : std::abs(row.gap)) / row.size);
+          const double strength = demand(row);
+          if (strength > 0. && strength >= threshold)
+            {
+              row.status = row.active() ? ContactStatus::open : ContactStatus::slip;
+              row.lambda = 0.;
+              row.force  = Tensor<1, dim>();
+              ++result.changes;
+            }
+          if (row.active())
+            {
+              ++result.active;
+              // A sum of well-mixed numbers does not depend on the partition.
+              std::uint64_t h = (row.slave + 1) * 0x9E3779B97F4A7C15ull + row.pair;
+              h ^= h >> 31;
+              h *= 0xBF58476D1CE4E5B9ull;
+              result.signature += h ^ (h >> 27);
+            }
+        }
+    result.gap       = Utilities::MPI::max(result.gap, solid.communicator);
+    result.active    = Utilities::MPI::sum(result.active, solid.communicator);
+    result.changes   = Utilities::MPI::sum(result.changes, solid.communicator);
+    result.signature = Utilities::MPI::sum(result.signature, solid.communicator);
+    return result;
+  }
+
+
+
+  void
+  Contact::add_forces(Vector &force) const
+  {
+    std::vector<Index>  unknowns;
+    std::vector<double> values;
+    for (const auto &pair_rows : rows)
+      for (const ContactRow &row : pair_rows)
+        if (row.active())
+          for (unsigned int d = 0; d < dim; ++d)
+            if (row.force[d] != 0.)
+              {
+                unknowns.push_back(dim * row.slave + d);
+                values.push_back(row.force[d]);
+                for (const StencilEntry &entry : row.stencil)
+                  {
+                    unknowns.push_back(dim * entry.node + d);
+                    values.push_back(-entry.weight * row.force[d]);
+                  }
+              }
+    force.add(unknowns, values);
+    force.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  Contact::commit()
+  {
+    committed = rows;
+  }
+
+
+
+  void
+  Contact::rollback()
+  {
+    rows = committed;
+  }
+
+
+
+  std::vector<ContactPoint>
+  Contact::points(const Vector &u) const
+  {
+    std::vector<ContactPoint> result;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (unsigned int k = 0; k < rows[p].size(); ++k)
+        {
+          const ContactRow &row = rows[p][k];
+          ContactPoint      point;
+          point.pair               = p;
+          point.node               = row.slave;
+          point.reference_position = pairs[p].slave->owned_nodes()[k].reference;
+          for (unsigned int d = 0; d < dim; ++d)
+            point.displacement[d] = u(dim * row.slave + d);
+          point.normal   = row.normal;
+          point.gap      = row.gap;
+          point.area     = row.area;
+          point.pressure = row.lambda / row.area;
+          point.traction = row.force / row.area;
+          point.status   = row.status;
+          result.push_back(point);
+        }
+    return result;
+  }
+
+
+
+  std::vector<ContactFace>
+  Contact::faces() const
+  {
+    std::vector<ContactFace> result;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (const Face &face : pairs[p].slave->owned_faces())
+        result.push_back({p, face.degree, face.nodes});
+    return result;
+  }
+
+
+
+  std::vector<PairResult>
+  Contact::results(const Vector &u) const
+  {
+    std::vector<PairResult> all(pairs.size());
+    for (const ContactPoint &point : points(u))
+      {
+        PairResult &result = all[point.pair];
+        if (point.status != ContactStatus::no_partner && point.status != ContactStatus::tied)
+          result.max_penetration = std::max(result.max_penetration, -point.gap);
+        if (point.status < ContactStatus::slip)
+          continue;
+        const Tensor<1, dim> force = point.area * point.traction;
+        result.force += force;
+        result.moment += cross_product_3d(point.reference_position + point.displacement, force);
+        result.area += point.area;
+        result.max_pressure = std::max(result.max_pressure, point.pressure);
+        ++result.active;
+        ++(point.status == ContactStatus::slip ? result.slip : result.stick);
+      }
+    for (PairResult &result : all)
+      {
+        result.force           = Utilities::MPI::sum(result.force, solid.communicator);
+        result.moment          = Utilities::MPI::sum(result.moment, solid.communicator);
+        result.area            = Utilities::MPI::sum(result.area, solid.communicator);
+        result.max_pressure    = Utilities::MPI::max(result.max_pressure, solid.communicator);
+        result.max_penetration = Utilities::MPI::max(result.max_penetration, solid.communicator);
+        result.active          = Utilities::MPI::sum(result.active, solid.communicator);
+        result.slip            = Utilities::MPI::sum(result.slip, solid.communicator);
+        result.stick           = Utilities::MPI::sum(result.stick, solid.communicator);
+      }
+    return all;
+  }
+
+
+
+  std::vector<std::string>
+  Contact::start_report() const
+  {
+    std::vector<std::string> lines;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        double       lowest  = std::numeric_limits<double>::max(), size = 0.;
+        unsigned int partner = 0, overlapping = 0;
+        for (const ContactRow &row : rows[p])
+          if (row.status != ContactStatus::no_partner)
+            {
+              ++partner;
+              lowest = std::min(lowest, row.gap);
+              size   = std::max(size, row.size);
+              overlapping += (row.gap < -touching * row.size);
+            }
+        const unsigned int total = Utilities::MPI::sum(rows[p].size(), solid.communicator);
+        lowest                   = Utilities::MPI::min(lowest, solid.communicator);
+        size                     = Utilities::MPI::max(size, solid.communicator);
+        partner                  = Utilities::MPI::sum(partner, solid.communicator);
+        overlapping              = Utilities::MPI::sum(overlapping, solid.communicator);
+        char text[300];
+        if (partner == 0)
+          std::snprintf(text, sizeof(text), "no master face within reach of any of %u slave nodes", total);
+        else
+          std::snprintf(text,
+                        sizeof(text),
+                        "%u slave nodes, %u face the master surface, smallest gap %.4g%s",
+                        total,
+                        partner,
+                        lowest,
+                        overlapping == 0 ? "" :
+                        lowest < -size   ? ": an initial overlap larger than a face, taken as interference" :
+                                           ": an initial overlap, taken as interference");
+        lines.push_back("contact pair " + pairs[p].parameters->name + ": " + text);
+      }
+    return lines;
+  }
+} // namespace Touchstone

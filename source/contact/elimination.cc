@@ -1,0 +1,90 @@
+#include <touchstone/contact/enforcement.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Each condition determines one displacement component of its slave node,
+     * which is condensed out; forces come from the residual. */
+    class Elimination : public Enforcement
+    {
+    public:
+      bool
+      has_multipliers() const override
+      {
+        return false;
+      }
+
+      void
+      recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override
+      {
+        // The contact force balances the slave node in the directions that no
+        // prescribed displacement balances. One sweep does it, unless slave nodes
+        // are master nodes of other rows, or belong to two pairs.
+        for (unsigned int sweep = 0; sweep < 50; ++sweep)
+          {
+            Vector force(unbalanced);
+            contact.add_forces(force);
+            double change = 0., largest = 0.;
+            std::map<Index, Tensor<1, dim>> corrections;
+            for (auto &pair_rows : contact.rows)
+              for (ContactRow &row : pair_rows)
+                {
+                  if (!row.active() || row.dropped())
+                    continue;
+                  Tensor<1, dim> rest = corrections[row.slave];
+                  for (unsigned int d = 0; d < dim; ++d)
+                    rest[d] += force(dim * row.slave + d);
+                  Tensor<1, dim> correction;
+                  if (row.status == ContactStatus::slip)
+                    {
+                      const Tensor<1, dim> normal = graph.free_part(row.slave, row.normal);
+                      const double         square = normal.norm_square();
+                      // The force follows the present normal.
+                      const double next =
+                        square > 1e-6 ? ((row.force - rest) * normal) / square : 0.;
+                      correction        = next * row.normal - row.force;
+                      row.lambda        = next;
+                    }
+                  else
+                    {
+                      correction = -graph.free_part(row.slave, rest);
+                      row.lambda = (row.force + correction) * row.normal;
+                    }
+                  row.force += correction;
+                  corrections[row.slave] += correction;
+                  change  = std::max(change, correction.norm());
+                  largest = std::max(largest, row.force.norm());
+                }
+            if (Utilities::MPI::max(change, unbalanced.get_mpi_communicator()) <=
+                1e-13 * Utilities::MPI::max(largest, unbalanced.get_mpi_communicator()))
+              break;
+          }
+      }
+
+      void
+      enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &) override
+      {
+        for (auto &pair_rows : contact.rows)
+          for (ContactRow &row : pair_rows)
+            {
+              for (const Condition &condition : start_row(row))
+                row.take(graph.accept(condition));
+            }
+      }
+
+      void
+      update(Contact &, const std::vector<double> &) override
+      {}
+    };
+
+    const EnforcementRegistry::Entry<Elimination>
+      entry("elimination", "slave components condensed out; positive definite, any solver");
+  } // namespace
+} // namespace Touchstone

@@ -1,0 +1,159 @@
+#include <touchstone/contact/search.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+  namespace bg  = boost::geometry;
+  namespace bgi = boost::geometry::index;
+
+  Search::Search(const Surface &master,
+                 const double   reach,
+                 const double   tolerance,
+                 const MPI_Comm communicator)
+    : master(master)
+    , reach(reach)
+    , tolerance(tolerance)
+    , communicator(communicator)
+  {}
+
+
+
+  Search::Box
+  Search::bounding_box(const Face &face) const
+  {
+    Point<dim> lower, upper;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      {
+        const Point<dim> x = face.reference[m] + face.displacement[m];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = m == 0 ? x[d] : std::min(lower[d], x[d]);
+            upper[d] = m == 0 ? x[d] : std::max(upper[d], x[d]);
+          }
+      }
+    // A curved face reaches beyond its nodes: by less than half its size, or it
+    // would be bent by more than a right angle.
+    const double margin = 0.25 * lower.distance(upper) * (face.degree == 1 ? 0.5 : 1.);
+    Box box({lower, upper});
+    box.extend(margin);
+    return box;
+  }
+
+
+
+  void
+  Search::update(const std::vector<Point<dim>> &positions)
+  {
+    // The capture box of this rank's slave nodes; empty boxes are inside out.
+    std::array<double, 6> capture;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        capture[d]       = std::numeric_limits<double>::max();
+        capture[dim + d] = std::numeric_limits<double>::lowest();
+      }
+    for (const Point<dim> &x : positions)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          capture[d]       = std::min(capture[d], x[d] - reach);
+          capture[dim + d] = std::max(capture[dim + d], x[d] + reach);
+        }
+
+    faces.clear();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    if (n_ranks == 1)
+      faces = master.owned_faces();
+    else
+      {
+        const auto captures =
+          Utilities::MPI::all_gather(communicator,
+                                     std::vector<double>(capture.begin(), capture.end()));
+        std::map<unsigned int, std::vector<char>> packages;
+        for (const Face &face : master.owned_faces())
+          {
+            const Box box = bounding_box(face);
+            for (unsigned int rank = 0; rank < n_ranks; ++rank)
+              {
+                const auto &c = captures[rank];
+                bool        meets = (c[0] <= c[dim]);
+                for (unsigned int d = 0; d < dim; ++d)
+                  meets = meets && box.lower_bound(d) <= c[dim + d] && box.upper_bound(d) >= c[d];
+                if (!meets)
+                  continue;
+                auto             &package = packages[rank];
+                const std::size_t size    = package.size();
+                package.resize(size + sizeof(Face));
+                std::memcpy(package.data() + size, static_cast<const void *>(&face), sizeof(Face));
+              }
+          }
+        for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
+          {
+            const std::size_t first = faces.size();
+            faces.resize(first + package.size() / sizeof(Face));
+            std::memcpy(static_cast<void *>(faces.data() + first), package.data(), package.size());
+          }
+      }
+
+    std::vector<std::pair<Box, std::size_t>> boxes;
+    boxes.reserve(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      boxes.emplace_back(bounding_box(faces[i]), i);
+    tree = pack_rtree(boxes);
+  }
+
+
+
+  std::optional<ContactPartner>
+  Search::find(const Point<dim> &x, const Tensor<1, dim> &slave_normal) const
+  {
+    double         best_distance = reach * reach;
+    const Face    *best          = nullptr;
+    Projection     best_projection;
+    for (auto it = tree.qbegin(bgi::nearest(x, static_cast<unsigned int>(faces.size())));
+         it != tree.qend();
+         ++it)
+      {
+        if (bg::comparable_distance(x, it->first) > best_distance)
+          break;
+        const Face            &face  = faces[it->second];
+        const AnalyticSurface *exact = master.exact_surface(face);
+        if (evaluate(face, exact, {{0., 0.}}).normal() * slave_normal > 0.3)
+          continue;
+        const Projection projection = closest_point_projection(x, face, exact);
+        // Points on a common edge are equally close up to round-off: the face
+        // with the smaller key gets the node, on any number of ranks.
+        const double tie = 1e-12 * reach * reach;
+        if (projection.distance_squared < best_distance - tie ||
+            (best && projection.distance_squared < best_distance + tie && face.key < best->key))
+          {
+            best_distance   = projection.distance_squared;
+            best            = &face;
+            best_projection = projection;
+          }
+      }
+    if (best == nullptr || best_projection.beyond_outer > tolerance)
+      return {};
+
+    const AnalyticSurface *exact = master.exact_surface(*best);
+    const FacePoint        point = evaluate(*best, exact, best_projection.xi);
+    ContactPartner         partner{best, best_projection.xi, point.x, point.normal()};
+    // On facets the normal is continuous only if it is interpolated from the
+    // nodes; on an exact surface it is so by itself, but for sharp edges: a node
+    // in the wedge over an edge sees the average of the two sides.
+    if (exact == nullptr || best_projection.beyond_inner > 1e-6)
+      {
+        const FaceShapes shapes(best->degree, best_projection.xi);
+        Tensor<1, dim>   normal;
+        for (unsigned int m = 0; m < best->n_nodes(); ++m)
+          normal += shapes.value[m] * best->normals[m];
+        partner.normal = normal / normal.norm();
+      }
+    return partner;
+  }
+} // namespace Touchstone

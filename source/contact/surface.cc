@@ -1,0 +1,205 @@
+#include <touchstone/contact/surface.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A number for the face of a cell that does not depend on the partition:
+     * the path to the cell in the forest. */
+    std::uint64_t
+    face_key(const CellId &id, const unsigned int face)
+    {
+      std::uint64_t key = id.get_coarse_cell_id();
+      for (const std::uint8_t child : id.get_child_indices())
+        key = key * 8 + child;
+      return key * 6 + face;
+    }
+
+    /** Area of the face's shape functions, by Gauss quadrature on the facet. */
+    std::array<double, Face::max_nodes>
+    nodal_areas(const Face &face)
+    {
+      static const QGauss<2>              quadrature(3);
+      std::array<double, Face::max_nodes> areas{};
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          const std::array<double, 2> xi{
+            {2. * quadrature.point(q)[0] - 1., 2. * quadrature.point(q)[1] - 1.}};
+          const FaceShapes      shapes(face.degree, xi);
+          const FacePoint       point = evaluate(face, nullptr, xi);
+          const double          jxw =
+            4. * quadrature.weight(q) * cross_product_3d(point.tangents[0], point.tangents[1]).norm();
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            areas[m] += shapes.value[m] * jxw;
+        }
+      return areas;
+    }
+
+    /** The four edges of a face as pairs of corner nodes, in the order of the
+     * bits of Face::outer_edges. */
+    std::array<std::pair<Index, Index>, 4>
+    edges(const Face &face)
+    {
+      const unsigned int p = face.degree;
+      const Index        c[4] = {face.nodes[0],
+                          face.nodes[p],
+                          face.nodes[(p + 1) * p],
+                          face.nodes[(p + 1) * (p + 1) - 1]};
+      const auto pair = [](const Index a, const Index b) { return std::minmax(a, b); };
+      return {{pair(c[0], c[2]), pair(c[1], c[3]), pair(c[0], c[1]), pair(c[2], c[3])}};
+    }
+  } // namespace
+
+
+
+  Surface::Surface(const Solid                         &solid,
+                   const Forest                        &forest,
+                   const unsigned int                   body,
+                   const std::set<types::boundary_id>  &boundaries,
+                   const bool                           exact)
+    : forest(forest)
+    , exact(exact)
+  {
+    const unsigned int p = solid.fe.degree;
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      {
+        if (cell->is_artificial() || cell->material_id() != body)
+          continue;
+        for (const unsigned int f : cell->face_indices())
+          {
+            if (!cell->face(f)->at_boundary() ||
+                boundaries.count(cell->face(f)->boundary_id()) == 0)
+              continue;
+            cell->get_dof_indices(dofs);
+            Face face;
+            face.key      = face_key(cell->id(), f);
+            face.degree   = p;
+            face.boundary = cell->face(f)->boundary_id();
+            face.body     = body;
+            // Axes of the face such that their cross product points outward: the
+            // position of a node on the unit cell tells where it stands.
+            const unsigned int normal_axis = f / 2;
+            const unsigned int axes[2]     = {(normal_axis + (f % 2 == 1 ? 1 : 2)) % 3,
+                                          (normal_axis + (f % 2 == 1 ? 2 : 1)) % 3};
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              if (solid.fe.system_to_component_index(i).first == 0 &&
+                  solid.fe.has_support_on_face(i, f))
+                {
+                  const Point<dim>   unit = solid.fe.unit_support_point(i);
+                  const unsigned int m =
+                    static_cast<unsigned int>(std::lround(unit[axes[0]] * p)) +
+                    (p + 1) * static_cast<unsigned int>(std::lround(unit[axes[1]] * p));
+                  face.nodes[m]     = dofs[i] / dim;
+                  face.reference[m] = solid.mapping.transform_unit_to_real_cell(cell, unit);
+                }
+            (cell->is_locally_owned() ? faces : ghost_faces).push_back(face);
+          }
+      }
+    mark_outer_edges();
+
+    std::map<Index, SurfaceNode> found;
+    for (const auto *list : {&faces, &ghost_faces})
+      for (const Face &face : *list)
+        {
+          const auto areas = nodal_areas(face);
+          double     area  = 0.;
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            area += areas[m];
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            if (solid.owned.is_element(dim * face.nodes[m]))
+              {
+                SurfaceNode &node = found[face.nodes[m]];
+                node.node         = face.nodes[m];
+                node.reference    = face.reference[m];
+                node.area += areas[m];
+                node.size = std::max(node.size, std::sqrt(area) / p);
+              }
+          const unsigned int last = face.n_nodes() - 1;
+          diagonal                = std::max({diagonal,
+                               face.reference[0].distance(face.reference[last]),
+                               face.reference[p].distance(face.reference[last - p])});
+        }
+    for (const auto &entry : found)
+      nodes.push_back(entry.second);
+    diagonal = Utilities::MPI::max(diagonal, solid.communicator);
+  }
+
+
+
+  void
+  Surface::mark_outer_edges()
+  {
+    std::map<std::pair<Index, Index>, unsigned int> count;
+    for (const auto *list : {&faces, &ghost_faces})
+      for (const Face &face : *list)
+        for (const auto &edge : edges(face))
+          ++count[edge];
+    for (Face &face : faces)
+      {
+        const auto all = edges(face);
+        for (unsigned int e = 0; e < 4; ++e)
+          if (count[all[e]] == 1)
+            face.outer_edges |= 1u << e;
+      }
+  }
+
+
+
+  const AnalyticSurface *
+  Surface::exact_surface(const Face &face) const
+  {
+    return exact ? forest.surface(face.boundary).get() : nullptr;
+  }
+
+
+
+  Point<dim>
+  Surface::position(const SurfaceNode &node, const Vector &u) const
+  {
+    Point<dim> x = node.reference;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] += u(dim * node.node + d);
+    return x;
+  }
+
+
+
+  void
+  Surface::move(const Vector &u)
+  {
+    normals.clear();
+    for (auto *list : {&faces, &ghost_faces})
+      for (Face &face : *list)
+        {
+          const unsigned int p = face.degree;
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            for (unsigned int d = 0; d < dim; ++d)
+              face.displacement[m][d] = u(dim * face.nodes[m] + d);
+          // Normals weighted by the area that the face has around the node.
+          for (unsigned int j = 0; j <= p; ++j)
+            for (unsigned int i = 0; i <= p; ++i)
+              {
+                const FacePoint point = evaluate(face,
+                                                 exact_surface(face),
+                                                 {{2. * i / p - 1., 2. * j / p - 1.}});
+                normals[face.nodes[i + (p + 1) * j]] +=
+                  cross_product_3d(point.tangents[0], point.tangents[1]);
+              }
+        }
+    for (auto &entry : normals)
+      if (entry.second.norm() > 0.)
+        entry.second /= entry.second.norm();
+    for (Face &face : faces)
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        face.normals[m] = normals[face.nodes[m]];
+  }
+} // namespace Touchstone

@@ -1,0 +1,56 @@
+#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/drive/newton.h>
+
+#include <cmath>
+#include <set>
+#include <sstream>
+
+namespace Touchstone
+{
+  Newton::Result
+  Newton::solve(NonlinearProblem &problem, const Observer &observer) const
+  {
+    Result                  result;
+    std::set<std::uint64_t> seen;
+    unsigned int            caution = 0;
+    int                     linear  = 0;
+    NewtonState             state;
+    for (unsigned int iteration = 0; iteration <= parameters.maximum_iterations; ++iteration)
+      {
+        state = problem.residual(caution);
+        if (iteration > 0)
+          observer(iteration, state, linear);
+        if (!std::isfinite(state.residual) || !std::isfinite(state.gap))
+          throw NewtonFailure("the residual is not finite");
+        if (state.changes == 0 && state.prescribed &&
+            state.residual <= parameters.residual_tolerance &&
+            state.gap <= parameters.gap_tolerance)
+          return result;
+        if (iteration == parameters.maximum_iterations)
+          break;
+
+        // A set that was left and comes back would come back for ever. Changing
+        // only the rows that ask most strongly leads elsewhere.
+        if (state.changes > 0)
+          {
+            ++result.contact_changes;
+            if (!seen.insert(state.signature).second)
+              {
+                if (++caution > 2 + parameters.maximum_iterations / 4)
+                  throw ActiveSetCycle("the active set goes in circles: " +
+                                       std::to_string(state.changes) +
+                                       " rows keep changing their state");
+              }
+          }
+        problem.linearize();
+        linear = problem.solve();
+        ++result.solves;
+        problem.update();
+      }
+    std::ostringstream text;
+    text << "no convergence in " << parameters.maximum_iterations
+         << " Newton iterations: residual " << state.residual << ", gap " << state.gap << ", "
+         << state.changes << " contact rows changed";
+    throw NewtonFailure(text.str());
+  }
+} // namespace Touchstone

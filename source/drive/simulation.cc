@@ -1,0 +1,274 @@
+#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/drive/simulation.h>
+#include <touchstone/output/resources.h>
+#include <touchstone/scene/input_error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::shared_ptr<ReferenceSolution>
+    make_reference(const Scene &scene)
+    {
+      if (ReferenceRegistry::records().count(scene.reference.type) == 0)
+        throw InputError("Reference solution",
+                         "Type",
+                         scene.reference.type,
+                         "there is no such reference solution",
+                         "choose one of " + ReferenceRegistry::selection() + ".");
+      return ReferenceRegistry::make(scene.reference.type, scene);
+    }
+
+    /** Names the scene, so that messages know what they talk about. */
+    std::string
+    complete_parameters(const Scene &scene)
+    {
+      std::ostringstream text;
+      scene.print(text);
+      return text.str();
+    }
+  } // namespace
+
+
+
+  Simulation::Simulation(const Scene       &scene,
+                         const std::string &folder_of_scene,
+                         std::ostream      *terminal,
+                         const MPI_Comm     communicator)
+    : scene(scene)
+    , communicator(communicator)
+    , timer(communicator, std::cout, TimerOutput::never, TimerOutput::wall_times)
+    , folder(scene.output.directory, communicator)
+    , log(folder, terminal)
+    , forest(scene, folder_of_scene, communicator)
+    , solid(scene, forest, communicator)
+    , problem(scene, forest, solid, timer)
+    , progress(log, scene.load_stepping.end_time)
+    , statistics(folder)
+    , volume_output(solid, folder)
+    , contact_output(folder)
+    , reference(make_reference(scene))
+  {
+    folder.write_file_atomically("parameters.prm", complete_parameters(scene));
+    summary.title    = scene.title;
+    summary.version  = TOUCHSTONE_VERSION;
+    summary.ranks    = Utilities::MPI::n_mpi_processes(communicator);
+    summary.cells    = forest.triangulation.n_global_active_cells();
+    summary.unknowns = solid.dof_handler.n_dofs();
+  }
+
+
+
+  unsigned int
+  Simulation::solve_step(const double time)
+  {
+    problem.begin_step(time);
+    const Newton         newton(scene.newton);
+    const Newton::Result result = newton.solve(
+      problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
+        progress.iteration(
+          {iteration, state.residual, state.gap, state.active, state.changes, linear});
+      });
+    summary.iterations.newton += result.solves;
+    summary.iterations.contact += result.contact_changes;
+    return result.solves;
+  }
+
+
+
+  void
+  Simulation::write_pictures(const unsigned int step, const double time)
+  {
+    if (last_picture == step)
+      return;
+    TimerOutput::Scope scope(timer, "output");
+    last_picture   = step;
+    const Vector u = problem.ghosted_displacement();
+    volume_output.write(u, step, time);
+    contact_output.write(problem.contact_state().faces(),
+                         problem.contact_state().points(u),
+                         step,
+                         time);
+  }
+
+
+
+  void
+  Simulation::record_step(const unsigned int step,
+                          const double       time,
+                          const double       size,
+                          const unsigned int newton,
+                          const unsigned int cuts)
+  {
+    static_assert(dim == 3, "");
+    const Vector u       = problem.ghosted_displacement();
+    const auto   results = problem.contact_state().results(u);
+    StepRecord   record;
+    record.step              = step;
+    record.time              = time;
+    record.step_size         = size;
+    record.newton_iterations = newton;
+    record.linear_iterations = problem.linear_counts().iterations - summary.iterations.linear_total;
+    record.cuts              = cuts;
+    summary.iterations.linear_total = problem.linear_counts().iterations;
+    for (unsigned int p = 0; p < results.size(); ++p)
+      record.pairs[scene.pairs[p].name] = summary.contact[scene.pairs[p].name] = results[p];
+    summary.reactions.clear();
+    for (const Reaction &reaction : problem.reactions())
+      {
+        record.reactions[reaction.body + "/" + reaction.boundary]  = reaction.force;
+        summary.reactions[reaction.body][reaction.boundary]        = reaction.force;
+      }
+    {
+      TimerOutput::Scope scope(timer, "output");
+      statistics.add_step(record);
+    }
+    const unsigned int interval = scene.output.vtu_interval;
+    if (interval > 0 && step % interval == 0)
+      write_pictures(step, time);
+  }
+
+
+
+  void
+  Simulation::load_stepping()
+  {
+    const LoadSteppingParameters &parameters = scene.load_stepping;
+    const double                  nominal    = parameters.end_time / parameters.steps;
+    double                        time = 0., size = nominal;
+    unsigned int                  step = 1, cuts = 0;
+    while (time < parameters.end_time * (1. - 1e-12))
+      {
+        // The last step ends at the end; no sliver of a step is left over.
+        size              = std::min(size, parameters.end_time - time);
+        const double next = parameters.end_time - time - size < 1e-9 * nominal ?
+                              parameters.end_time :
+                              time + size;
+        const unsigned int expected =
+          step - 1 + static_cast<unsigned int>(std::ceil((parameters.end_time - time) / size - 1e-9));
+        progress.begin_step(step, expected, next);
+        try
+          {
+            const unsigned int newton  = solve_step(next);
+            const std::string  remarks = problem.remarks();
+            if (!remarks.empty())
+              log.line("  " + remarks);
+            problem.commit();
+            time = next;
+            progress.end_step(newton);
+            record_step(step, time, size, newton, cuts);
+            log.check();
+            summary.steps = step;
+            ++step;
+            // Back to the size that the user asked for, step by step.
+            if (cuts > 0)
+              {
+                size *= 2.;
+                --cuts;
+              }
+          }
+        catch (const NonConvergence &failure)
+          {
+            problem.rollback();
+            if (cuts >= parameters.maximum_cuts)
+              {
+                summary.failure = std::string(failure.what()) + " (step " + std::to_string(step) +
+                                  " at time " + std::to_string(next) + ", cut " +
+                                  std::to_string(cuts) + " times)";
+                write_pictures(step - 1, time);
+                return;
+              }
+            ++cuts;
+            size *= 0.5;
+            progress.cut_step(failure.what(), size);
+          }
+      }
+    if (scene.output.vtu_interval > 0)
+      write_pictures(step - 1, time);
+    summary.converged = true;
+  }
+
+
+
+  RunSummary
+  Simulation::run()
+  {
+    log.line("Touchstone " + summary.version + ", deal.II " DEAL_II_PACKAGE_VERSION ": " +
+             summary.title);
+    log.line(std::to_string(summary.cells) + " cells, " + std::to_string(summary.unknowns / dim) +
+             " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
+             std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement + ", " +
+             scene.linear_solver.type);
+    for (const std::string &line : problem.start())
+      log.line(line);
+    load_stepping();
+    finish_summary();
+    {
+      TimerOutput::Scope scope(timer, "output");
+      folder.write_file_atomically("summary.json", summary.to_json().print());
+    }
+    if (!summary.converged)
+      {
+        log.line("The run did not converge: " + summary.failure);
+        log.line("The last converged state is in " + folder.path("solution.pvd") +
+                 ". Try more load steps, a finer mesh at the contact, or another enforcement.");
+      }
+    log.check();
+    return summary;
+  }
+
+
+
+  void
+  Simulation::finish_summary()
+  {
+    if (summary.converged)
+      {
+        const Vector   u = problem.ghosted_displacement();
+        ReferenceInput input;
+        input.solid                      = &solid;
+        input.displacement               = &u;
+        input.points                     = problem.contact_state().points(u);
+        input.pair_results               = problem.contact_state().results(u);
+        input.communicator               = communicator;
+        const ReferenceComparison result = reference->compare(input);
+        summary.errors                   = result.errors;
+        comparison_lines                 = result.lines;
+      }
+    const LinearSolverCounts &counts         = problem.linear_counts();
+    summary.iterations.linear_total          = counts.iterations;
+    summary.iterations.linear_mean           = counts.solves > 0 ? double(counts.iterations) / counts.solves : 0.;
+    summary.counts.assemblies                = problem.n_assemblies();
+    summary.counts.factorisations            = counts.factorisations;
+    summary.counts.preconditioner_setups     = counts.preconditioner_setups;
+    summary.counts.searches                  = problem.contact_state().n_searches();
+
+    auto seconds = timer.get_summary_data(TimerOutput::total_wall_time);
+    summary.seconds.assembly      = seconds["assembly"];
+    summary.seconds.linear_solver = seconds["linear solver"];
+    summary.seconds.search        = seconds["search"];
+    summary.seconds.output        = seconds["output"];
+    summary.seconds.wall          = wall.wall_time();
+    summary.seconds.cpu           = cpu_seconds(communicator);
+    summary.peak_memory_mb        = peak_memory_mb(communicator);
+  }
+
+
+
+  void
+  validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
+  {
+    make_reference(scene);
+    const Forest             forest(scene, folder_of_scene, communicator);
+    const Solid              solid(scene, forest, communicator);
+    const BoundaryConditions boundary_conditions(scene, forest, solid);
+    const Contact            contact(scene, forest, solid);
+  }
+} // namespace Touchstone

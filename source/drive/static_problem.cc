@@ -1,0 +1,264 @@
+#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/drive/static_problem.h>
+#include <touchstone/scene/input_error.h>
+
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  StaticProblem::StaticProblem(const Scene  &scene,
+                               const Forest &forest,
+                               Solid        &solid,
+                               TimerOutput  &timer)
+    : scene(scene)
+    , solid(solid)
+    , timer(timer)
+    , boundary_conditions(scene, forest, solid)
+    , contact(scene, forest, solid)
+    , enforcement(EnforcementRegistry::make(scene.contact.enforcement))
+    , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
+    , hanging(solid.relevant)
+    , u(solid.owned, solid.communicator)
+    , committed_u(u)
+    , external(u)
+    , internal(u)
+    , unbalanced(u)
+    , increment(u)
+  {
+    DoFTools::make_hanging_node_constraints(solid.dof_handler, hanging);
+    hanging.close();
+    {
+      TimerOutput::Scope scope(timer, "assembly");
+      solid.assemble();
+      ++assemblies;
+    }
+    modes  = std::make_unique<RigidBodyModes>(scene, solid);
+    length = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
+    length = Utilities::MPI::min(length, solid.communicator);
+  }
+
+
+
+  std::vector<std::string>
+  StaticProblem::start()
+  {
+    TimerOutput::Scope scope(timer, "search");
+    contact.update(u, 0.);
+    contact.commit();
+    return contact.start_report();
+  }
+
+
+
+  void
+  StaticProblem::begin_step(const double t)
+  {
+    time = t;
+    boundary_conditions.external_force(time, external);
+    stabilised.clear();
+  }
+
+
+
+  void
+  StaticProblem::commit()
+  {
+    committed_u = u;
+    contact.commit();
+  }
+
+
+
+  void
+  StaticProblem::rollback()
+  {
+    u = committed_u;
+    contact.rollback();
+  }
+
+
+
+  NewtonState
+  StaticProblem::residual(const unsigned int caution)
+  {
+    {
+      TimerOutput::Scope scope(timer, "search");
+      contact.update(u, time);
+    }
+    NewtonState state;
+    graph.clear();
+    state.prescribed =
+      boundary_conditions.prescribe(time, u, graph) <= scene.newton.gap_tolerance * length;
+    {
+      TimerOutput::Scope scope(timer, "assembly");
+      solid.internal_force(u, internal);
+    }
+    Vector without_contact(external);
+    without_contact -= internal;
+    enforcement->recover(contact, without_contact, graph);
+
+    Vector contact_force(solid.owned, solid.communicator);
+    contact.add_forces(contact_force);
+    unbalanced = without_contact;
+    unbalanced += contact_force;
+
+    // Only what supports do not carry is out of balance.
+    Vector free(unbalanced);
+    hanging.set_zero(free);
+    for (Index k = 0; k < solid.owned.n_elements() / dim; ++k)
+      {
+        const Index    node = solid.owned.nth_index_in_set(dim * k) / dim;
+        Tensor<1, dim> force;
+        for (unsigned int d = 0; d < dim; ++d)
+          force[d] = free.begin()[dim * k + d];
+        force = graph.free_part(node, force);
+        for (unsigned int d = 0; d < dim; ++d)
+          free.begin()[dim * k + d] = force[d];
+      }
+    const double scale =
+      std::max({internal.l2_norm(), external.l2_norm(), contact_force.l2_norm()});
+    state.residual = scale > 0. ? free.l2_norm() / scale : 0.;
+
+    const Contact::ActiveSetUpdate set =
+      contact.update_active_set(scene.newton.gap_tolerance, caution);
+    state.gap       = set.gap;
+    state.active    = set.active;
+    state.changes   = set.changes;
+    state.signature = set.signature;
+    return state;
+  }
+
+
+
+  void
+  StaticProblem::linearize()
+  {
+    TimerOutput::Scope scope(timer, "assembly");
+    system            = std::make_unique<LinearSystem>();
+    system->stiffness = &solid.stiffness();
+    system->rhs.reinit(solid.owned, solid.communicator);
+    system->rhs = external;
+    system->rhs -= internal;
+    system->first_extra = system->rhs.size();
+    enforcement->enforce(contact, graph, *system);
+    check_supports();
+    system->constraints =
+      graph.constraints(hanging, solid.owned, solid.relevant, solid.communicator);
+    condensed = std::make_unique<CondensedSystem>(*system);
+  }
+
+
+
+  void
+  StaticProblem::check_supports()
+  {
+    const FreeMotion motion = modes->free_motion(graph.accepted());
+    if (motion.n_modes == 0)
+      return;
+    for (const unsigned int body : motion.bodies)
+      {
+        const std::string &name  = scene.bodies[body].name;
+        bool               meets = false;
+        for (const ContactPairParameters &pair : scene.pairs)
+          meets = meets || pair.slave_body == name || pair.master_body == name;
+        if (!meets)
+          throw InputError("Body " + name,
+                           "Fixed",
+                           "",
+                           "nothing holds the bodies in place: " + motion.description,
+                           "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
+                           "contact pair.");
+      }
+
+    // Not farther than the nearest gap, so that contact can catch the body.
+    double distance = std::numeric_limits<double>::max();
+    double size     = 0.;
+    for (const auto &rows : contact.rows)
+      for (const ContactRow &row : rows)
+        if (row.status != ContactStatus::no_partner)
+          {
+            size = std::max(size, row.size);
+            if (!row.active() && row.gap > 0.)
+              distance = std::min(distance, row.gap);
+          }
+    distance = Utilities::MPI::min(distance, solid.communicator);
+    size     = Utilities::MPI::max(size, solid.communicator);
+    if (size == 0.)
+      size = length;
+    distance = std::clamp(1.01 * distance, 1e-3 * size, size);
+    system->diagonal_shift = modes->stabilisation(motion, unbalanced, distance);
+    stabilised             = motion.description;
+  }
+
+
+
+  int
+  StaticProblem::solve()
+  {
+    TimerOutput::Scope scope(timer, "linear solver");
+    const unsigned int before = solver->counts().iterations;
+    Epetra_Vector      solution(condensed->matrix->RowMap());
+    solver->solve(*condensed, modes->columns(), solution);
+    const Index n = solid.owned.n_elements();
+    std::copy(solution.Values(), solution.Values() + n, increment.begin());
+    extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
+    system->constraints.distribute(increment);
+    condensed.reset();
+    const unsigned int iterations = solver->counts().iterations - before;
+    return iterations == 0 ? -1 : static_cast<int>(iterations);
+  }
+
+
+
+  void
+  StaticProblem::update()
+  {
+    u += increment;
+    enforcement->update(contact, extra);
+  }
+
+
+
+  Vector
+  StaticProblem::ghosted_displacement() const
+  {
+    Vector result(solid.owned, solid.relevant, solid.communicator);
+    result = u;
+    return result;
+  }
+
+
+
+  std::vector<Reaction>
+  StaticProblem::reactions() const
+  {
+    // What the supports must add for the nodes to be in balance.
+    Vector support(unbalanced);
+    support *= -1.;
+    return boundary_conditions.reactions(support);
+  }
+
+
+
+  std::string
+  StaticProblem::remarks() const
+  {
+    std::string  text;
+    unsigned int dropped = 0;
+    for (const auto &rows : contact.rows)
+      for (const ContactRow &row : rows)
+        dropped += (row.active() && row.refused > 0);
+    dropped = Utilities::MPI::sum(dropped, solid.communicator);
+    if (dropped > 0)
+      text = std::to_string(dropped) +
+             " contact row(s) dropped: prescribed displacements or other pairs decide there";
+    if (!stabilised.empty())
+      text += std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
+    return text;
+  }
+} // namespace Touchstone

@@ -1,0 +1,93 @@
+#include <touchstone/drive/simulation.h>
+#include <touchstone/scene/command_line.h>
+#include <touchstone/scene/input_error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
+#include <iostream>
+
+namespace
+{
+  using namespace Touchstone;
+
+  /** Exit codes besides 0, which means that every step converged. */
+  enum ExitCode
+  {
+    bad_input     = 1,
+    not_converged = 2,
+    no_output     = 3
+  };
+
+  int
+  run(const int argc, char **argv, const MPI_Comm communicator)
+  {
+    const bool        first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+    const CommandLine line  = CommandLine::parse(argc, argv);
+    if (line.help || line.version)
+      {
+        if (first)
+          std::cout << (line.help ? CommandLine::usage() : "Touchstone " TOUCHSTONE_VERSION "\n");
+        return 0;
+      }
+    const Scene       scene(read_scene_file(line.scene_file), line.scene_file, line.overrides);
+    const std::string folder = std::filesystem::path(line.scene_file).parent_path().string();
+    if (line.print_parameters)
+      {
+        if (first)
+          scene.print(std::cout);
+        return 0;
+      }
+    if (line.validate)
+      {
+        validate(scene, folder, communicator);
+        if (first)
+          std::cout << line.scene_file << ": valid\n";
+        return 0;
+      }
+
+    Simulation simulation(scene, folder, line.results_only ? nullptr : &std::cout, communicator);
+    const RunSummary summary = simulation.run();
+    if (first)
+      {
+        summary.print_results(std::cout);
+        if (!line.results_only)
+          {
+            for (const std::string &text : simulation.comparison())
+              std::cout << text << '\n';
+            std::cout << "Wall time " << readable_duration(summary.seconds.wall)
+                      << ". Results in " << scene.output.directory
+                      << ": solution.pvd, contact.pvd, statistics, summary.json\n";
+          }
+        if (!summary.converged)
+          std::cerr << "Not converged: " << summary.failure << '\n';
+      }
+    return summary.converged ? 0 : not_converged;
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const MPI_Comm                           communicator = MPI_COMM_WORLD;
+  const bool first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  try
+    {
+      return run(argc, argv, communicator);
+    }
+  catch (const InputError &error)
+    {
+      if (first)
+        std::cerr << error.what() << '\n';
+      return bad_input;
+    }
+  catch (const OutputError &error)
+    {
+      if (first)
+        std::cerr << error.what() << '\n';
+      return no_output;
+    }
+}

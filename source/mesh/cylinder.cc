@@ -1,0 +1,146 @@
+#include <touchstone/mesh/axes.h>
+#include <touchstone/mesh/body_mesh.h>
+#include <touchstone/mesh/round_lattice.h>
+#include <touchstone/scene/input_error.h>
+
+#include <deal.II/grid/manifold_lib.h>
+
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** @brief A solid cylinder, or the half or quarter of one. */
+    class Cylinder : public Geometry
+    {
+    public:
+      void     declare(ParameterHandler &prm) override;
+      void     check(const std::string &section) const override;
+      BodyMesh create(double factor, const std::string &, const std::string &) const override;
+
+    private:
+      enum : types::boundary_id
+      {
+        side,
+        start_face,
+        end_face,
+        first_cut,
+        second_cut
+      };
+
+      std::string axis = "z", part = "full";
+      Point<3>    origin;
+      double      start = 0., end = 1., radius = 1.;
+
+      std::vector<unsigned int> cells = {2, 2, 2};
+    };
+
+
+
+    void Cylinder::declare(ParameterHandler &prm)
+    {
+      prm.add_parameter("Axis",
+                        axis,
+                        "Direction of the axis: x, y or z.",
+                        Patterns::Selection("x|y|z"));
+      prm.add_parameter("Origin",
+                        origin,
+                        "Point of the axis from which positions along it are measured; "
+                        "x, y, z; length.");
+      prm.add_parameter("Start", start, "Where it starts along the axis; length.");
+      prm.add_parameter("End", end, "Where it ends along the axis; length.");
+      prm.add_parameter("Radius", radius, "Radius; length.", Patterns::Double(0.));
+      prm.add_parameter("Part",
+                        part,
+                        "The full cylinder, the half between the angles 0 and 180 degrees, "
+                        "or the quarter between 0 and 90 degrees, where angles go from y to "
+                        "z for axis x, from z to x for axis y, from x to y for axis z.",
+                        Patterns::Selection("full|half|quarter"));
+      prm.add_parameter("Cells",
+                        cells,
+                        "Number of cells from the axis to the side of the square core, "
+                        "which is about half of the radius, from there to the surface, and "
+                        "along the axis. A quarter of the circumference has twice the "
+                        "first number of cells.",
+                        Patterns::List(Patterns::Integer(1), 3, 3));
+    }
+
+
+
+    void Cylinder::check(const std::string &section) const
+    {
+      if (!(end > start))
+        throw InputError(section,
+                         "End",
+                         Patterns::Tools::to_string(end),
+                         "the cylinder ends before it starts",
+                         "make it larger than 'Start' (" + Patterns::Tools::to_string(start) + ")");
+      if (!(radius > 0.))
+        throw InputError(section,
+                         "Radius",
+                         Patterns::Tools::to_string(radius),
+                         "a cylinder needs a positive radius",
+                         "give the radius as a length");
+    }
+
+
+
+    BodyMesh Cylinder::create(const double factor, const std::string &, const std::string &) const
+    {
+      const std::vector<std::string> keep = {part == "quarter" ? "+" : "both",
+                                             part == "full" ? "both" : "+"};
+      const RoundLattice lattice(2,
+                                 keep,
+                                 scaled_cells(cells[0], factor),
+                                 scaled_cells(cells[1], factor),
+                                 scaled_cells(cells[2], factor));
+      const Axes         axes(axis, origin);
+
+      BodyMesh mesh;
+      mesh.cells = lattice.cells;
+      for (const Tensor<1, 3> &x : lattice.points)
+        mesh.vertices.push_back(
+          axes.point(radius * x[0], radius * x[1], start * (1. - x[2]) + end * x[2]));
+
+      add_boundary_faces(mesh, [&](const FaceVertices &face) {
+        const auto all = [&](const unsigned int d, const double value) {
+          for (const unsigned int v : face)
+            if (lattice.points[v][d] != value)
+              return false;
+          return true;
+        };
+        const auto flat = [](const types::boundary_id id) {
+          return std::make_pair(id, numbers::flat_manifold_id);
+        };
+        if (all(2, 0.))
+          return flat(start_face);
+        if (all(2, 1.))
+          return flat(end_face);
+        if (keep[1] == "+" && all(1, 0.))
+          return flat(first_cut);
+        if (keep[0] == "+" && all(0, 0.))
+          return flat(second_cut);
+        return std::make_pair<types::boundary_id, types::manifold_id>(side, 0);
+      });
+
+      mesh.boundary_names = {{"side", side}, {"start", start_face}, {"end", end_face}};
+      if (part != "full")
+        mesh.boundary_names["first cut"] = first_cut;
+      if (part == "quarter")
+        mesh.boundary_names["second cut"] = second_cut;
+
+      mesh.manifolds[0]   = std::make_shared<CylindricalManifold<3>>(axes.direction(), origin);
+      mesh.surfaces[side] = make_cone(origin, axes.direction(), radius, 0., true);
+      return mesh;
+    }
+
+    const GeometryRegistry::Entry<Cylinder>
+      entry("cylinder",
+            "A solid cylinder, or the half or quarter of one, with the boundaries side, start, "
+            "end, and where it is cut first cut (angle 0, for the half also 180 degrees) and "
+            "second cut (90 degrees).");
+  } // namespace
+} // namespace Touchstone

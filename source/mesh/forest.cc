@@ -1,0 +1,145 @@
+#include <touchstone/mesh/body_mesh.h>
+#include <touchstone/mesh/forest.h>
+#include <touchstone/scene/input_error.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Refuse cells that would make the stiffness meaningless. */
+    void check_cells(const BodyMesh &mesh, const std::string &section)
+    {
+      const Orientation cells = orientation(mesh);
+      if (cells.negative + cells.distorted > 0)
+        throw InputError(section,
+                         "",
+                         "",
+                         std::to_string(cells.negative + cells.distorted) + " of " +
+                           std::to_string(mesh.cells.size()) + " cells are inverted or distorted",
+                         "use more cells, or a geometry with blunter corners");
+    }
+
+
+
+    /** Append @p body to @p all with ids that are not in use there yet.
+     * @return Boundary ids of the body's own ones. */
+    std::map<types::boundary_id, types::boundary_id>
+    append(const BodyMesh &body, const unsigned int number, BodyMesh &all)
+    {
+      const unsigned int       first_vertex   = all.vertices.size();
+      const types::manifold_id first_manifold = all.manifolds.size();
+      types::boundary_id       next_boundary  = 0;
+      for (const CellData<2> &face : all.subcells.boundary_quads)
+        next_boundary = std::max(next_boundary, face.boundary_id + 1);
+
+      std::map<types::manifold_id, types::manifold_id> manifold_ids;
+      for (const auto &[id, manifold] : body.manifolds)
+      {
+        manifold_ids[id]                = first_manifold + manifold_ids.size();
+        all.manifolds[manifold_ids[id]] = manifold;
+      }
+      manifold_ids[numbers::flat_manifold_id] = numbers::flat_manifold_id;
+
+      std::map<types::boundary_id, types::boundary_id> boundary_ids;
+      for (const CellData<2> &face : body.subcells.boundary_quads)
+        boundary_ids[face.boundary_id] = 0;
+      for (auto &[own, id] : boundary_ids)
+        id = next_boundary++;
+
+      all.vertices.insert(all.vertices.end(), body.vertices.begin(), body.vertices.end());
+      for (CellData<3> cell : body.cells)
+      {
+        for (unsigned int &v : cell.vertices)
+          v += first_vertex;
+        cell.material_id = number;
+        cell.manifold_id = manifold_ids.at(cell.manifold_id);
+        all.cells.push_back(cell);
+      }
+      for (CellData<2> face : body.subcells.boundary_quads)
+      {
+        for (unsigned int &v : face.vertices)
+          v += first_vertex;
+        face.boundary_id = boundary_ids.at(face.boundary_id);
+        face.manifold_id = manifold_ids.at(face.manifold_id);
+        all.subcells.boundary_quads.push_back(face);
+      }
+      return boundary_ids;
+    }
+  } // namespace
+
+
+
+  Forest::Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator)
+    : triangulation(communicator,
+                    Triangulation<dim>::MeshSmoothing(
+                      Triangulation<dim>::limit_level_difference_at_vertices))
+  {
+    // Whole powers of two are left to the manifolds, which refine any mesh.
+    double       factor      = scene.discretisation.refinement_factor;
+    unsigned int refinements = 0;
+    for (; factor >= 2.; factor /= 2.)
+      ++refinements;
+
+    BodyMesh all;
+    for (unsigned int body = 0; body < scene.bodies.size(); ++body)
+    {
+      const BodyParameters &parameters = scene.bodies[body];
+      const std::string     section    = "Body " + parameters.name + "/Geometry";
+
+      const BodyMesh mesh = parameters.geometry->create(factor, section, scene_folder);
+      check_cells(mesh, section);
+      const auto ids = append(mesh, body, all);
+
+      names.emplace_back();
+      for (const auto &[own, id] : ids)
+        names.back()[std::to_string(own)] = id;
+      for (const auto &[name, own] : mesh.boundary_names)
+        if (ids.count(own) > 0)
+          names.back()[name] = ids.at(own);
+      for (const auto &[own, surface] : mesh.surfaces)
+        if (ids.count(own) > 0)
+          surfaces[ids.at(own)] = surface;
+    }
+
+    create_triangulation(all, triangulation);
+    triangulation.refine_global(refinements);
+  }
+
+
+
+  unsigned int Forest::n_bodies() const
+  {
+    return names.size();
+  }
+
+
+
+  types::boundary_id Forest::boundary_id(const unsigned int body,
+                                         const std::string &name,
+                                         const std::string &section,
+                                         const std::string &key) const
+  {
+    const auto found = names[body].find(name);
+    if (found != names[body].end())
+      return found->second;
+
+    std::string available;
+    for (const auto &[other, id] : names[body])
+      available += (available.empty() ? "'" : ", '") + other + "'";
+    throw InputError(section,
+                     key,
+                     name,
+                     "the body has no boundary of this name or number",
+                     "it has " + available + ".");
+  }
+
+
+
+  std::shared_ptr<const AnalyticSurface> Forest::surface(const types::boundary_id id) const
+  {
+    const auto found = surfaces.find(id);
+    return found != surfaces.end() ? found->second : nullptr;
+  }
+} // namespace Touchstone

@@ -1,0 +1,287 @@
+#include <touchstone/mesh/mesh_file.h>
+
+#include <algorithm>
+#include <istream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string upper(std::string text)
+    {
+      std::transform(text.begin(), text.end(), text.begin(), ::toupper);
+      return text;
+    }
+
+    /** The parts of a line between commas, without blanks around them. */
+    std::vector<std::string> split(const std::string &line)
+    {
+      std::vector<std::string> words;
+      std::istringstream       in(line);
+      for (std::string word; std::getline(in, word, ',');)
+      {
+        const auto first = word.find_first_not_of(" \t\r"), last = word.find_last_not_of(" \t\r");
+        words.push_back(first == std::string::npos ? "" : word.substr(first, last - first + 1));
+      }
+      while (!words.empty() && words.back().empty())
+        words.pop_back();
+      return words;
+    }
+
+    unsigned long number(const std::string &word)
+    {
+      std::size_t   end   = 0;
+      unsigned long value = 0;
+      try
+      {
+        value = std::stoul(word, &end);
+      }
+      catch (const std::exception &)
+      {}
+      if (word.empty() || end != word.size())
+        throw std::runtime_error("'" + word + "' stands where a whole number should.");
+      return value;
+    }
+
+    double coordinate(const std::string &word)
+    {
+      std::size_t end   = 0;
+      double      value = 0.;
+      try
+      {
+        value = std::stod(word, &end);
+      }
+      catch (const std::exception &)
+      {}
+      if (word.empty() || end != word.size())
+        throw std::runtime_error("'" + word + "' stands where a coordinate should.");
+      return value;
+    }
+
+
+
+    /** Reads line by line and remembers the keyword line that rules. */
+    class AbaqusReader
+    {
+    public:
+      MeshFile read(std::istream &in);
+
+    private:
+      MeshFile mesh;
+      /** The keyword and its parameters, in capitals; values as written. */
+      std::string                        keyword;
+      std::map<std::string, std::string> parameters;
+      /** Numbers of an element whose line goes on. */
+      std::vector<unsigned long> pending;
+
+      std::map<unsigned long, unsigned int> node;
+      /** Cells and faces by the number of the element. */
+      std::map<unsigned long, unsigned int> cell, face;
+      /** Numbers of the elements of each ELSET. */
+      std::map<std::string, std::vector<unsigned long>> sets;
+      /** In the order of the file, for the sets' numbers. */
+      std::vector<std::string> set_names;
+
+      void read_keyword(const std::string &line);
+      void read_element(const std::vector<std::string> &words);
+      void add_to_set(const std::string &name, unsigned long element);
+      void read_set(const std::vector<std::string> &words);
+      void read_surface(const std::vector<std::string> &words);
+    };
+
+
+
+    MeshFile AbaqusReader::read(std::istream &in)
+    {
+      for (std::string line; std::getline(in, line);)
+      {
+        const std::vector<std::string> words = split(line);
+        if (words.empty() || line.compare(0, 2, "**") == 0)
+          continue;
+        if (line[0] == '*')
+          read_keyword(line);
+        else if (keyword == "*NODE")
+        {
+          if (words.size() < 4)
+            throw std::runtime_error("The file ends, or is damaged, in *NODE.");
+          if (!node.insert({number(words[0]), mesh.vertices.size()}).second)
+            throw std::runtime_error("Node " + words[0] +
+                                     " appears twice; save the model as one flat input "
+                                     "without parts and instances.");
+          mesh.vertices.emplace_back(coordinate(words[1]),
+                                     coordinate(words[2]),
+                                     coordinate(words[3]));
+        }
+        else if (keyword == "*ELEMENT")
+          read_element(words);
+        else if (keyword == "*ELSET")
+          read_set(words);
+        else if (keyword == "*SURFACE")
+          read_surface(words);
+      }
+      if (!pending.empty())
+        throw std::runtime_error("The file ends, or is damaged, in *ELEMENT.");
+
+      for (const std::string &name : set_names)
+        for (const auto &[groups, elements] :
+             {std::make_pair(&mesh.volumes, &cell), std::make_pair(&mesh.surfaces, &face)})
+        {
+          MeshFile::Group group{static_cast<unsigned int>(groups->size() + 1), name, {}};
+          for (const unsigned long element : sets[name])
+            if (const auto found = elements->find(element); found != elements->end())
+              group.members.push_back(found->second);
+          if (!group.members.empty())
+            groups->push_back(group);
+        }
+      return std::move(mesh);
+    }
+
+
+
+    void AbaqusReader::read_keyword(const std::string &line)
+    {
+      if (!pending.empty())
+        throw std::runtime_error("The file is damaged in *ELEMENT.");
+      const std::vector<std::string> words = split(line);
+      keyword                              = upper(words[0]);
+      parameters.clear();
+      for (unsigned int i = 1; i < words.size(); ++i)
+      {
+        const auto equals = words[i].find('=');
+        const bool has    = equals != std::string::npos;
+        const auto name   = split(words[i].substr(0, equals));
+        const auto value  = split(has ? words[i].substr(equals + 1) : "");
+        if (!name.empty())
+          parameters[upper(name[0])] = value.empty() ? "" : value[0];
+      }
+    }
+
+
+
+    void AbaqusReader::read_element(const std::vector<std::string> &words)
+    {
+      const std::string type    = upper(parameters["TYPE"]);
+      const bool        is_cell = type.compare(0, 4, "C3D8") == 0;
+      const bool is_face = type.compare(0, 2, "S4") == 0 || type.compare(0, 4, "CPS4") == 0 ||
+                           type.compare(0, 4, "CPE4") == 0 || type.compare(0, 4, "M3D4") == 0 ||
+                           type.compare(0, 6, "SFM3D4") == 0;
+      if (!is_cell && !is_face)
+      {
+        if (type.compare(0, 3, "C3D") == 0)
+          throw std::runtime_error("It has elements of type " + type + ".");
+        return; // beams, springs and the like
+      }
+
+      for (const std::string &word : words)
+        pending.push_back(number(word));
+      const unsigned int n = is_cell ? 8 : 4;
+      if (pending.size() < n + 1)
+        return;
+      if (pending.size() > n + 1)
+        throw std::runtime_error("Element " + std::to_string(pending[0]) + " of type " + type +
+                                 " has too many nodes.");
+
+      std::vector<unsigned int> v;
+      for (unsigned int i = 1; i <= n; ++i)
+      {
+        const auto found = node.find(pending[i]);
+        if (found == node.end())
+          throw std::runtime_error("Element " + std::to_string(pending[0]) + " uses node " +
+                                   std::to_string(pending[i]) + ", which the file does not have.");
+        v.push_back(found->second);
+      }
+      if (is_cell)
+      {
+        cell[pending[0]] = mesh.cells.size();
+        mesh.add_cell(v);
+      }
+      else
+      {
+        face[pending[0]] = mesh.faces.size();
+        mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
+      }
+      if (parameters.count("ELSET") > 0)
+        add_to_set(parameters["ELSET"], pending[0]);
+      pending.clear();
+    }
+
+
+
+    void AbaqusReader::add_to_set(const std::string &name, const unsigned long element)
+    {
+      if (sets.count(name) == 0)
+        set_names.push_back(name);
+      sets[name].push_back(element);
+    }
+
+
+
+    void AbaqusReader::read_set(const std::vector<std::string> &words)
+    {
+      const std::string name = parameters["ELSET"];
+      if (parameters.count("GENERATE") > 0)
+      {
+        if (words.size() < 2)
+          throw std::runtime_error("The file ends, or is damaged, in *ELSET.");
+        const unsigned long step = words.size() > 2 ? number(words[2]) : 1;
+        for (unsigned long e = number(words[0]); e <= number(words[1]) && step > 0; e += step)
+          add_to_set(name, e);
+        return;
+      }
+      for (const std::string &word : words)
+        if (std::isdigit(word[0]))
+          add_to_set(name, number(word));
+        else
+          for (const unsigned long e : std::vector<unsigned long>(sets[word]))
+            add_to_set(name, e);
+    }
+
+
+
+    void AbaqusReader::read_surface(const std::vector<std::string> &words)
+    {
+      // Vertices of the faces S1 to S6, in the order of mesh.cells.
+      static const unsigned int face_vertices[6][4] = {
+        {0, 1, 3, 2}, {4, 5, 7, 6}, {0, 4, 5, 1}, {1, 5, 7, 3}, {3, 7, 6, 2}, {2, 6, 4, 0}};
+      const std::string face_name = words.size() > 1 ? upper(words[1]) : "";
+      if (face_name.size() != 2 || face_name[0] != 'S' || face_name[1] < '1' || face_name[1] > '6')
+        return; // node-based surfaces and shell sides
+
+      std::vector<unsigned long> elements;
+      if (std::isdigit(words[0][0]))
+        elements.push_back(number(words[0]));
+      else
+        elements = sets[words[0]];
+
+      const std::string name = parameters["NAME"];
+      auto group = std::find_if(mesh.surfaces.begin(), mesh.surfaces.end(), [&](auto &g) {
+        return g.name == name;
+      });
+      if (group == mesh.surfaces.end())
+        group =
+          mesh.surfaces.insert(group,
+                               {static_cast<unsigned int>(mesh.surfaces.size() + 1), name, {}});
+      for (const unsigned long element : elements)
+        if (const auto found = cell.find(element); found != cell.end())
+        {
+          group->members.push_back(mesh.faces.size());
+          mesh.faces.emplace_back();
+          for (unsigned int v = 0; v < 4; ++v)
+            mesh.faces.back()[v] =
+              mesh.cells[found->second].vertices[face_vertices[face_name[1] - '1'][v]];
+        }
+    }
+  } // namespace
+
+
+
+  MeshFile read_abaqus(std::istream &in)
+  {
+    return AbaqusReader().read(in);
+  }
+} // namespace Touchstone

@@ -1,0 +1,55 @@
+#include <touchstone/output/log.h>
+
+#include <cerrno>
+#include <cstring>
+#include <ostream>
+
+namespace Touchstone
+{
+  namespace
+  {
+    const char *const remedy =
+      "Check the folder and the space on its disk, or choose another one with --output DIR.";
+  }
+
+
+
+  Log::Log(const OutputFolder &folder, std::ostream *terminal)
+    : folder(folder)
+    , terminal(terminal)
+  {
+    folder.together([this]() {
+      if (this->folder.rank != 0)
+        return;
+      const std::string path = this->folder.path("log");
+      errno                  = 0;
+      file.open(path);
+      if (!file)
+        throw OutputError(path, std::strerror(errno), remedy);
+    });
+  }
+
+
+
+  void
+  Log::line(const std::string &text)
+  {
+    if (folder.rank != 0)
+      return;
+    if (terminal != nullptr)
+      *terminal << text << std::endl;
+    // Flushed line by line: the log must tell of a run that died.
+    file << text << std::endl;
+  }
+
+
+
+  void
+  Log::check()
+  {
+    folder.together([this]() {
+      if (folder.rank == 0 && !file)
+        throw OutputError(folder.path("log"), "a write failed", remedy);
+    });
+  }
+} // namespace Touchstone

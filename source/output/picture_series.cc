@@ -1,0 +1,53 @@
+#include <touchstone/output/picture_series.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace Touchstone
+{
+  PictureSeries::PictureSeries(const OutputFolder &folder, const std::string &name)
+    : folder(folder)
+    , name(name)
+  {
+  }
+
+
+
+  std::string
+  PictureSeries::stem(const unsigned int step) const
+  {
+    return name + "_" + dealii::Utilities::int_to_string(step, 4);
+  }
+
+
+
+  std::vector<std::string>
+  PictureSeries::piece_names(const unsigned int step) const
+  {
+    std::vector<std::string> names;
+    for (unsigned int rank = 0; rank < folder.n_ranks; ++rank)
+      names.push_back(stem(step) + "." + std::to_string(rank) + ".vtu");
+    return names;
+  }
+
+
+
+  void
+  PictureSeries::write(const std::string &piece,
+                       const std::string &record,
+                       const unsigned int step,
+                       const double       time)
+  {
+    const bool        serial  = (folder.n_ranks == 1);
+    const std::string picture = stem(step) + (serial ? ".vtu" : ".pvtu");
+
+    folder.write_pieces_atomically(serial ? picture : piece_names(step)[folder.rank], piece);
+    if (!serial)
+      folder.write_file_atomically(picture, record);
+
+    // The list comes last: it only names pictures that exist.
+    times_and_names.emplace_back(time, picture);
+    std::ostringstream list;
+    dealii::DataOutBase::write_pvd_record(list, times_and_names);
+    folder.write_file_atomically(name + ".pvd", list.str());
+  }
+} // namespace Touchstone

@@ -1,0 +1,96 @@
+#include <touchstone/output/progress.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** A number as C's printf gives it. */
+    template <class... Arguments>
+    std::string
+    format(const char *pattern, const Arguments... arguments)
+    {
+      char buffer[256];
+      std::snprintf(buffer, sizeof(buffer), pattern, arguments...);
+      return buffer;
+    }
+  } // namespace
+
+
+
+  std::string
+  readable_duration(const double seconds)
+  {
+    if (seconds < 59.95)
+      return format("%.1f s", seconds);
+    const long whole = std::lround(seconds);
+    if (whole < 3600)
+      return format("%ld min %02ld s", whole / 60, whole % 60);
+    return format("%ld h %02ld min", whole / 3600, (whole % 3600) / 60);
+  }
+
+
+
+  Progress::Progress(Log &log, const double end_time)
+    : log(log)
+    , end_time(end_time)
+    , time(0.)
+    , header_due(false)
+  {
+  }
+
+
+
+  void
+  Progress::begin_step(const unsigned int step, const unsigned int steps, const double time)
+  {
+    this->time = time;
+    header_due = true;
+    log.line();
+    log.line(format("Step %u/%u   t = %g", step, steps, time));
+  }
+
+
+
+  void
+  Progress::iteration(const IterationRecord &record)
+  {
+    if (header_due)
+      log.line("  iteration   residual        gap   active  changes   linear");
+    header_due = false;
+    log.line(format("  %9u   %8.2e   %8.2e %8u %8u %8s",
+                    record.iteration,
+                    record.residual,
+                    record.gap,
+                    record.active,
+                    record.changes,
+                    record.linear_iterations < 0
+                      ? "direct"
+                      : std::to_string(record.linear_iterations).c_str()));
+  }
+
+
+
+  void
+  Progress::end_step(const unsigned int newton_iterations)
+  {
+    const double elapsed = timer.wall_time();
+    std::string  text =
+      format("  converged in %u iterations, ", newton_iterations) + readable_duration(elapsed);
+    if (time < end_time && time > 0.)
+      text += ", about " + readable_duration(elapsed * (end_time - time) / time) + " left";
+    log.line(text);
+  }
+
+
+
+  void
+  Progress::cut_step(const std::string &reason, const double step_size)
+  {
+    log.line("  not converged: " + reason);
+    log.line(format("  trying again with a step of %g", step_size));
+    header_due = true;
+  }
+} // namespace Touchstone

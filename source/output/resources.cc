@@ -1,0 +1,29 @@
+#include <touchstone/output/resources.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <sys/resource.h>
+
+namespace Touchstone
+{
+  double
+  cpu_seconds(const MPI_Comm communicator)
+  {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval &t) { return t.tv_sec + 1e-6 * t.tv_usec; };
+    return dealii::Utilities::MPI::sum(seconds(usage.ru_utime) + seconds(usage.ru_stime),
+                                       communicator);
+  }
+
+
+
+  double
+  peak_memory_mb(const MPI_Comm communicator)
+  {
+    dealii::Utilities::System::MemoryStats stats;
+    dealii::Utilities::System::get_memory_stats(stats);
+    // The kernel's kB are 1024 bytes.
+    return dealii::Utilities::MPI::sum(1024e-6 * stats.VmHWM, communicator);
+  }
+} // namespace Touchstone

@@ -1,0 +1,161 @@
+#include <touchstone/output/summary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+#include <sstream>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** Relative size of what is taken for round-off. */
+    constexpr double round_off = 1e-9;
+    /** Solutions count as converged with penetrations of this fraction of a face;
+     * the figure itself is then chance. */
+    constexpr double gap_round_off = 1e-8;
+
+    double
+    largest_component(const dealii::Tensor<1, dim> &value)
+    {
+      return std::max({std::abs(value[0]), std::abs(value[1]), std::abs(value[2])});
+    }
+
+
+
+    /** Round to multiples of about round_off * scale, so that small components
+     * do not show the digits in which two solvers differ, and print six digits. */
+    std::string
+    rounded(double value, const double scale, const double tolerance = round_off)
+    {
+      if (!std::isfinite(value))
+        return "none";
+      if (scale > 0.)
+        {
+          const double quantum = tolerance * std::pow(10., std::ceil(std::log10(scale)));
+          value                = std::round(value / quantum) * quantum;
+        }
+      std::ostringstream out;
+      out.imbue(std::locale::classic());
+      // Adding zero turns -0 into 0.
+      out << std::setprecision(6) << value + 0.;
+      return out.str();
+    }
+
+
+
+    std::string
+    rounded(const dealii::Tensor<1, dim> &value, const double scale)
+    {
+      std::ostringstream out;
+      for (unsigned int d = 0; d < dim; ++d)
+        out << ' ' << std::setw(12) << rounded(value[d], scale);
+      return out.str();
+    }
+  } // namespace
+
+
+
+  Json
+  RunSummary::to_json() const
+  {
+    Json pairs = Json::object();
+    for (const auto &[name, result] : contact)
+      pairs.set(name,
+                Json::object()
+                  .set("force", result.force)
+                  .set("moment", result.moment)
+                  .set("area", result.area)
+                  .set("max_pressure", result.max_pressure)
+                  .set("max_penetration", result.max_penetration)
+                  .set("active", result.active));
+
+    Json bodies = Json::object();
+    for (const auto &[body, boundaries] : reactions)
+      {
+        Json forces = Json::object();
+        for (const auto &[boundary, force] : boundaries)
+          forces.set(boundary, force);
+        bodies.set(body, forces);
+      }
+
+    Json relative_errors = Json::object();
+    for (const auto &[name, error] : errors)
+      relative_errors.set(name, error);
+
+    return Json::object()
+      .set("title", title)
+      .set("version", version)
+      .set("converged", converged)
+      .set("ranks", ranks)
+      .set("cells", cells)
+      .set("unknowns", unknowns)
+      .set("steps", steps)
+      .set("iterations",
+           Json::object()
+             .set("newton", iterations.newton)
+             .set("contact", iterations.contact)
+             .set("linear_total", iterations.linear_total)
+             .set("linear_mean", iterations.linear_mean))
+      .set("counts",
+           Json::object()
+             .set("assemblies", counts.assemblies)
+             .set("factorisations", counts.factorisations)
+             .set("preconditioner_setups", counts.preconditioner_setups)
+             .set("searches", counts.searches))
+      .set("seconds",
+           Json::object()
+             .set("wall", seconds.wall)
+             .set("cpu", seconds.cpu)
+             .set("assembly", seconds.assembly)
+             .set("linear_solver", seconds.linear_solver)
+             .set("search", seconds.search)
+             .set("output", seconds.output))
+      .set("peak_memory_mb", peak_memory_mb)
+      .set("results", Json::object().set("contact", pairs).set("reactions", bodies))
+      .set("errors", relative_errors)
+      .set("failure", failure);
+  }
+
+
+
+  void
+  RunSummary::print_results(std::ostream &out) const
+  {
+    double force_scale = 0., moment_scale = 0.;
+    for (const auto &[name, result] : contact)
+      {
+        force_scale  = std::max(force_scale, largest_component(result.force));
+        moment_scale = std::max(moment_scale, largest_component(result.moment));
+      }
+    for (const auto &[body, boundaries] : reactions)
+      for (const auto &[boundary, force] : boundaries)
+        force_scale = std::max(force_scale, largest_component(force));
+
+    out << (converged ? "Converged" : "NOT CONVERGED") << ": " << steps << " steps, "
+        << iterations.newton << " Newton iterations\n";
+    if (!failure.empty())
+      out << "  " << failure << '\n';
+
+    for (const auto &[name, result] : contact)
+      out << "Contact " << name << '\n'
+          << "  force          " << rounded(result.force, force_scale) << '\n'
+          << "  moment         " << rounded(result.moment, moment_scale) << '\n'
+          << "  area            " << std::setw(12) << rounded(result.area, result.area) << '\n'
+          << "  max pressure    " << std::setw(12)
+          << rounded(result.max_pressure, result.max_pressure) << '\n'
+          << "  max penetration " << std::setw(12)
+          << rounded(result.max_penetration, std::sqrt(result.area), gap_round_off) << '\n'
+          << "  active nodes    " << std::setw(12) << result.active << '\n';
+
+    for (const auto &[body, boundaries] : reactions)
+      for (const auto &[boundary, force] : boundaries)
+        out << "Reaction " << body << ", " << boundary << '\n'
+            << "  force          " << rounded(force, force_scale) << '\n';
+
+    for (const auto &[name, error] : errors)
+      // Relative already, so that the scale is one.
+      out << "Error " << name << ": " << rounded(error, 1.) << '\n';
+  }
+} // namespace Touchstone

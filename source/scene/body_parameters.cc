@@ -1,0 +1,232 @@
+#include <touchstone/mesh/geometry.h>
+#include <touchstone/scene/body_parameters.h>
+#include <touchstone/scene/expression.h>
+#include <touchstone/scene/input_error.h>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  void MaterialParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Young modulus",
+                      young_modulus,
+                      "Young's modulus, greater than zero. Required. "
+                      "[force per area]",
+                      Patterns::Double(),
+                      /*has_to_be_set=*/true);
+    prm.add_parameter("Poisson ratio",
+                      poisson_ratio,
+                      "Poisson's ratio, greater than -1 and less than 0.5. "
+                      "[no unit]",
+                      Patterns::Double());
+  }
+
+
+
+  void MaterialParameters::check(const std::string &section) const
+  {
+    if (young_modulus <= 0.)
+      throw InputError(section,
+                       "Young modulus",
+                       Patterns::Tools::to_string(young_modulus),
+                       "must be positive",
+                       "give Young's modulus in the scene's unit of force per "
+                       "area, e.g. 210000 for steel in N and mm");
+    if (poisson_ratio <= -1. || poisson_ratio >= 0.5)
+      throw InputError(section,
+                       "Poisson ratio",
+                       Patterns::Tools::to_string(poisson_ratio),
+                       "must be greater than -1 and less than 0.5",
+                       "for incompressible material take 0.4999 with the element "
+                       "'b-bar' or degree 2");
+  }
+
+
+
+  void BoundaryParameters::declare(ParameterHandler &prm)
+  {
+    const std::string formula = " A formula in x, y, z (reference coordinates) and t (time); ";
+    const auto        component =
+      [&](const std::string &name, std::string &value, const std::string &what) {
+        prm.add_parameter(name, value, what, Patterns::Anything());
+      };
+    const std::string moved = "component of the displacement." + formula + "empty: free. [length]";
+    component("Displacement x", displacement_x, "Prescribed x " + moved);
+    component("Displacement y", displacement_y, "Prescribed y " + moved);
+    component("Displacement z", displacement_z, "Prescribed z " + moved);
+    const std::string loaded = "component of the traction on the reference area." + formula +
+                               "empty: none. [force per area]";
+    component("Traction x", traction_x, "The x " + loaded);
+    component("Traction y", traction_y, "The y " + loaded);
+    component("Traction z", traction_z, "The z " + loaded);
+    component("Pressure",
+              pressure,
+              "Pressure on the reference area against its outward normal." + formula +
+                "empty: none. [force per area]");
+  }
+
+
+
+  void BoundaryParameters::check(const std::string &section) const
+  {
+    const std::string *displacements[] = {&displacement_x, &displacement_y, &displacement_z};
+    const std::string *tractions[]     = {&traction_x, &traction_y, &traction_z};
+    bool               all_moved       = true;
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      const std::string letter(1, "xyz"[d]);
+      if (!displacements[d]->empty())
+        check_expression(section, "Displacement " + letter, *displacements[d]);
+      if (!tractions[d]->empty())
+        check_expression(section, "Traction " + letter, *tractions[d]);
+      if (!displacements[d]->empty() && !tractions[d]->empty())
+        throw InputError(section,
+                         "Traction " + letter,
+                         *tractions[d],
+                         "contradicts 'Displacement " + letter +
+                           "', which moves the same component",
+                         "prescribe either the displacement or the traction");
+      all_moved = all_moved && !displacements[d]->empty();
+    }
+    if (!pressure.empty())
+      check_expression(section, "Pressure", pressure);
+    if (!pressure.empty() && all_moved)
+      throw InputError(section,
+                       "Pressure",
+                       pressure,
+                       "has no effect where all three displacements are prescribed",
+                       "remove the pressure or one of the displacements");
+  }
+
+
+
+  std::string BodyParameters::section() const
+  {
+    return "Body " + name;
+  }
+
+
+
+  ElementType BodyParameters::element() const
+  {
+    return element_name == "full"    ? ElementType::full
+           : element_name == "b-bar" ? ElementType::b_bar
+                                     : ElementType::incompatible_modes;
+  }
+
+
+
+  void BodyParameters::declare(ParameterHandler &prm, const std::string &geometry_type)
+  {
+    prm.add_parameter("Element",
+                      element_name,
+                      "How cells interpolate strain: 'full' integration of the displacements' "
+                      "gradient; 'b-bar' with a constant volume change per cell, for nearly "
+                      "incompressible material; 'incompatible modes' for bending. The latter two "
+                      "are for degree 1. 'automatic' takes incompatible modes for degree 1 and "
+                      "full for degree 2.",
+                      Patterns::Selection("automatic|full|b-bar|incompatible modes"));
+    prm.add_parameter("Symmetry",
+                      symmetry,
+                      "Plane boundaries that keep their place in the normal "
+                      "direction, by name or number.");
+    prm.add_parameter("Fixed", fixed, "Boundaries that cannot move at all, by name or number.");
+    prm.add_parameter("Boundary conditions",
+                      conditions,
+                      "Boundaries, by name or number, that each have a subsection "
+                      "'Boundary NAME' with displacements or loads.");
+
+    prm.enter_subsection("Geometry");
+    {
+      geometry_name = geometry_type;
+      geometry      = GeometryRegistry::make(geometry_type);
+      prm.add_parameter("Type",
+                        geometry_name,
+                        "The shape of the body, which decides on the other keys "
+                        "here. " +
+                          GeometryRegistry::documentation(),
+                        Patterns::Selection(GeometryRegistry::selection()));
+      geometry->declare(prm);
+    }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Material");
+    material.declare(prm);
+    prm.leave_subsection();
+
+    for (const std::string &boundary : conditions)
+    {
+      prm.enter_subsection("Boundary " + boundary);
+      boundaries[boundary].declare(prm);
+      prm.leave_subsection();
+    }
+  }
+
+
+
+  void BodyParameters::check(const unsigned int degree) const
+  {
+    geometry->check(section() + "/Geometry");
+    material.check(section() + "/Material");
+    if (degree > 1 && element() != ElementType::full)
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "is made for degree 1, but 'Discretisation/Degree' is " +
+                         std::to_string(degree),
+                       "take the element 'automatic' or 'full', or degree 1");
+
+    // Where nothing can move in some direction nothing can be pushed in it.
+    std::map<std::string, std::string> held;
+    for (const auto &[key, list] :
+         {std::make_pair("Symmetry", &symmetry), std::make_pair("Fixed", &fixed)})
+      for (const std::string &boundary : *list)
+      {
+        if (boundary.empty())
+          throw InputError(section(),
+                           key,
+                           Patterns::Tools::to_string(*list),
+                           "a name in this list is empty",
+                           "remove the comma too many");
+        if (held.count(boundary) > 0)
+          throw InputError(section(),
+                           key,
+                           boundary,
+                           held.at(boundary) == key
+                             ? "this boundary is listed twice"
+                             : "this boundary is also in the list '" + held.at(boundary) + "'",
+                           "name it once: a fixed boundary needs no symmetry");
+        held[boundary] = key;
+      }
+
+    for (const auto &[boundary, condition] : boundaries)
+    {
+      const std::string where = section() + "/Boundary " + boundary;
+      condition.check(where);
+      if (held.count(boundary) == 0)
+        continue;
+      const std::vector<std::pair<std::string, std::string>> entries = {
+        {"Pressure", condition.pressure},
+        {"Displacement x", condition.displacement_x},
+        {"Displacement y", condition.displacement_y},
+        {"Displacement z", condition.displacement_z},
+        {"Traction x", condition.traction_x},
+        {"Traction y", condition.traction_y},
+        {"Traction z", condition.traction_z}};
+      // A symmetry plane may still be moved or loaded along itself, and
+      // which direction that is only the mesh knows; pressure is across.
+      const unsigned int n = held.at(boundary) == "Fixed" ? entries.size() : 1;
+      for (unsigned int i = 0; i < n; ++i)
+        if (!entries[i].second.empty())
+          throw InputError(where,
+                           entries[i].first,
+                           entries[i].second,
+                           "this boundary is held by '" + held.at(boundary) + "' of '" + section() +
+                             "'",
+                           "remove this entry or take the boundary from the list '" +
+                             held.at(boundary) + "'");
+    }
+  }
+} // namespace Touchstone

@@ -1,0 +1,162 @@
+#include <touchstone/scene/command_line.h>
+#include <touchstone/scene/input_error.h>
+#include <touchstone/scene/suggestion.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace Touchstone
+{
+  namespace
+  {
+    const char *const section = "command line";
+
+    /** The arguments in the order in which they count: later ones win. */
+    std::vector<std::string> collect_arguments(const int argc, const char *const *argv)
+    {
+      std::vector<std::string> arguments;
+      if (const char *environment = std::getenv("TOUCHSTONE_OPTIONS"))
+      {
+        std::istringstream words(environment);
+        for (std::string word; words >> word;)
+          arguments.push_back(word);
+      }
+      arguments.insert(arguments.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
+      return arguments;
+    }
+  } // namespace
+
+
+
+  CommandLine CommandLine::parse(const int argc, const char *const *argv)
+  {
+    const std::vector<std::string> arguments = collect_arguments(argc, argv);
+
+    CommandLine                         line;
+    const std::map<std::string, bool *> switches = {{"--help", &line.help},
+                                                    {"-h", &line.help},
+                                                    {"--version", &line.version},
+                                                    {"--validate", &line.validate},
+                                                    {"--print-parameters", &line.print_parameters},
+                                                    {"--results-only", &line.results_only}};
+
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+    {
+      const std::string &argument = arguments[i];
+      const std::size_t  equals   = argument.find('=');
+      const std::string  option   = argument.substr(0, equals);
+      if (argument.empty() || argument[0] != '-')
+      {
+        if (!line.scene_file.empty() || argument.empty())
+          throw InputError(section,
+                           "",
+                           argument,
+                           "a run has one scene file, and '" + line.scene_file +
+                             "' is already given",
+                           "start one run per scene; a value with blanks needs "
+                           "quotation marks: --set \"Section/Key=value\"");
+        line.scene_file = argument;
+      }
+      else if (option == "--set" || option == "--output")
+      {
+        std::string value;
+        if (equals != std::string::npos)
+          value = argument.substr(equals + 1);
+        else if (i + 1 < arguments.size())
+          value = arguments[++i];
+        if (value.empty())
+          throw InputError(section,
+                           option,
+                           "",
+                           "this option lacks its value",
+                           option == "--set" ? "write --set \"Section/Key=value\""
+                                             : "write --output FOLDER");
+        line.overrides.push_back(option == "--set" ? value : "Output/Directory=" + value);
+      }
+      else if (option == "--resume")
+        throw InputError(section,
+                         option,
+                         "",
+                         "this version cannot resume a run",
+                         "run the scene from its beginning, without --resume");
+      else if (equals == std::string::npos && switches.count(option) > 0)
+        *switches.at(option) = true;
+      else
+      {
+        std::vector<std::string> known = {"--set", "--output"};
+        for (const auto &[name, flag] : switches)
+          if (name != "-h")
+            known.push_back(name);
+        throw InputError(section,
+                         argument,
+                         "",
+                         "there is no such option" + did_you_mean(option, known),
+                         "'touchstone --help' lists the options");
+      }
+    }
+
+    if (line.scene_file.empty() && !line.help && !line.version)
+      throw InputError(section,
+                       "",
+                       "",
+                       "the scene file is missing",
+                       "write: touchstone [options] scene.prm; 'touchstone --help' "
+                       "lists the options");
+    return line;
+  }
+
+
+
+  std::string CommandLine::usage()
+  {
+    return "Usage: touchstone [options] scene.prm\n"
+           "       mpirun -n 2 touchstone [options] scene.prm\n"
+           "\n"
+           "Solves the contact problem of the scene file. The exit code is 0 only\n"
+           "if every step converged.\n"
+           "\n"
+           "  --validate              check the scene, mesh and boundaries, then stop\n"
+           "  --print-parameters      print the complete scene with all keys, then stop\n"
+           "  --set \"Section/Key=value\"  change one key of the scene; can be repeated\n"
+           "  --output FOLDER         write there instead of to output/STEM\n"
+           "  --results-only          print nothing but the results\n"
+           "  --version               print the version, then stop\n"
+           "  --help                  print this text, then stop\n"
+           "\n"
+           "The environment variable TOUCHSTONE_OPTIONS holds options that come\n"
+           "before those of the command line.\n";
+  }
+
+
+
+  std::string read_scene_file(const std::string &name)
+  {
+    errno = 0;
+    std::ifstream      file(name, std::ios::binary);
+    std::ostringstream content;
+    // A folder can be opened, but not be read.
+    const bool was_read =
+      file && (file.peek(), !file.bad()) && (file.eof() || (content << file.rdbuf()));
+    if (!was_read)
+      throw InputError(section,
+                       "",
+                       name,
+                       std::string("this scene file cannot be read: ") +
+                         std::strerror(errno == 0 ? EIO : errno),
+                       "check the name and the permissions of the file");
+    const std::string text = content.str();
+    if (text.empty())
+      throw InputError(section, "", name, "this scene file is empty", "give another");
+    if (text.find('\0') != std::string::npos)
+      throw InputError(section,
+                       "",
+                       name,
+                       "this is not a text file",
+                       "give a scene file, whose name usually ends in .prm");
+    return text;
+  }
+} // namespace Touchstone

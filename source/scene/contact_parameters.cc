@@ -1,0 +1,215 @@
+#include <touchstone/scene/contact_parameters.h>
+#include <touchstone/scene/expression.h>
+#include <touchstone/scene/input_error.h>
+
+#include <set>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  std::string ObstacleParameters::section() const
+  {
+    return "Obstacle " + name;
+  }
+
+
+
+  void ObstacleParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Shape",
+                      shape,
+                      "The rigid surface: a 'plane', 'sphere' or 'cylinder'.",
+                      Patterns::Selection("plane|sphere|cylinder"));
+    prm.add_parameter("Point",
+                      point,
+                      "A point of the plane, the centre of the sphere, or a point "
+                      "of the cylinder's axis: x, y, z. [length]");
+    prm.add_parameter("Direction",
+                      direction,
+                      "The plane's normal, pointing to where the bodies are, or "
+                      "the direction of the cylinder's axis: x, y, z; its length "
+                      "does not count.");
+    prm.add_parameter("Radius",
+                      radius,
+                      "Radius of the sphere or cylinder, greater than zero. "
+                      "[length]",
+                      Patterns::Double());
+    prm.add_parameter("Side",
+                      side,
+                      "The bodies are 'outside' or 'inside' of the sphere or "
+                      "cylinder.",
+                      Patterns::Selection("outside|inside"));
+    const std::string motion = " component of the rigid motion, a formula in t (time). [length]";
+    prm.add_parameter("Motion x", motion_x, "The x" + motion, Patterns::Anything());
+    prm.add_parameter("Motion y", motion_y, "The y" + motion, Patterns::Anything());
+    prm.add_parameter("Motion z", motion_z, "The z" + motion, Patterns::Anything());
+  }
+
+
+
+  void ObstacleParameters::check(const std::string &section) const
+  {
+    if (shape != "sphere" && direction.norm() == 0.)
+      throw InputError(section,
+                       "Direction",
+                       Patterns::Tools::to_string(direction),
+                       "must not be zero",
+                       "give the normal of the plane or the axis of the cylinder");
+    if (shape != "plane" && radius <= 0.)
+      throw InputError(section,
+                       "Radius",
+                       Patterns::Tools::to_string(radius),
+                       "must be positive",
+                       "give the radius of the " + shape);
+    check_expression(section, "Motion x", motion_x, "t");
+    check_expression(section, "Motion y", motion_y, "t");
+    check_expression(section, "Motion z", motion_z, "t");
+  }
+
+
+
+  std::string ContactPairParameters::section() const
+  {
+    return "Contact pair " + name;
+  }
+
+
+
+  void ContactPairParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Slave body",
+                      slave_body,
+                      "The body whose nodes must not penetrate. Required.",
+                      Patterns::Anything(),
+                      /*has_to_be_set=*/true);
+    prm.add_parameter("Slave boundaries",
+                      slave_boundaries,
+                      "Its boundaries, by name or number. Required.",
+                      Patterns::List(Patterns::Anything()),
+                      /*has_to_be_set=*/true);
+    prm.add_parameter("Master body",
+                      master_body,
+                      "The body that must not be penetrated; empty if it is an "
+                      "obstacle.",
+                      Patterns::Anything());
+    prm.add_parameter("Master boundaries", master_boundaries, "Its boundaries, by name or number.");
+    prm.add_parameter("Obstacle",
+                      obstacle,
+                      "Name of the rigid obstacle that must not be penetrated; "
+                      "empty if it is a body.",
+                      Patterns::Anything());
+    // The names of the formulations are repeated here, and not asked from
+    // their registries, so that the scene does not depend on contact.
+    prm.add_parameter("Pairing",
+                      pairing,
+                      "How rows are made of surfaces: 'pointwise' projects each "
+                      "slave node onto the master surface.",
+                      Patterns::Selection("pointwise"));
+    prm.add_parameter("Behaviour",
+                      behaviour,
+                      "'frictionless' contact, or 'tied' once and for all where "
+                      "the surfaces face each other.",
+                      Patterns::Selection("frictionless|tied"));
+    prm.add_parameter("Sliding",
+                      sliding,
+                      "'finite' searches the partners in each iteration, 'small' "
+                      "keeps those of the reference state. Tied pairs are small.",
+                      Patterns::Selection("finite|small"));
+    prm.add_parameter("Contact geometry",
+                      contact_geometry,
+                      "Gaps and normals come from the exact surfaces where the "
+                      "geometry knows them ('manifold'), or from the faces of the "
+                      "mesh ('faceted').",
+                      Patterns::Selection("manifold|faceted"));
+    prm.add_parameter("Search distance",
+                      search_distance,
+                      "Farthest distance at which a slave node looks for a "
+                      "master face; 0 chooses it from the size of the faces. "
+                      "[length]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Edge tolerance",
+                      edge_tolerance,
+                      "How far beyond the edge of the master surface a slave node "
+                      "is still held, as a fraction of the face. [no unit]",
+                      Patterns::Double(0., 1.));
+  }
+
+
+
+  void ContactPairParameters::check(const std::string &section) const
+  {
+    if (slave_boundaries.empty())
+      throw InputError(section,
+                       "Slave boundaries",
+                       "",
+                       "the list is empty",
+                       "name the boundaries of '" + slave_body + "' that come into contact");
+    if (master_body.empty() && obstacle.empty())
+      throw InputError(section,
+                       "Master body",
+                       "",
+                       "the pair has neither a master body nor an obstacle",
+                       "set 'Master body' and 'Master boundaries', or 'Obstacle'");
+    if (!master_body.empty() && !obstacle.empty())
+      throw InputError(section,
+                       "Obstacle",
+                       obstacle,
+                       "contradicts 'Master body' = '" + master_body + "'",
+                       "remove one of them; a second pair can have the other");
+    if (!master_body.empty() && master_boundaries.empty())
+      throw InputError(section,
+                       "Master boundaries",
+                       "",
+                       "the list is empty",
+                       "name the boundaries of '" + master_body + "' that come into contact");
+    if (!obstacle.empty() && !master_boundaries.empty())
+      throw InputError(section,
+                       "Master boundaries",
+                       master_boundaries.front(),
+                       "an obstacle has no boundaries",
+                       "remove 'Master boundaries' or take a master body");
+
+    for (const auto &[key, list] : {std::make_pair("Slave boundaries", &slave_boundaries),
+                                    std::make_pair("Master boundaries", &master_boundaries)})
+    {
+      std::set<std::string> names;
+      for (const std::string &boundary : *list)
+        if (boundary.empty() || !names.insert(boundary).second)
+          throw InputError(section,
+                           key,
+                           boundary,
+                           boundary.empty() ? "a name in this list is empty"
+                                            : "this boundary is listed twice",
+                           "name each boundary once, with commas between them");
+    }
+    if (slave_body == master_body)
+      for (const std::string &slave : slave_boundaries)
+        for (const std::string &master : master_boundaries)
+          if (slave == master)
+            throw InputError(section,
+                             "Master boundaries",
+                             master,
+                             "this boundary of '" + master_body +
+                               "' is slave and master at the same time",
+                             "let different boundaries be slave and master");
+  }
+
+
+
+  void ContactParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Enforcement",
+                      enforcement,
+                      "How contact is enforced: 'elimination' of the slave unknowns, which "
+                      "leaves a symmetric positive definite system for any linear solver, or "
+                      "'lagrange multipliers' as unknowns of their own, which need MUMPS.",
+                      Patterns::Selection("elimination|lagrange multipliers"));
+  }
+
+
+
+  void ContactParameters::check(const std::string &) const
+  {}
+} // namespace Touchstone

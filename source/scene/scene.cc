@@ -1,0 +1,212 @@
+#include <touchstone/mesh/geometry.h>
+#include <touchstone/scene/input_error.h>
+#include <touchstone/scene/scene.h>
+#include <touchstone/scene/scene_entries.h>
+#include <touchstone/scene/scene_text.h>
+#include <touchstone/scene/suggestion.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <ostream>
+#include <set>
+
+namespace Touchstone
+{
+  namespace Patterns = dealii::Patterns;
+
+  namespace
+  {
+    /**
+     * The names that a list of the scene gives, each of which has a subsection
+     * of its own: they cannot be anything.
+     */
+    std::vector<std::string> names_of_list(const SceneText   &text,
+                                           const std::string &section,
+                                           const std::string &key,
+                                           const std::string &prefix)
+    {
+      const std::string        value = text.value(section, key, "");
+      std::vector<std::string> names = dealii::Utilities::split_string_list(value, ',');
+      if (!value.empty() && value.back() == ',')
+        names.emplace_back(); // split_string_list drops it
+
+      std::vector<std::string> sections;
+      for (const auto &[name, line] : text.sections())
+        sections.push_back(name);
+
+      std::set<std::string> seen;
+      for (const std::string &name : names)
+      {
+        if (name.empty())
+          throw InputError(
+            section, key, value, "a name in this list is empty", "remove the comma too many");
+        if (name.find_first_of("/=\"'") != std::string::npos)
+          throw InputError(section,
+                           key,
+                           name,
+                           "a name cannot contain any of / = \" '",
+                           "use letters, numbers and blanks");
+        if (!seen.insert(name).second)
+          throw InputError(
+            section, key, name, "this name is listed twice", "give each its own name");
+
+        const std::string own = (section.empty() ? "" : section + "/") + prefix + name;
+        if (text.sections().count(own) == 0)
+          throw InputError(section,
+                           key,
+                           name,
+                           "there is no subsection '" + own + "'" + did_you_mean(own, sections),
+                           "write one, or take '" + name + "' from the list");
+      }
+      return names;
+    }
+  } // namespace
+
+
+
+  Scene::Scene(const std::string              &content,
+               const std::string              &file_name,
+               const std::vector<std::string> &overrides)
+  {
+    const SceneText text(content, file_name, overrides);
+    read_lists(text);
+    declare(text);
+    set_entries(text, prm);
+    resolve(text, file_name);
+    check();
+  }
+
+
+
+  void Scene::read_lists(const SceneText &text)
+  {
+    if (text.is_set("", "Bodies") && text.value("", "Bodies", "").empty())
+      throw InputError(
+        "", "Bodies", "", "the list is empty", "name at least one body: set Bodies = NAME");
+    for (const std::string &name : names_of_list(text, "", "Bodies", "Body "))
+    {
+      BodyParameters body;
+      body.name       = name;
+      body.conditions = names_of_list(text, body.section(), "Boundary conditions", "Boundary ");
+      bodies.push_back(body);
+    }
+    for (const std::string &name : names_of_list(text, "", "Obstacles", "Obstacle "))
+    {
+      obstacles.emplace_back();
+      obstacles.back().name = name;
+    }
+    for (const std::string &name : names_of_list(text, "", "Contact pairs", "Contact pair "))
+    {
+      pairs.emplace_back();
+      pairs.back().name = name;
+    }
+  }
+
+
+
+  void Scene::declare(const SceneText &text)
+  {
+    prm.add_parameter("Title", title, "What the scene is about.", Patterns::Anything());
+    const Patterns::List list(Patterns::Anything{});
+    prm.declare_entry("Bodies",
+                      "",
+                      list,
+                      "Names of the bodies, with commas; each has a subsection "
+                      "'Body NAME'. Required.",
+                      /*has_to_be_set=*/true);
+    prm.declare_entry("Obstacles",
+                      "",
+                      list,
+                      "Names of the rigid obstacles; each has a subsection "
+                      "'Obstacle NAME'.");
+    prm.declare_entry("Contact pairs",
+                      "",
+                      list,
+                      "Names of the contact pairs; each has a subsection "
+                      "'Contact pair NAME'.");
+
+    const auto declare_in = [this](const std::string &section, auto &parameters) {
+      prm.enter_subsection(section);
+      parameters.declare(prm);
+      prm.leave_subsection();
+    };
+    for (BodyParameters &body : bodies)
+    {
+      const std::string section = body.section() + "/Geometry",
+                        type    = text.value(section, "Type", body.geometry_name);
+      if (GeometryRegistry::records().count(type) == 0)
+      {
+        std::vector<std::string> known;
+        for (const auto &[name, record] : GeometryRegistry::records())
+          known.push_back(name);
+        throw InputError(section,
+                         "Type",
+                         type,
+                         "there is no such geometry" + did_you_mean(type, known),
+                         "take one of " + quoted_list(known));
+      }
+      prm.enter_subsection(body.section());
+      body.declare(prm, type);
+      prm.leave_subsection();
+    }
+    for (ObstacleParameters &obstacle : obstacles)
+      declare_in(obstacle.section(), obstacle);
+    for (ContactPairParameters &pair : pairs)
+      declare_in(pair.section(), pair);
+    declare_in("Contact", contact);
+    declare_in("Discretisation", discretisation);
+    declare_in("Load stepping", load_stepping);
+    declare_in("Newton", newton);
+    declare_in("Linear solver", linear_solver);
+    declare_in("Output", output);
+    declare_in("Reference solution", reference);
+  }
+
+
+
+  void Scene::resolve(const SceneText &text, const std::string &file_name)
+  {
+    for (BodyParameters &body : bodies)
+      if (body.element_name == "automatic")
+        body.element_name = discretisation.degree == 1 ? "incompatible modes" : "full";
+
+    for (ContactPairParameters &pair : pairs)
+      if (pair.behaviour == "tied" && !text.is_set(pair.section(), "Sliding"))
+      {
+        // Through the handler, so that the printed scene can be read back.
+        prm.enter_subsection(pair.section());
+        prm.set("Sliding", std::string("small"));
+        prm.leave_subsection();
+      }
+
+    if (output.directory.empty())
+    {
+      const std::size_t slash = file_name.find_last_of('/');
+      const std::string stem = slash == std::string::npos ? file_name : file_name.substr(slash + 1);
+      const std::size_t dot  = stem.find_last_of('.');
+      output.directory       = "output/" + (dot == 0 ? stem : stem.substr(0, dot));
+    }
+  }
+
+
+
+  void Scene::print(std::ostream &out) const
+  {
+    prm.print_parameters(out,
+                         dealii::ParameterHandler::PRM |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
+  }
+
+
+
+  unsigned int Scene::body_index(const std::string &name) const
+  {
+    const auto body = std::find_if(bodies.begin(), bodies.end(), [&name](const BodyParameters &b) {
+      return b.name == name;
+    });
+    if (body == bodies.end())
+      throw InputError("", "Bodies", "", "there is no body '" + name + "'", "");
+    return body - bodies.begin();
+  }
+} // namespace Touchstone

@@ -1,0 +1,86 @@
+#include <touchstone/scene/input_error.h>
+#include <touchstone/scene/scene.h>
+#include <touchstone/scene/suggestion.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** Names of bodies, obstacles or pairs. */
+    template <class Parameters>
+    std::vector<std::string> names(const std::vector<Parameters> &all)
+    {
+      std::vector<std::string> result;
+      for (const Parameters &one : all)
+        result.push_back(one.name);
+      return result;
+    }
+
+    /** The entry @p key of @p section names one of @p known. */
+    void check_name(const std::string              &section,
+                    const std::string              &key,
+                    const std::string              &name,
+                    const std::string              &list,
+                    const std::vector<std::string> &known)
+    {
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw InputError(section,
+                         key,
+                         name,
+                         "the list '" + list + "' does not name it" + did_you_mean(name, known),
+                         known.empty() ? "add it to the list, which is empty"
+                                       : "take one of " + quoted_list(known));
+    }
+  } // namespace
+
+
+
+  void Scene::check() const
+  {
+    discretisation.check("Discretisation");
+    for (const BodyParameters &body : bodies)
+      body.check(discretisation.degree);
+    for (const ObstacleParameters &obstacle : obstacles)
+      obstacle.check(obstacle.section());
+    for (const ContactPairParameters &pair : pairs)
+      check_pair(pair);
+    contact.check("Contact");
+    load_stepping.check("Load stepping");
+    newton.check("Newton");
+    linear_solver.check("Linear solver");
+    output.check("Output");
+    reference.check("Reference solution");
+
+    if (contact.enforcement == "lagrange multipliers" && linear_solver.type == "Belos CG")
+      throw InputError("Contact",
+                       "Enforcement",
+                       contact.enforcement,
+                       "multipliers make the system indefinite, which 'Belos CG' "
+                       "cannot solve",
+                       "set 'Contact/Enforcement = elimination' or "
+                       "'Linear solver/Type = MUMPS'");
+    if (!reference.pair.empty())
+      check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
+  }
+
+
+
+  void Scene::check_pair(const ContactPairParameters &pair) const
+  {
+    const std::string section = pair.section();
+    check_name(section, "Slave body", pair.slave_body, "Bodies", names(bodies));
+    if (!pair.master_body.empty())
+      check_name(section, "Master body", pair.master_body, "Bodies", names(bodies));
+    if (!pair.obstacle.empty())
+      check_name(section, "Obstacle", pair.obstacle, "Obstacles", names(obstacles));
+    pair.check(section);
+    if (pair.behaviour == "tied" && pair.sliding == "finite")
+      throw InputError(section,
+                       "Sliding",
+                       pair.sliding,
+                       "a tied pair cannot slide",
+                       "remove 'Sliding' or set it to 'small'");
+  }
+} // namespace Touchstone

@@ -1,0 +1,258 @@
+#include <touchstone/scene/input_error.h>
+#include <touchstone/scene/scene_entries.h>
+#include <touchstone/scene/suggestion.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace Touchstone
+{
+  using dealii::Utilities::split_string_list;
+
+  namespace
+  {
+    /** Keys of each section that is declared. */
+    using Declared = std::map<std::string, std::vector<std::string>>;
+
+    /** The handler does not tell its entries, but its short listing is a scene
+     * file and can be taken apart like one. */
+    Declared declared_entries(const dealii::ParameterHandler &prm)
+    {
+      std::ostringstream listing;
+      prm.print_parameters(listing, dealii::ParameterHandler::ShortPRM);
+      const SceneText text(listing.str(), "listing");
+
+      Declared declared;
+      for (const auto &[section, line] : text.sections())
+        declared[section];
+      for (const SceneEntry &entry : text.entries())
+        declared[entry.section].push_back(entry.key);
+      return declared;
+    }
+
+
+
+    /** Sections that stand in @p parent, without their path. */
+    std::vector<std::string> subsections(const Declared &declared, const std::string &parent)
+    {
+      std::vector<std::string> names;
+      for (const auto &[section, keys] : declared)
+      {
+        std::vector<std::string> path = split_path(section);
+        if (path.empty())
+          continue;
+        const std::string name = path.back();
+        path.pop_back();
+        if (join_path(path) == parent)
+          names.push_back(name);
+      }
+      return names;
+    }
+
+
+
+    /** Complain about @p section, which is not declared. */
+    [[noreturn]] void throw_unknown_section(const Declared    &declared,
+                                            const std::string &section,
+                                            const std::string &place)
+    {
+      // The outermost part that is unknown is the one to speak of.
+      std::vector<std::string> path;
+      for (const std::string &part : split_path(section))
+      {
+        const std::string parent = join_path(path);
+        path.push_back(part);
+        if (declared.count(join_path(path)) > 0)
+          continue;
+
+        const std::vector<std::string> known = subsections(declared, parent);
+        // "Body x" stands for the name x in the list "Bodies", etc.
+        static const std::vector<std::pair<std::string, std::string>> lists = {
+          {"Body ", "Bodies"},
+          {"Contact pair ", "Contact pairs"},
+          {"Obstacle ", "Obstacles"},
+          {"Boundary ", "Boundary conditions"}};
+        for (const auto &[prefix, list] : lists)
+          if (part.compare(0, prefix.size(), prefix) == 0 &&
+              parent.empty() == (prefix != "Boundary "))
+            throw InputError(join_path(path),
+                             "",
+                             "",
+                             "the list '" + list + "'" +
+                               (parent.empty() ? "" : " of '" + parent + "'") + " does not name '" +
+                               part.substr(prefix.size()) + "' (" + place + ")" +
+                               did_you_mean(part, known),
+                             "add the name to '" + list + "' or remove this subsection");
+
+        throw InputError(join_path(path),
+                         "",
+                         "",
+                         "there is no such subsection (" + place + ")" + did_you_mean(part, known),
+                         "correct the name; " + (known.empty()
+                                                   ? "there are no subsections here"
+                                                   : "here can stand " + quoted_list(known)));
+      }
+      throw InputError(section, "", "", "there is no such subsection", "");
+    }
+
+
+
+    [[noreturn]] void
+    throw_unknown_key(const Declared &declared, const SceneEntry &entry, const std::string &place)
+    {
+      const auto                     keys = declared.find(entry.section);
+      const std::vector<std::string> known =
+        keys == declared.end() ? std::vector<std::string>() : keys->second;
+
+      std::string hint = did_you_mean(entry.key, known);
+      if (hint.empty())
+        for (const auto &[section, others] : declared)
+          if (std::find(others.begin(), others.end(), entry.key) != others.end())
+          {
+            hint = ", did you mean the one of section '" + section + "'?";
+            break;
+          }
+      throw InputError(entry.section,
+                       entry.key,
+                       entry.value,
+                       "there is no such key (" + place + ")" + hint,
+                       known.empty()
+                         ? "this section has no keys of its own"
+                         : "the keys " +
+                             std::string(entry.section.empty() ? "outside of all subsections"
+                                                               : "of this section") +
+                             " are " + quoted_list(known));
+    }
+
+
+
+    /** What deal.II's description of a pattern asks for, as a sentence. */
+    std::string remedy(const std::string &pattern, const std::string &value)
+    {
+      std::smatch found;
+      const auto  range = [&found](const std::string &what) {
+        const std::string low = found[1], high = found[2];
+        const bool        from = low.find("MAX_") == std::string::npos,
+                   to          = high.find("MAX_") == std::string::npos && high != "2147483647";
+        return "give " + what +
+               (from && to ? " from " + low + " to " + high
+                 : from     ? " of at least " + low
+                 : to       ? " of at most " + high
+                            : "");
+      };
+      if (std::regex_match(pattern,
+                           found,
+                           std::regex(R"(\[Integer range (.*)\.\.\.(.*) \(incl.*)")))
+        return range("a whole number");
+      if (std::regex_match(pattern, found, std::regex(R"(\[Double (.*)\.\.\.(.*) \(incl.*)")))
+        return range("a number");
+      if (std::regex_match(pattern, found, std::regex(R"(\[Selection (.*?) ?\])")))
+      {
+        const auto names = split_string_list(found[1], '|');
+        return "give one of " + quoted_list(names) + did_you_mean(value, names);
+      }
+      if (std::regex_match(pattern,
+                           found,
+                           std::regex(R"(\[List of <.*> of length (\d+)\.\.\.\1 .*)")))
+        return "give " + found[1].str() + " numbers with commas between them";
+      if (pattern.compare(0, 5, "[Bool") == 0)
+        return "give 'true' or 'false'";
+      return "give " + pattern;
+    }
+
+
+
+    void set_entry(const SceneEntry &entry, const std::string &place, dealii::ParameterHandler &prm)
+    {
+      const std::vector<std::string> path = split_path(entry.section);
+      for (const std::string &part : path)
+        prm.enter_subsection(part);
+      try
+      {
+        prm.set(entry.key, entry.value);
+      }
+      catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &exception)
+      {
+        std::ostringstream text;
+        exception.print_info(text);
+        const std::string start   = "given pattern <";
+        std::string       pattern = text.str();
+        pattern                   = pattern.substr(pattern.find(start) + start.size());
+        pattern                   = pattern.substr(0, pattern.rfind('>'));
+        throw InputError(entry.section,
+                         entry.key,
+                         entry.value,
+                         (entry.value.empty() ? "an empty value" : "this value") +
+                           std::string(" is not possible here (") + place + ")",
+                         remedy(pattern, entry.value));
+      }
+      for (std::size_t i = 0; i < path.size(); ++i)
+        prm.leave_subsection();
+    }
+
+
+
+    /** The handler's own spelling "Body_20inner.Young_20modulus" undone. */
+    std::string demangle(const std::string &name)
+    {
+      std::string result;
+      for (std::size_t i = 0; i < name.size(); ++i)
+        if (name[i] == '_' && i + 2 < name.size())
+        {
+          result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
+          i += 2;
+        }
+        else
+          result += name[i] == '.' ? '/' : name[i];
+      return result;
+    }
+  } // namespace
+
+
+
+  void set_entries(const SceneText &text, dealii::ParameterHandler &prm)
+  {
+    const Declared declared = declared_entries(prm);
+
+    // The first mistake in the file is the one to report, for later ones often
+    // follow from it. Overrides, which have no line, come last.
+    const auto order   = [](const unsigned int line) { return line - 1U; };
+    auto       unknown = text.sections().end();
+    for (auto section = text.sections().begin(); section != text.sections().end(); ++section)
+      if (declared.count(section->first) == 0 &&
+          (unknown == text.sections().end() || order(section->second) < order(unknown->second)))
+        unknown = section;
+
+    for (const SceneEntry &entry : text.entries())
+    {
+      if (unknown != text.sections().end() && order(unknown->second) <= order(entry.line))
+        throw_unknown_section(declared, unknown->first, text.place(unknown->second));
+      const auto keys = declared.find(entry.section);
+      if (keys == declared.end() ||
+          std::find(keys->second.begin(), keys->second.end(), entry.key) == keys->second.end())
+        throw_unknown_key(declared, entry, text.place(entry.line));
+      set_entry(entry, text.place(entry.line), prm);
+    }
+    if (unknown != text.sections().end())
+      throw_unknown_section(declared, unknown->first, text.place(unknown->second));
+
+    for (const std::string &name : prm.get_entries_wrongly_not_set())
+    {
+      std::vector<std::string> path = split_path(demangle(name));
+      const std::string        key  = path.back();
+      path.pop_back();
+      const std::string section  = join_path(path);
+      const bool        is_there = section.empty() || text.sections().count(section) > 0;
+      throw InputError(section,
+                       key,
+                       "",
+                       std::string("this key is required, but not set") +
+                         (is_there ? "" : ": the whole subsection is missing"),
+                       "write 'set " + key + " = ...'" +
+                         (section.empty() ? "" : " in the subsection '" + section + "'"));
+    }
+  }
+} // namespace Touchstone

@@ -1,0 +1,279 @@
+#include <touchstone/scene/input_error.h>
+#include <touchstone/scene/scene_text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <sstream>
+
+namespace Touchstone
+{
+  using dealii::Utilities::trim;
+
+  namespace
+  {
+    /** Names are compared with single blanks, as deal.II does it. */
+    std::string single_blanks(const std::string &text)
+    {
+      std::istringstream words(text);
+      std::string        result, word;
+      while (words >> word)
+        result += (result.empty() ? "" : " ") + word;
+      return result;
+    }
+
+    /** Cut @p word off the beginning of @p line, if it stands there. */
+    bool take_word(std::string &line, const std::string &word)
+    {
+      std::istringstream stream(line);
+      std::string        first;
+      stream >> first;
+      for (char &c : first)
+        c = std::tolower(static_cast<unsigned char>(c));
+      if (first != word)
+        return false;
+      line = trim(line.substr(word.size()));
+      return true;
+    }
+  } // namespace
+
+
+
+  std::string join_path(const std::vector<std::string> &parts)
+  {
+    std::string path;
+    for (const std::string &part : parts)
+      path += (path.empty() ? "" : "/") + part;
+    return path;
+  }
+
+
+
+  std::vector<std::string> split_path(const std::string &section)
+  {
+    std::vector<std::string> parts;
+    std::istringstream       stream(section);
+    for (std::string part; std::getline(stream, part, '/');)
+      parts.push_back(part);
+    return parts;
+  }
+
+
+
+  SceneText::SceneText(const std::string              &text,
+                       const std::string              &file_name,
+                       const std::vector<std::string> &overrides)
+    : file_name(file_name)
+  {
+    read_file(text);
+    for (const std::string &override_text : overrides)
+      read_override(override_text);
+  }
+
+
+
+  const std::vector<SceneEntry> &SceneText::entries() const
+  {
+    return all_entries;
+  }
+
+
+
+  const std::map<std::string, unsigned int> &SceneText::sections() const
+  {
+    return all_sections;
+  }
+
+
+
+  std::string SceneText::place(const unsigned int line) const
+  {
+    return line == 0 ? "command line" : "line " + std::to_string(line) + " of " + file_name;
+  }
+
+
+
+  const SceneEntry *SceneText::find(const std::string &section, const std::string &key) const
+  {
+    for (auto entry = all_entries.rbegin(); entry != all_entries.rend(); ++entry)
+      if (entry->section == section && entry->key == key)
+        return &*entry;
+    return nullptr;
+  }
+
+
+
+  std::string SceneText::value(const std::string &section,
+                               const std::string &key,
+                               const std::string &otherwise) const
+  {
+    const SceneEntry *entry = find(section, key);
+    return entry == nullptr ? otherwise : entry->value;
+  }
+
+
+
+  bool SceneText::is_set(const std::string &section, const std::string &key) const
+  {
+    return find(section, key) != nullptr;
+  }
+
+
+
+  void SceneText::note_section(const std::string &section, const unsigned int line)
+  {
+    for (std::size_t end = section.find('/');; end = section.find('/', end + 1))
+    {
+      all_sections.emplace(section.substr(0, end), line);
+      if (end == std::string::npos)
+        return;
+    }
+  }
+
+
+
+  void SceneText::read_file(const std::string &text)
+  {
+    std::istringstream       stream(text);
+    std::vector<std::string> path;
+    std::string              line, physical;
+    unsigned int             number = 0, first = 0;
+    while (std::getline(stream, physical))
+    {
+      ++number;
+      if (number == 1 && physical.compare(0, 3, "\xEF\xBB\xBF") == 0)
+        physical.erase(0, 3); // the mark with which some editors begin UTF-8
+      if (line.empty())
+        first = number;
+      // A comment ends where its line ends, also if that line is continued.
+      physical           = trim(physical.substr(0, physical.find('#')));
+      const bool goes_on = !physical.empty() && physical.back() == '\\';
+      if (goes_on)
+        physical.pop_back();
+      line += physical;
+      if (goes_on)
+        continue;
+      read_line(trim(line), first, path);
+      line.clear();
+    }
+    if (!line.empty())
+      read_line(trim(line), first, path);
+    if (!path.empty())
+    {
+      const std::string section = join_path(path);
+      throw InputError(section,
+                       "",
+                       "",
+                       "the subsection that begins in " + place(all_sections.at(section)) +
+                         " is not closed",
+                       "write 'end' after its last entry");
+    }
+  }
+
+
+
+  void SceneText::read_line(const std::string        &line,
+                            const unsigned int        number,
+                            std::vector<std::string> &path)
+  {
+    std::string rest = line;
+    if (rest.empty())
+      return;
+
+    const std::string section = join_path(path);
+    if (take_word(rest, "subsection"))
+    {
+      const std::string name = single_blanks(rest);
+      if (name.empty() || name.find('/') != std::string::npos)
+        throw InputError(section,
+                         "",
+                         line,
+                         "this is no name for a subsection (" + place(number) + ")",
+                         "write 'subsection NAME' with a NAME that has no '/'");
+      path.push_back(name);
+      note_section(join_path(path), number);
+    }
+    else if (take_word(rest, "end"))
+    {
+      if (!rest.empty())
+        throw InputError(section,
+                         "",
+                         line,
+                         "something follows after 'end' (" + place(number) + ")",
+                         "write 'end' on a line of its own");
+      if (path.empty())
+        throw InputError("",
+                         "",
+                         line,
+                         "no subsection is open that this could close (" + place(number) + ")",
+                         "remove this 'end' or look for one too many before it");
+      path.pop_back();
+    }
+    else if (take_word(rest, "set"))
+    {
+      const std::size_t equals = rest.find('=');
+      const std::string key    = single_blanks(rest.substr(0, equals));
+      if (equals == std::string::npos || key.empty())
+        throw InputError(section,
+                         "",
+                         line,
+                         "this line cannot be read (" + place(number) + ")",
+                         "write 'set KEY = VALUE'");
+      if (const SceneEntry *other = find(section, key))
+        throw InputError(section,
+                         key,
+                         trim(rest.substr(equals + 1)),
+                         "this key is set twice, in " + place(other->line) + " and " +
+                           place(number),
+                         "keep one of them");
+      all_entries.push_back({section, key, trim(rest.substr(equals + 1)), number});
+    }
+    else if (take_word(rest, "include"))
+      throw InputError(section,
+                       "",
+                       line,
+                       "scenes cannot include other files (" + place(number) + ")",
+                       "copy the lines of that file to here");
+    else
+      throw InputError(section,
+                       "",
+                       line,
+                       "this line cannot be read (" + place(number) + ")",
+                       "a line is 'set KEY = VALUE', 'subsection NAME', 'end' or "
+                       "a comment that begins with '#'");
+  }
+
+
+
+  void SceneText::read_override(const std::string &text)
+  {
+    const std::size_t        equals = text.find('=');
+    std::vector<std::string> path   = split_path(text.substr(0, equals));
+    bool is_bad = equals == std::string::npos || path.empty() || text[equals - 1] == '/';
+    for (std::string &part : path)
+    {
+      part   = single_blanks(part);
+      is_bad = is_bad || part.empty();
+    }
+    if (is_bad)
+      throw InputError("command line",
+                       "--set",
+                       text,
+                       "this override cannot be read",
+                       "write --set \"Section/Subsection/Key=value\", or "
+                       "--set \"Key=value\" for a key outside of all sections");
+    if (text.find_first_of("#\n", equals) != std::string::npos)
+      throw InputError("command line",
+                       "--set",
+                       text,
+                       "a value cannot contain '#' or the end of a line, which "
+                       "would not survive in a scene file",
+                       "give a value without them");
+
+    const std::string key = path.back();
+    path.pop_back();
+    const std::string section = join_path(path);
+    if (!section.empty())
+      note_section(section, 0);
+    all_entries.push_back({section, key, trim(text.substr(equals + 1)), 0});
+  }
+} // namespace Touchstone

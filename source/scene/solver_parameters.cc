@@ -1,0 +1,210 @@
+#include <touchstone/scene/input_error.h>
+#include <touchstone/scene/solver_parameters.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  namespace
+  {
+    void check_positive(const std::string &section,
+                        const std::string &key,
+                        const double       value,
+                        const std::string &remedy)
+    {
+      if (value <= 0.)
+        throw InputError(
+          section, key, Patterns::Tools::to_string(value), "must be positive", remedy);
+    }
+  } // namespace
+
+
+
+  void DiscretisationParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Degree",
+                      degree,
+                      "Polynomial degree of the hexahedra, 1 or 2, for all bodies.",
+                      Patterns::Integer(1, 2));
+    prm.add_parameter("Refinement factor",
+                      refinement_factor,
+                      "Multiplies the number of cells per direction of the built-in "
+                      "geometries; powers of two refine the mesh with its "
+                      "manifolds. Meshes from files accept only those.",
+                      Patterns::Double(0.));
+  }
+
+
+
+  void DiscretisationParameters::check(const std::string &section) const
+  {
+    check_positive(section,
+                   "Refinement factor",
+                   refinement_factor,
+                   "1 takes the cells as they are given, 2 halves their size");
+  }
+
+
+
+  void LoadSteppingParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("End time",
+                      end_time,
+                      "The time t in formulas runs from 0 to here. [time]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Steps",
+                      steps,
+                      "Number of equal steps when none has to be cut.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Maximum cuts",
+                      maximum_cuts,
+                      "A step that does not converge is halved at most this many "
+                      "times in a row.",
+                      Patterns::Integer(0, 30));
+  }
+
+
+
+  void LoadSteppingParameters::check(const std::string &section) const
+  {
+    check_positive(section, "End time", end_time, "1 is as good as any other");
+  }
+
+
+
+  void NewtonParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Residual tolerance",
+                      residual_tolerance,
+                      "Largest out-of-balance force, relative to the forces that "
+                      "act. [no unit]",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Gap tolerance",
+                      gap_tolerance,
+                      "Largest gap or penetration of an active node, relative to "
+                      "the size of the slave faces. [no unit]",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "A step that needs more Newton iterations is cut.",
+                      Patterns::Integer(1));
+  }
+
+
+
+  void NewtonParameters::check(const std::string &section) const
+  {
+    const std::string remedy = "round-off ends at about 1e-12, 1e-9 is usual";
+    check_positive(section, "Residual tolerance", residual_tolerance, remedy);
+    check_positive(section, "Gap tolerance", gap_tolerance, remedy);
+  }
+
+
+
+  void LinearSolverParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Type",
+                      type,
+                      "'MUMPS' factorises; 'Belos CG' iterates with ML multigrid, "
+                      "for large models with contact by elimination.",
+                      Patterns::Selection("MUMPS|Belos CG"));
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Largest true relative residual that is accepted of a solve. "
+                      "[no unit]",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "Of Belos CG in one solve.",
+                      Patterns::Integer(1));
+  }
+
+
+
+  void LinearSolverParameters::check(const std::string &section) const
+  {
+    check_positive(section, "Tolerance", tolerance, "round-off ends at about 1e-14, 1e-8 is usual");
+  }
+
+
+
+  void OutputParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Directory",
+                      directory,
+                      "Folder for all output; empty: output/STEM for a scene file "
+                      "STEM.prm.",
+                      Patterns::Anything());
+    prm.add_parameter("VTU interval",
+                      vtu_interval,
+                      "Pictures (solution.pvd, contact.pvd) every so many steps and "
+                      "at the end; 0: never.",
+                      Patterns::Integer(0));
+  }
+
+
+
+  void OutputParameters::check(const std::string &) const
+  {}
+
+
+
+  void ReferenceParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Type",
+                      type,
+                      "The exact solution that the result is compared with; 'none' "
+                      "compares with nothing.",
+                      Patterns::Anything());
+    prm.add_parameter("Pair",
+                      pair,
+                      "The contact pair that is compared; empty: the first.",
+                      Patterns::Anything());
+    prm.add_parameter("Values",
+                      values,
+                      "Named numbers that the type asks for, for example "
+                      "'radius: 10, pressure: 5'.",
+                      Patterns::Anything());
+  }
+
+
+
+  std::map<std::string, double> ReferenceParameters::numbers(const std::string &section) const
+  {
+    std::map<std::string, double> result;
+    for (const std::string &item : dealii::Utilities::split_string_list(values, ','))
+    {
+      const std::size_t colon = item.find(':');
+      const std::string name  = dealii::Utilities::trim(item.substr(0, colon));
+      double            value = std::nan("");
+      if (colon != std::string::npos)
+        try
+        {
+          value = dealii::Utilities::string_to_double(item.substr(colon + 1));
+        }
+        catch (const std::exception &)
+        {}
+      if (name.empty() || !std::isfinite(value) || !result.emplace(name, value).second)
+        throw InputError(section,
+                         "Values",
+                         item,
+                         result.count(name) > 0 ? "this name is given twice"
+                                                : "this is not a name with a number",
+                         "write 'name: number' with commas between them, for "
+                         "example 'radius: 10, pressure: 5'");
+    }
+    return result;
+  }
+
+
+
+  void ReferenceParameters::check(const std::string &section) const
+  {
+    numbers(section);
+  }
+} // namespace Touchstone

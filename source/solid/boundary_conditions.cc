@@ -1,0 +1,255 @@
+#include <touchstone/scene/input_error.h>
+#include <touchstone/solid/boundary_conditions.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <set>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Null for an empty expression. */
+    std::shared_ptr<FunctionParser<dim>>
+    parse(const std::string &expression)
+    {
+      if (expression.find_first_not_of(" \t") == std::string::npos)
+        return nullptr;
+      auto function = std::make_shared<FunctionParser<dim>>(1);
+      function->initialize("x,y,z,t", expression, {{"pi", numbers::PI}}, true);
+      return function;
+    }
+
+    Tensor<1, dim>
+    axis(const unsigned int d)
+    {
+      Tensor<1, dim> e;
+      e[d] = 1.;
+      return e;
+    }
+  } // namespace
+
+
+
+  BoundaryConditions::BoundaryConditions(const Scene &scene, const Forest &forest, const Solid &solid)
+    : solid(solid)
+  {
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      {
+        const BodyParameters &body    = scene.bodies[b];
+        const std::string     section = "Body " + body.name;
+        for (const std::string &name : body.fixed)
+          {
+            const auto id = forest.boundary_id(b, name, section, "Fixed");
+            supports.push_back({body.name, name, Tensor<1, dim>()});
+            for (unsigned int d = 0; d < dim; ++d)
+              prescribe_on(id, axis(d), nullptr, b, supports.size() - 1);
+          }
+        for (const std::string &name : body.symmetry)
+          {
+            const auto id = forest.boundary_id(b, name, section, "Symmetry");
+            supports.push_back({body.name, name, Tensor<1, dim>()});
+            prescribe_on(id, plane_normal(id, section, name), nullptr, b, supports.size() - 1);
+          }
+        for (const std::string &name : body.conditions)
+          {
+            const auto id = forest.boundary_id(b, name, section, "Boundary conditions");
+            const BoundaryParameters &condition = body.boundaries.at(name);
+            const std::array<Function, dim> displacement = {{parse(condition.displacement_x),
+                                                             parse(condition.displacement_y),
+                                                             parse(condition.displacement_z)}};
+            if (displacement[0] || displacement[1] || displacement[2])
+              supports.push_back({body.name, name, Tensor<1, dim>()});
+            for (unsigned int d = 0; d < dim; ++d)
+              if (displacement[d])
+                prescribe_on(id, axis(d), displacement[d], b, supports.size() - 1);
+            const Load load{id,
+                            {{parse(condition.traction_x),
+                              parse(condition.traction_y),
+                              parse(condition.traction_z)}},
+                            parse(condition.pressure)};
+            if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
+              loads.push_back(load);
+          }
+      }
+  }
+
+
+
+  Tensor<1, dim>
+  BoundaryConditions::plane_normal(const types::boundary_id boundary,
+                                   const std::string       &section,
+                                   const std::string       &name) const
+  {
+    const FE_Q<dim>        scalar_fe(1);
+    FEFaceValues<dim>      values(solid.mapping,
+                             scalar_fe,
+                             QGauss<dim - 1>(2),
+                             update_normal_vectors | update_JxW_values);
+    Tensor<1, dim>         sum;
+    double                 area = 0.;
+    for (const auto &cell : solid.dof_handler.get_triangulation().active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+            {
+              values.reinit(cell, f);
+              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                {
+                  sum += values.JxW(q) * values.normal_vector(q);
+                  area += values.JxW(q);
+                }
+            }
+    sum  = Utilities::MPI::sum(sum, solid.communicator);
+    area = Utilities::MPI::sum(area, solid.communicator);
+    if (sum.norm() < (1. - 1e-8) * area)
+      throw InputError(section,
+                       "Symmetry",
+                       name,
+                       "this boundary is not plane, so it cannot be a plane of symmetry",
+                       "prescribe displacement components in a section 'Boundary " + name +
+                         "' instead.");
+    sum /= sum.norm();
+    for (unsigned int d = 0; d < dim; ++d)
+      if (std::abs(std::abs(sum[d]) - 1.) < 1e-12)
+        return sum[d] * axis(d); // without the round-off of the other components
+    return sum;
+  }
+
+
+
+  void
+  BoundaryConditions::prescribe_on(const types::boundary_id boundary,
+                                   const Tensor<1, dim>    &direction,
+                                   const Function          &value,
+                                   const unsigned int       body,
+                                   const unsigned int       support)
+  {
+    const auto                          &fe = solid.fe;
+    std::set<Index>                      seen;
+    std::vector<Index>                   dofs(fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+            {
+              cell->get_dof_indices(dofs);
+              for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+                if (fe.system_to_component_index(i).first == 0 && fe.has_support_on_face(i, f) &&
+                    solid.owned.is_element(dofs[i]) && seen.insert(dofs[i]).second)
+                  prescribed.push_back(
+                    {dofs[i] / dim,
+                     direction,
+                     value,
+                     solid.mapping.transform_unit_to_real_cell(cell, fe.unit_support_point(i)),
+                     body,
+                     support});
+            }
+  }
+
+
+
+  double
+  BoundaryConditions::prescribe(const double t, const Vector &u, ConstraintGraph &graph) const
+  {
+    double mismatch = 0.;
+    for (const Prescribed &p : prescribed)
+      {
+        double value = 0.;
+        if (p.value)
+          {
+            p.value->set_time(t);
+            value = p.value->value(p.position);
+          }
+        for (unsigned int d = 0; d < dim; ++d)
+          if (p.direction[d] != 0.)
+            value -= p.direction[d] * u(dim * p.node + d);
+        Condition condition;
+        condition.node      = p.node;
+        condition.direction = p.direction;
+        condition.value     = value;
+        condition.body      = p.body;
+        condition.position  = p.position;
+        if (graph.accept(condition))
+          mismatch = std::max(mismatch, std::abs(value));
+      }
+    return Utilities::MPI::max(mismatch, solid.communicator);
+  }
+
+
+
+  void
+  BoundaryConditions::external_force(const double t, Vector &force) const
+  {
+    force = 0.;
+    if (loads.empty())
+      return;
+    FEFaceValues<dim> values(solid.mapping,
+                             solid.fe,
+                             QGauss<dim - 1>(solid.fe.degree + 2),
+                             update_values | update_normal_vectors | update_JxW_values |
+                               update_quadrature_points);
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    const auto         evaluate = [&](const Function &function, const Point<dim> &x) {
+      if (!function)
+        return 0.;
+      function->set_time(t);
+      return function->value(x);
+    };
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          for (const Load &load : loads)
+            if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == load.boundary)
+              {
+                values.reinit(cell, f);
+                cell->get_dof_indices(dofs);
+                for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                  {
+                    const Point<dim> x        = values.quadrature_point(q);
+                    Tensor<1, dim>   traction = -evaluate(load.pressure, x) * values.normal_vector(q);
+                    for (unsigned int d = 0; d < dim; ++d)
+                      traction[d] += evaluate(load.traction[d], x);
+                    for (unsigned int i = 0; i < dofs.size(); ++i)
+                      if (solid.owned.is_element(dofs[i]))
+                        force(dofs[i]) += values.shape_value(i, q) *
+                                          traction[solid.fe.system_to_component_index(i).first] *
+                                          values.JxW(q);
+                  }
+              }
+    force.compress(VectorOperation::add);
+  }
+
+
+
+  std::vector<Reaction>
+  BoundaryConditions::reactions(const Vector &unbalanced) const
+  {
+    // Each prescribed direction takes its share of the unbalanced force of the
+    // node, in the order of precedence and without what earlier directions have
+    // taken: so the shares add up to the whole.
+    std::vector<Reaction>                          result = supports;
+    std::map<Index, std::vector<Tensor<1, dim>>> taken;
+    for (const Prescribed &p : prescribed)
+      {
+        Tensor<1, dim> direction = p.direction;
+        for (const Tensor<1, dim> &earlier : taken[p.node])
+          direction -= (direction * earlier) * earlier;
+        if (direction.norm() < 1e-3)
+          continue;
+        direction /= direction.norm();
+        taken[p.node].push_back(direction);
+        double share = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          share += direction[d] * unbalanced(dim * p.node + d);
+        result[p.support].force += share * direction;
+      }
+    for (Reaction &reaction : result)
+      reaction.force = Utilities::MPI::sum(reaction.force, solid.communicator);
+    return result;
+  }
+} // namespace Touchstone

@@ -1,0 +1,66 @@
+// Analytic surfaces: closest point, its derivative against central differences,
+// normals, and what happens on the axis and in the centre.
+
+#include "mesh_common.h"
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  void print(const std::string           &title,
+             const AnalyticSurface       &surface,
+             const std::vector<Point<3>> &points)
+  {
+    std::cout << title << '\n';
+    for (const Point<3> &x : points)
+    {
+      const Point<3>     p        = surface.project(x);
+      const Tensor<1, 3> n        = surface.normal(x);
+      const Tensor<2, 3> gradient = surface.projection_gradient(x);
+
+      const double h = 1e-5;
+      Tensor<2, 3> difference;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        Tensor<1, 3> step;
+        step[d]               = h;
+        const Tensor<1, 3> dp = surface.project(x + step) - surface.project(x - step);
+        for (unsigned int c = 0; c < 3; ++c)
+          difference[c][d] = dp[c] / (2. * h);
+      }
+      const Tensor<1, 3> d = x - p;
+      std::cout << "  " << x << " -> " << p << ", normal " << n << '\n'
+                << "    normal length " << small(n.norm() - 1.) << ", foot "
+                << small((d - (d * n) * n).norm()) << ", stays "
+                << small(surface.project(p).distance(p)) << ", gradient "
+                << small((gradient - difference).norm(), 1e-7) << ", symmetric "
+                << small((gradient - transpose(gradient)).norm()) << '\n';
+    }
+  }
+} // namespace
+
+int
+main()
+{
+  const std::vector<Point<3>> points = {{1., 2., 3.},
+                                        {-0.5, 0.25, 0.125},
+                                        {0.5, 3., -2.},
+                                        {2., -1., 0.3}};
+
+  print("plane", *make_plane({0., 0., 1.}, Tensor<1, 3>({1., 2., 2.})), points);
+  print("sphere", *make_sphere({0.5, 0., 0.}, 2., true), points);
+  print("hollow sphere", *make_sphere({0.5, 0., 0.}, 2., false), points);
+  print("cylinder", *make_cone({0.1, 0., 0.}, Tensor<1, 3>({0., 0., 2.}), 1.5, 0., true), points);
+  print("bore", *make_cone({0.1, 0., 0.}, Tensor<1, 3>({0., 0., 1.}), 1.5, 0., false), points);
+  print("cone", *make_cone({0.1, 0., 0.}, Tensor<1, 3>({1., 1., 0.}), 2., 0.2, true), points);
+  print("conical bore",
+        *make_cone({0., 0., 0.}, Tensor<1, 3>({1., 0., 0.}), 8., 0.01, false),
+        points);
+
+  const auto sphere = make_sphere({1., 2., 3.}, 2., true);
+  const auto cone   = make_cone({0., 0., 0.}, Tensor<1, 3>({1., 0., 0.}), 2., 0., true);
+  std::cout << "centre of the sphere -> " << sphere->project({1., 2., 3.}) << '\n'
+            << "axis of the cylinder -> " << cone->project({3., 0., 0.}) << ", normal "
+            << cone->normal({3., 0., 0.}) << '\n';
+}

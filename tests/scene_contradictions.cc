@@ -1,0 +1,75 @@
+// Values that cannot be, and entries that contradict each other.
+
+#include "scene_support.h"
+
+int
+main()
+{
+  try_override("negative modulus", {"Body lower/Material/Young modulus=-1"});
+  try_override("modulus of zero", {"Body lower/Material/Young modulus=0"});
+  try_override("incompressible", {"Body lower/Material/Poisson ratio=0.5"});
+  try_override("Poisson ratio of -1", {"Body lower/Material/Poisson ratio=-1"});
+  try_override("b-bar of degree 2", {"Discretisation/Degree=2", "Body lower/Element=b-bar"});
+  try_override("full of degree 2", {"Discretisation/Degree=2", "Body lower/Element=full"});
+  try_override("automatic of degree 2", {"Discretisation/Degree=2"});
+
+  try_override("held twice", {"Body upper/Symmetry=top"});
+  try_override("listed twice", {"Body upper/Fixed=top, top"});
+  try_override("empty boundary", {"Body upper/Fixed=top,,left"});
+  try_override("pressure on a fixed boundary", {"Body lower/Fixed=right"});
+  try_override("pressure on a symmetry plane", {"Body lower/Symmetry=right"});
+  try_override("traction along a symmetry plane",
+               {"Body lower/Symmetry=right",
+                "Body lower/Boundary right/Pressure=",
+                "Body lower/Boundary right/Traction y=1"});
+  try_override("moved and loaded",
+               {"Body lower/Boundary right/Displacement x=1",
+                "Body lower/Boundary right/Traction x=1"});
+  try_override("moved and pressed",
+               {"Body lower/Boundary right/Displacement x=0",
+                "Body lower/Boundary right/Displacement y=0",
+                "Body lower/Boundary right/Displacement z=0"});
+
+  const std::string key = "Body lower/Boundary right/Pressure=";
+  try_override("unfinished formula", {key + "5*"});
+  try_override("unknown variable", {key + "5*r"});
+  try_override("unbalanced bracket", {key + "sin(x"});
+  try_override("two formulas", {key + "1; 2"});
+  try_override("decimal comma", {key + "1,5"});
+  try_override("division by zero", {key + "1/0"});
+  try_override("all that formulas can", {key + "t<0.5 ? max(x,y)*sin(pi*z) : 1e-3"});
+
+  try_override("motion in space", {"Obstacle floor/Motion z=0.1*x"});
+  try_override("no direction", {"Obstacle floor/Direction=0,0,0"});
+  try_override("no radius", {"Obstacle floor/Shape=sphere", "Obstacle floor/Radius=0"});
+
+  try_override("unknown slave", {"Contact pair between/Slave body=lowr"});
+  try_override("unknown master", {"Contact pair between/Master body=third"});
+  try_override("unknown obstacle", {"Contact pair below/Obstacle=wall"});
+  try_override("no slave boundary", {"Contact pair between/Slave boundaries="});
+  try_override("no master boundary", {"Contact pair between/Master boundaries="});
+  try_override("boundary twice", {"Contact pair between/Slave boundaries=top, top"});
+  try_override("no master", {"Contact pair below/Obstacle="});
+  try_override("two masters", {"Contact pair between/Obstacle=floor"});
+  try_override("boundaries of an obstacle", {"Contact pair below/Master boundaries=top"});
+  try_override("slave is master",
+               {"Contact pair between/Master body=lower",
+                "Contact pair between/Master boundaries=left, top"});
+  try_override("two boundaries of one body",
+               {"Contact pair between/Master body=lower",
+                "Contact pair between/Master boundaries=left"});
+  try_override("tied", {"Contact pair between/Behaviour=tied"});
+  try_override("tied and finite",
+               {"Contact pair between/Behaviour=tied", "Contact pair between/Sliding=finite"});
+
+  try_override("multipliers and CG",
+               {"Contact/Enforcement=lagrange multipliers", "Linear solver/Type=Belos CG"});
+  try_override("no refinement", {"Discretisation/Refinement factor=0"});
+  try_override("no time", {"Load stepping/End time=0"});
+  try_override("exact", {"Newton/Residual tolerance=0"});
+  try_override("exact gap", {"Newton/Gap tolerance=0"});
+  try_override("exact solver", {"Linear solver/Tolerance=0"});
+  try_override("pair of the reference", {"Reference solution/Pair=besides"});
+  try_override("values of the reference", {"Reference solution/Values=radius: 10, p"});
+  try_override("value given twice", {"Reference solution/Values=r: 10, r: 1"});
+}
