@@ -50,6 +50,15 @@ namespace Touchstone
 
 
 
+  std::array<double, 2>
+  node_coordinates(const Face &face, const unsigned int m)
+  {
+    const unsigned int p = face.degree;
+    return {{2. * (m % (p + 1)) / p - 1., 2. * (m / (p + 1)) / p - 1.}};
+  }
+
+
+
   Tensor<1, dim>
   FacePoint::normal() const
   {

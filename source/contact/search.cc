@@ -143,17 +143,31 @@ namespace Touchstone
     const AnalyticSurface *exact = master.exact_surface(*best);
     const FacePoint        point = evaluate(*best, exact, best_projection.xi);
     ContactPartner         partner{best, best_projection.xi, point.x, point.normal()};
-    // On facets the normal is continuous only if it is interpolated from the
-    // nodes; on an exact surface it is so by itself, but for sharp edges: a node
-    // in the wedge over an edge sees the average of the two sides.
-    if (exact == nullptr || best_projection.beyond_inner > 1e-6)
+    const FaceShapes       shapes(best->degree, best_projection.xi);
+    Tensor<1, dim>         interpolated, edge;
+    for (unsigned int m = 0; m < best->n_nodes(); ++m)
       {
-        const FaceShapes shapes(best->degree, best_projection.xi);
-        Tensor<1, dim>   normal;
-        for (unsigned int m = 0; m < best->n_nodes(); ++m)
-          normal += shapes.value[m] * best->normals[m];
-        partner.normal = normal / normal.norm();
+        interpolated += shapes.value[m] * best->normals[m];
+        edge += shapes.value[m] * best->edge_normals[m];
       }
+    if (best_projection.beyond_inner > 1e-6 && interpolated * edge < 0.999 * interpolated.norm() * edge.norm())
+      {
+        // In the wedge over a sharp edge the shortest way leads to the edge.
+        const Tensor<1, dim> way = x - point.x;
+        partner.normal           = way.norm() > 1e-8 * reach ? (way * edge < 0. ? -way : way) : edge;
+      }
+    else if (exact == nullptr)
+      partner.normal = interpolated;
+    else
+      {
+        // The exact surface with the deformation of the faces: continuous across
+        // edges once the jumps at the nodes are taken out.
+        Tensor<1, dim> own;
+        for (unsigned int m = 0; m < best->n_nodes(); ++m)
+          own += shapes.value[m] * evaluate(*best, exact, node_coordinates(*best, m)).normal();
+        partner.normal += interpolated - own;
+      }
+    partner.normal /= partner.normal.norm();
     return partner;
   }
 } // namespace Touchstone

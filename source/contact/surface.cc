@@ -43,6 +43,9 @@ namespace Touchstone
       return areas;
     }
 
+    /** Faces that meet at more than 50 degrees meet in an edge of the body. */
+    constexpr double cosine_of_sharp_edge = 0.64;
+
     /** The four edges of a face as pairs of corner nodes, in the order of the
      * bits of Face::outer_edges. */
     std::array<std::pair<Index, Index>, 4>
@@ -53,7 +56,9 @@ namespace Touchstone
                           face.nodes[p],
                           face.nodes[(p + 1) * p],
                           face.nodes[(p + 1) * (p + 1) - 1]};
-      const auto pair = [](const Index a, const Index b) { return std::minmax(a, b); };
+      const auto pair = [](const Index a, const Index b) {
+        return std::make_pair(std::min(a, b), std::max(a, b));
+      };
       return {{pair(c[0], c[2]), pair(c[1], c[3]), pair(c[0], c[1]), pair(c[2], c[3])}};
     }
   } // namespace
@@ -176,30 +181,43 @@ namespace Touchstone
   void
   Surface::move(const Vector &u)
   {
-    normals.clear();
+    // Normals of the faces at their nodes, in length weighted by the area that
+    // the face has around the node.
+    std::unordered_map<Index, std::vector<Tensor<1, dim>>> parts;
     for (auto *list : {&faces, &ghost_faces})
       for (Face &face : *list)
         {
-          const unsigned int p = face.degree;
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
             for (unsigned int d = 0; d < dim; ++d)
               face.displacement[m][d] = u(dim * face.nodes[m] + d);
-          // Normals weighted by the area that the face has around the node.
-          for (unsigned int j = 0; j <= p; ++j)
-            for (unsigned int i = 0; i <= p; ++i)
-              {
-                const FacePoint point = evaluate(face,
-                                                 exact_surface(face),
-                                                 {{2. * i / p - 1., 2. * j / p - 1.}});
-                normals[face.nodes[i + (p + 1) * j]] +=
-                  cross_product_3d(point.tangents[0], point.tangents[1]);
-              }
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            {
+              const FacePoint point = evaluate(face, exact_surface(face), node_coordinates(face, m));
+              face.normals[m]       = cross_product_3d(point.tangents[0], point.tangents[1]);
+              parts[face.nodes[m]].push_back(face.normals[m]);
+            }
         }
-    for (auto &entry : normals)
-      if (entry.second.norm() > 0.)
-        entry.second /= entry.second.norm();
+    normals.clear();
+    for (const auto &[node, list] : parts)
+      {
+        Tensor<1, dim> &normal = normals[node];
+        for (const Tensor<1, dim> &part : list)
+          normal += part;
+        if (normal.norm() > 0.)
+          normal /= normal.norm();
+      }
+    // A face takes its share of the average only from faces that it meets in
+    // less than a sharp edge.
     for (Face &face : faces)
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
-        face.normals[m] = normals[face.nodes[m]];
+        {
+          const Tensor<1, dim> own = face.normals[m];
+          Tensor<1, dim>       sum;
+          for (const Tensor<1, dim> &part : parts[face.nodes[m]])
+            if (part * own > cosine_of_sharp_edge * part.norm() * own.norm())
+              sum += part;
+          face.edge_normals[m] = normals[face.nodes[m]];
+          face.normals[m]      = sum.norm() > 0. ? sum / sum.norm() : face.edge_normals[m];
+        }
   }
 } // namespace Touchstone

@@ -37,8 +37,9 @@ namespace Touchstone
     std::array<Index, max_nodes>                  nodes{};
     std::array<dealii::Point<dim>, max_nodes>     reference;
     std::array<dealii::Tensor<1, dim>, max_nodes> displacement;
-    /** Unit normals averaged over the faces that meet at the node. */
-    std::array<dealii::Tensor<1, dim>, max_nodes> normals;
+    /** Unit normals averaged over the faces that meet at the node, but for those
+     * beyond a sharp edge; and over all of them. */
+    std::array<dealii::Tensor<1, dim>, max_nodes> normals, edge_normals;
 
     unsigned int
     n_nodes() const
@@ -46,6 +47,10 @@ namespace Touchstone
       return (degree + 1) * (degree + 1);
     }
   };
+
+  /** @brief Face coordinates of the node @p m. */
+  std::array<double, 2>
+  node_coordinates(const Face &face, unsigned int m);
 
   /** @brief Values and derivatives of the shape functions of a face. */
   struct FaceShapes
