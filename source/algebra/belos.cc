@@ -32,6 +32,8 @@ namespace Touchstone
       std::unique_ptr<Epetra_CrsMatrix>                     preconditioned_matrix;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> preconditioner;
       std::vector<double>                                   null_space;
+      /** Constrained unknowns of that matrix. */
+      std::vector<char> constrained;
       /** Iterations of the first solve with the present preconditioner. */
       int fresh_iterations = 0;
 
@@ -59,6 +61,7 @@ namespace Touchstone
     BelosCg::set_up(const CondensedSystem &system, const Epetra_MultiVector &modes)
     {
       preconditioner.reset();
+      constrained           = system.constrained;
       preconditioned_matrix = std::make_unique<Epetra_CrsMatrix>(*system.matrix);
       const int n           = modes.MyLength();
       null_space.assign(static_cast<std::size_t>(n) * modes.NumVectors(), 0.);
@@ -103,7 +106,7 @@ namespace Touchstone
       problem->setProblem();
       const auto list = Teuchos::rcp(new Teuchos::ParameterList());
       list->set("Maximum Iterations", static_cast<int>(parameters.maximum_iterations));
-      list->set("Convergence Tolerance", parameters.tolerance);
+      list->set("Convergence Tolerance", system.tolerance);
       list->set("Verbosity", static_cast<int>(Belos::Errors));
       Belos::BlockCGSolMgr<double, Epetra_MultiVector, Epetra_Operator> solver(problem, list);
       bool                                                              converged = false;
@@ -130,9 +133,13 @@ namespace Touchstone
     {
       if (!system.definite || !system.symmetric)
         throw LinearSolverFailure("Belos CG needs a symmetric positive definite system");
-      // A preconditioner of an earlier active set serves as long as it does not
-      // cost half as many iterations again; a set-up costs about ten of them.
-      const bool fits = preconditioner && preconditioned_matrix->RowMap().SameAs(system.matrix->RowMap());
+      // The preconditioner serves until the active set changes (other unknowns are
+      // condensed then, and one of an earlier set cost up to six times the
+      // iterations), or until it costs half as many iterations again; a set-up
+      // costs about ten.
+      int same = preconditioner && constrained == system.constrained, all_same = 0;
+      system.matrix->Comm().MinAll(&same, &all_same, 1);
+      const bool fits = all_same == 1;
       if (!fits)
         set_up(system, modes);
       int iterations = iterate(system, solution);

@@ -28,8 +28,8 @@ namespace Touchstone
     rest.Norm2(&residual);
     residual /= rhs_norm;
     // A direct solver cannot do better than round-off allows, an iterative one
-    // has its own estimate: neither is believed.
-    if (!(residual <= std::max(10. * parameters.tolerance, 1e-6)))
+    // goes by a residual that it updates: neither is believed.
+    if (!(residual <= std::max(10. * system.tolerance, 1e-6)))
       throw LinearSolverFailure("the linear solver " + parameters.type +
                                 " left a true relative residual of " + std::to_string(residual));
   }

@@ -179,6 +179,7 @@ namespace Touchstone
   CondensedSystem::CondensedSystem(const LinearSystem &system)
     : symmetric(system.symmetric)
     , definite(system.definite)
+    , tolerance(system.tolerance)
   {
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
     const RawRows           raw(stiffness);

@@ -123,13 +123,24 @@ namespace Touchstone
     const double scale =
       std::max({internal.l2_norm(), external.l2_norm(), contact_force.l2_norm()});
     state.residual = scale > 0. ? free.l2_norm() / scale : 0.;
-
     const Contact::ActiveSetUpdate set =
       contact.update_active_set(scene.newton.gap_tolerance, caution);
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;
     state.signature = set.signature;
+
+    // A solve that goes far below what Newton needs in the end is wasted. But one
+    // that moves supports has a right-hand side much larger than the forces that
+    // it leads to, and one that leads to wrong signs of contact forces costs
+    // further iterations: these get three digits more.
+    linear_tolerance = scene.linear_solver.tolerance;
+    if (!state.prescribed || state.changes > 0)
+      linear_tolerance *= 1e-3;
+    else if (state.residual > 0.)
+      linear_tolerance = std::clamp(0.3 * scene.newton.residual_tolerance / state.residual,
+                                    linear_tolerance,
+                                    std::max(linear_tolerance, 0.1));
     return state;
   }
 
@@ -145,6 +156,7 @@ namespace Touchstone
     system->rhs = external;
     system->rhs -= internal;
     system->first_extra = system->rhs.size();
+    system->tolerance   = linear_tolerance;
     enforcement->enforce(contact, graph, *system);
     check_supports();
     system->constraints =

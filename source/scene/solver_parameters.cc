@@ -115,8 +115,9 @@ namespace Touchstone
                       Patterns::Selection("MUMPS|Belos CG"));
     prm.add_parameter("Tolerance",
                       tolerance,
-                      "Largest true relative residual that is accepted of a solve. "
-                      "[no unit]",
+                      "Relative residual to which an iterative solver takes the linear "
+                      "system of a Newton iteration. Newton's own 'Residual tolerance' "
+                      "decides how exact the result is. [no unit]",
                       Patterns::Double(0., 1.));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
@@ -128,7 +129,7 @@ namespace Touchstone
 
   void LinearSolverParameters::check(const std::string &section) const
   {
-    check_positive(section, "Tolerance", tolerance, "round-off ends at about 1e-14, 1e-8 is usual");
+    check_positive(section, "Tolerance", tolerance, "two to four digits a Newton iteration are usual: 1e-3");
   }
 
 

@@ -49,6 +49,8 @@ namespace Touchstone
     bool                symmetric = true;
     /** Positive definite: no multipliers. */
     bool definite = true;
+    /** Relative residual that an iterative solution needs. */
+    double tolerance = 1e-8;
   };
 
   /**
@@ -70,6 +72,7 @@ namespace Touchstone
     /** Marks rows of constrained unknowns, in the order of the local rows. */
     std::vector<char> constrained;
     bool              symmetric, definite;
+    double            tolerance;
   };
 } // namespace Touchstone
 

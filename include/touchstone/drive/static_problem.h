@@ -104,6 +104,8 @@ namespace Touchstone
     std::vector<double>              extra;
     unsigned int                     assemblies = 0;
     std::string                      stabilised;
+    /** Relative residual that the next linear solve needs. */
+    double linear_tolerance = 1e-3;
 
     /** Length against which a missed prescribed displacement is measured. */
     double length = 1.;

@@ -40,7 +40,7 @@ namespace Touchstone
   struct NewtonParameters
   {
     /** Out-of-balance force relative to the forces that act; no unit. */
-    double residual_tolerance = 1e-9;
+    double residual_tolerance = 1e-10;
     /** Gap or penetration relative to the size of the slave faces; no unit. */
     double       gap_tolerance      = 1e-8;
     unsigned int maximum_iterations = 40;
@@ -54,8 +54,9 @@ namespace Touchstone
   {
     /** "MUMPS" or "Belos CG". */
     std::string type = "MUMPS";
-    /** Largest true relative residual that is accepted of a solve. */
-    double       tolerance          = 1e-8;
+    /** Relative residual to which an iterative solver takes the system of a
+     * Newton iteration (inexact Newton); no unit. */
+    double       tolerance          = 1e-3;
     unsigned int maximum_iterations = 2000;
 
     void declare(dealii::ParameterHandler &prm);
