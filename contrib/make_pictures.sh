@@ -5,7 +5,7 @@
 # Usage: contrib/make_pictures.sh [PROGRAM]      (build/touchstone)
 set -eu
 # One display for all pictures; its server needs a moment to start.
-[ -n "${DISPLAY-}" ] || exec xvfb-run -a -w 5 sh "$0" "$@"
+[ -n "${DISPLAY-}" ] || exec xvfb-run -n $((100 + $$ % 900)) -w 5 sh "$0" "$@"
 cd "$(dirname -- "$0")/.."
 program=${1:-build/touchstone}
 runs=output/pictures
@@ -30,12 +30,12 @@ render press_fit --unit MPa --camera "0.35 -0.6 1" --up "0 1 0" \
   --contact-camera "-1 -1 0.7" --contact-up "0 0 1"
 
 run two_tubes
-render two_tubes --unit MPa --camera "0.5 0.75 0.9" --up "0 1 0" --zoom 1.05 \
+render two_tubes --unit MPa --camera "0.5 0.75 0.9" --up "0 1 0" --zoom 0.95 \
   --contact-camera "0.5 -0.6 -0.6" --contact-up "0 1 0"
 
 run hertz_sphere
-render hertz_sphere --unit MPa --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.05" --zoom 7 \
-  --contact-camera "-1 -0.6 1.6" --contact-zoom 5 --points "$runs/hertz_sphere.txt"
+render hertz_sphere --unit MPa --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.05" --zoom 6 \
+  --contact-camera "-0.4 -0.8 1.6" --contact-zoom 9 --points "$runs/hertz_sphere.txt"
 
 # Hertz' pressure at the force that was computed: four times that of the quarter.
 awk '/"force":/ { gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print 4 * (f[3] < 0 ? -f[3] : f[3]) }' \

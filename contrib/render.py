@@ -23,6 +23,8 @@ import os
 
 from paraview import servermanager
 from paraview.simple import *  # noqa: F403 pylint: disable=wildcard-import
+from vtkmodules.util import numpy_support
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
 
 WIDTH, HEIGHT = 1000, 480
 
@@ -71,12 +73,14 @@ def show(view, source, time, field, title, edges, camera):
     view.Background = [1, 1, 1]
     view.UseColorPaletteForBackground = 0
     view.OrientationAxesVisibility = 1
+    view.OrientationAxesOutlineColor = [1, 1, 1]
     view.OrientationAxesLabelColor = [0, 0, 0]
     display = Show(source, view)
     display.Representation = "Surface With Edges" if edges else "Surface"
     display.EdgeColor = [0.25, 0.25, 0.25]
     # Colours are to be read, so shading stays faint.
     display.Ambient, display.Diffuse = 0.6, 0.4
+    display.Interpolation = "Flat"
     values = source.PointData.GetArray(field)
     if values is None:
         raise SystemExit(f"there is no field '{field}' in this picture")
@@ -93,13 +97,15 @@ def show(view, source, time, field, title, edges, camera):
     table.NumberOfTableValues = 16
     bar = GetScalarBar(table, view)
     bar.Visibility = 1
+    bar.DrawBackground = 1
+    bar.BackgroundColor = [1, 1, 1, 0.85]
     bar.Title = title
     bar.ComponentTitle = ""
     bar.TitleColor = bar.LabelColor = [0, 0, 0]
     bar.TitleFontSize = 17
     bar.LabelFontSize = 15
     bar.AutomaticLabelFormat = 0
-    bar.LabelFormat = bar.RangeLabelFormat = "%-#.4g"
+    bar.LabelFormat = bar.RangeLabelFormat = "%.4g"
     bar.AddRangeLabels = 0
     bar.UseCustomLabels = 1
     bar.CustomLabels = [low + (high - low) * i / 4 for i in range(5)]
@@ -133,6 +139,21 @@ def write_points(source, file_name):
             out.write(" ".join(f"{x:.9g}" for x in row) + "\n")
 
 
+def compress(file_name):
+    """Write the picture again with 32 levels per colour, which makes it small."""
+    reader = vtkPNGReader()
+    reader.SetFileName(file_name)
+    reader.Update()
+    image = reader.GetOutput()
+    values = numpy_support.vtk_to_numpy(image.GetPointData().GetScalars())
+    values[:] = ((values.astype(int) * 31 + 127) // 255) * 255 // 31
+    writer = vtkPNGWriter()
+    writer.SetCompressionLevel(9)
+    writer.SetFileName(file_name)
+    writer.SetInputData(image)
+    writer.Write()
+
+
 def with_unit(text, unit):
     return f"{text.replace('_', ' ')}{f' ({unit})' if unit else ''}"
 
@@ -162,6 +183,7 @@ def main():
           arguments.contact_zoom or arguments.zoom, arguments.focus))
     SaveScreenshot(arguments.picture, layout, ImageResolution=[WIDTH, HEIGHT],
                    CompressionLevel="9")
+    compress(arguments.picture)
     if arguments.points:
         write_points(contact, arguments.points)
 

@@ -29,7 +29,7 @@ namespace Touchstone
 
     private:
       /** The matrix that the multigrid was made from; ML keeps a reference. */
-      std::unique_ptr<Epetra_CrsMatrix>                     preconditioned_matrix;
+      std::shared_ptr<Epetra_CrsMatrix>                     preconditioned_matrix;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> preconditioner;
       std::vector<double>                                   null_space;
       /** Constrained unknowns of that matrix. */
@@ -62,7 +62,7 @@ namespace Touchstone
     {
       preconditioner.reset();
       constrained           = system.constrained;
-      preconditioned_matrix = std::make_unique<Epetra_CrsMatrix>(*system.matrix);
+      preconditioned_matrix = system.matrix;
       const int n           = modes.MyLength();
       null_space.assign(static_cast<std::size_t>(n) * modes.NumVectors(), 0.);
       for (int v = 0; v < modes.NumVectors(); ++v)

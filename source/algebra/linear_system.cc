@@ -309,7 +309,7 @@ namespace Touchstone
       all_rows.push_back(static_cast<int>(system.first_extra + k));
     const Epetra_Map new_row_map(-1, n_all, all_rows.data(), 0, comm);
     const Epetra_Map new_col_map(-1, static_cast<int>(columns.size()), columns.data(), 0, comm);
-    matrix = std::make_unique<Epetra_CrsMatrix>(Copy, new_row_map, new_col_map, lengths.data(), true);
+    matrix = std::make_shared<Epetra_CrsMatrix>(Copy, new_row_map, new_col_map, lengths.data(), true);
     rhs    = std::make_unique<Epetra_Vector>(new_row_map);
     for (int i = 0; i < n_all; ++i)
       {

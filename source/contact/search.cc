@@ -2,6 +2,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -109,6 +110,61 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Such a face is on the far side of its body. */
+    bool
+    looks_the_same_way(const Face            &face,
+                       const AnalyticSurface *exact,
+                       const Tensor<1, dim>  &slave_normal)
+    {
+      return evaluate(face, exact, {{0., 0.}}).normal() * slave_normal > 0.3;
+    }
+  } // namespace
+
+
+
+  void
+  Search::for_each_near(const Box                               &box,
+                        const Tensor<1, dim>                    &slave_normal,
+                        const std::function<void(const Face &)> &visit) const
+  {
+    Box capture = box;
+    capture.extend(reach);
+    // In the order of their keys, so that sums do not depend on the partition.
+    std::vector<const Face *> near;
+    for (auto it = tree.qbegin(bgi::intersects(capture)); it != tree.qend(); ++it)
+      {
+        const Face &face = faces[it->second];
+        if (!looks_the_same_way(face, master.exact_surface(face), slave_normal))
+          near.push_back(&face);
+      }
+    std::sort(near.begin(), near.end(), [](const Face *a, const Face *b) { return a->key < b->key; });
+    for (const Face *face : near)
+      visit(*face);
+  }
+
+
+
+  Tensor<1, dim>
+  Search::normal(const Face &face, const std::array<double, 2> &xi) const
+  {
+    const AnalyticSurface *exact = master.exact_surface(face);
+    const FaceShapes       shapes(face.degree, xi);
+    Tensor<1, dim>         result;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      result += shapes.value[m] * face.normals[m];
+    if (exact)
+      {
+        result += evaluate(face, exact, xi).normal();
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          result -= shapes.value[m] * evaluate(face, exact, node_coordinates(face, m)).normal();
+      }
+    return result / result.norm();
+  }
+
+
+
   std::optional<ContactPartner>
   Search::find(const Point<dim> &x, const Tensor<1, dim> &slave_normal) const
   {
@@ -123,7 +179,7 @@ namespace Touchstone
           break;
         const Face            &face  = faces[it->second];
         const AnalyticSurface *exact = master.exact_surface(face);
-        if (evaluate(face, exact, {{0., 0.}}).normal() * slave_normal > 0.3)
+        if (looks_the_same_way(face, exact, slave_normal))
           continue;
         const Projection projection = closest_point_projection(x, face, exact);
         // Points on a common edge are equally close up to round-off: the face
@@ -142,32 +198,22 @@ namespace Touchstone
 
     const AnalyticSurface *exact = master.exact_surface(*best);
     const FacePoint        point = evaluate(*best, exact, best_projection.xi);
-    ContactPartner         partner{best, best_projection.xi, point.x, point.normal()};
-    const FaceShapes       shapes(best->degree, best_projection.xi);
-    Tensor<1, dim>         interpolated, edge;
-    for (unsigned int m = 0; m < best->n_nodes(); ++m)
+    ContactPartner         partner{
+      best, best_projection.xi, point.x, normal(*best, best_projection.xi)};
+    if (best_projection.beyond_inner > 1e-6)
       {
-        interpolated += shapes.value[m] * best->normals[m];
-        edge += shapes.value[m] * best->edge_normals[m];
-      }
-    if (best_projection.beyond_inner > 1e-6 && interpolated * edge < 0.999 * interpolated.norm() * edge.norm())
-      {
-        // In the wedge over a sharp edge the shortest way leads to the edge.
-        const Tensor<1, dim> way = x - point.x;
-        partner.normal           = way.norm() > 1e-8 * reach ? (way * edge < 0. ? -way : way) : edge;
-      }
-    else if (exact == nullptr)
-      partner.normal = interpolated;
-    else
-      {
-        // The exact surface with the deformation of the faces: continuous across
-        // edges once the jumps at the nodes are taken out.
-        Tensor<1, dim> own;
+        const FaceShapes shapes(best->degree, best_projection.xi);
+        Tensor<1, dim>   edge;
         for (unsigned int m = 0; m < best->n_nodes(); ++m)
-          own += shapes.value[m] * evaluate(*best, exact, node_coordinates(*best, m)).normal();
-        partner.normal += interpolated - own;
+          edge += shapes.value[m] * best->edge_normals[m];
+        if (partner.normal * edge < 0.999 * edge.norm())
+          {
+            // In the wedge over a sharp edge the shortest way leads to the edge.
+            const Tensor<1, dim> way = x - point.x;
+            partner.normal = way.norm() > 1e-8 * reach ? (way * edge < 0. ? -way : way) : edge;
+            partner.normal /= partner.normal.norm();
+          }
       }
-    partner.normal /= partner.normal.norm();
     return partner;
   }
 } // namespace Touchstone

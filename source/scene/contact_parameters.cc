@@ -105,8 +105,9 @@ namespace Touchstone
     prm.add_parameter("Pairing",
                       pairing,
                       "How rows are made of surfaces: 'pointwise' projects each "
-                      "slave node onto the master surface.",
-                      Patterns::Selection("pointwise"));
+                      "slave node onto the master surface; 'averaged' averages over the "
+                      "slave faces with a dual basis and passes the patch test.",
+                      Patterns::Selection("averaged|pointwise"));
     prm.add_parameter("Behaviour",
                       behaviour,
                       "'frictionless' contact, or 'tied' once and for all where "

@@ -67,7 +67,8 @@ namespace Touchstone
   public:
     explicit CondensedSystem(const LinearSystem &system);
 
-    std::unique_ptr<Epetra_CrsMatrix> matrix;
+    /** Shared with preconditioners that are made from it. */
+    std::shared_ptr<Epetra_CrsMatrix> matrix;
     std::unique_ptr<Epetra_Vector>    rhs;
     /** Marks rows of constrained unknowns, in the order of the local rows. */
     std::vector<char> constrained;

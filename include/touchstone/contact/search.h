@@ -6,6 +6,7 @@
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/numerics/rtree.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -53,6 +54,24 @@ namespace Touchstone
      */
     std::optional<ContactPartner>
     find(const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &slave_normal) const;
+
+    /**
+     * @brief Unit outward normal of the master surface at @p xi of a face,
+     * continuous across the edges of faces unless these are sharp.
+     *
+     * On facets it is interpolated from the averaged normals of the nodes. On an
+     * exact surface it is that of the surface moved with the face, with the jumps
+     * at the nodes taken out.
+     */
+    dealii::Tensor<1, dim>
+    normal(const Face &face, const std::array<double, 2> &xi) const;
+
+    /** @brief Visit the master faces within reach of a box that look the other way
+     * than @p slave_normal. */
+    void
+    for_each_near(const dealii::BoundingBox<dim>          &box,
+                  const dealii::Tensor<1, dim>            &slave_normal,
+                  const std::function<void(const Face &)> &visit) const;
 
   private:
     using Box  = dealii::BoundingBox<dim>;

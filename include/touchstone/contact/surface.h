@@ -61,6 +61,13 @@ namespace Touchstone
       return faces;
     }
 
+    /** @brief Faces of ghost cells. */
+    const std::vector<Face> &
+    neighbour_faces() const
+    {
+      return ghost_faces;
+    }
+
     /** @brief Averaged unit outward normal at a node of an owned face or at an
      * owned node. */
     const dealii::Tensor<1, dim> &
