@@ -73,6 +73,7 @@ INNER = "Body inner tube/Geometry/Cells"
 OUTER = "Body outer tube/Geometry/Cells"
 DEGREE = "Discretisation/Degree"
 GEOMETRY = "Contact pair {}/Contact geometry"
+PAIRING = "Contact pair {}/Pairing"
 SWAPPED_FIT = [("Contact pair fit/Slave body", "inner tube"),
                ("Contact pair fit/Slave boundaries", "outer"),
                ("Contact pair fit/Master body", "outer tube"),
@@ -92,6 +93,10 @@ def press_fit(runner):
         ("non_matching", "48 : 36", "bore (coarse side)", three_quarters),
         ("non_matching_swapped", "48 : 36", "skin (fine side)",
          three_quarters + SWAPPED_FIT),
+        ("non_matching_averaged", "48 : 36", "bore, averaged rows",
+         three_quarters + [(PAIRING.format("fit"), "averaged")]),
+        ("non_matching_averaged_swapped", "48 : 36", "skin, averaged rows",
+         three_quarters + SWAPPED_FIT + [(PAIRING.format("fit"), "averaged")]),
         ("faceted", "48 : 36", "bore, faceted",
          three_quarters + [(GEOMETRY.format("fit"), "faceted")]),
         ("faceted_swapped", "48 : 36", "skin, faceted",
@@ -141,18 +146,21 @@ def push_force(summary):
 def two_tubes(runner):
     rows = []
     for factor in (1, 2):
-        for geometry in ("manifold", "faceted"):
+        for geometry, pairing in (("manifold", "pointwise"), ("faceted", "pointwise"),
+                                  ("manifold", "averaged")):
             for slave, settings in (("outer tube", []), ("inner tube", SWAPPED_CONE)):
-                s = runner.run(f"two_tubes_{geometry}_{slave[:5]}_{factor}", "two_tubes",
+                name = f"two_tubes_{geometry}_{slave[:5]}_{factor}"
+                s = runner.run(name + ("_averaged" if pairing == "averaged" else ""), "two_tubes",
                                [("Discretisation/Refinement factor", factor),
                                 (GEOMETRY.format("cone"), geometry),
+                                (PAIRING.format("cone"), pairing),
                                 ("Linear solver/Type", "MUMPS" if factor == 1 else "Belos CG")]
                                + settings)
                 cone = s["results"]["contact"]["cone"]
-                rows.append([factor, geometry, slave, push_force(s), f"{cone['area']:.2f}",
+                rows.append([factor, pairing, geometry, slave, push_force(s), f"{cone['area']:.2f}",
                              f"{cone['max_pressure']:.1f}", s["steps"],
                              s["iterations"]["newton"]])
-    table(["factor", "contact geometry", "slave", "push force", "contact area",
+    table(["factor", "pairing", "contact geometry", "slave", "push force", "contact area",
            "max pressure", "steps", "Newton"], rows)
 
 
@@ -214,10 +222,14 @@ def patch_test(runner):
                ("Contact pair interface/Master body", "lower"),
                ("Contact pair interface/Master boundaries", "top")]
     matching = [("Body upper/Geometry/Cells", "6, 6, 3")]
+    averaged = [(PAIRING.format("interface"), "averaged")]
     rows = []
-    for name, what, settings in (("fine", "3 : 2, fine slave", []),
-                                 ("coarse", "3 : 2, coarse slave", swapped),
-                                 ("matching", "3 : 3", matching)):
+    for name, what, settings in (("fine", "3 : 2, fine slave, pointwise", []),
+                                 ("coarse", "3 : 2, coarse slave, pointwise", swapped),
+                                 ("fine_averaged", "3 : 2, fine slave, averaged", averaged),
+                                 ("coarse_averaged", "3 : 2, coarse slave, averaged",
+                                  swapped + averaged),
+                                 ("matching", "3 : 3, pointwise", matching)):
         s = runner.run(f"patch_test_{name}", "patch_test", settings)
         rows.append([what, nodes(s), error(s, "stress_max_deviation"),
                      error(s, "displacement_max")])

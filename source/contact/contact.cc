@@ -258,18 +258,21 @@ namespace Touchstone
               if (row.lambda != 0. || row.force.norm() != 0.)
                 ++result.changes;
               row.lambda = 0.;
-              row.force  = Tensor<1, dim>();
+              row.force = row.augmented = Tensor<1, dim>();
               continue;
             }
           if (row.refused == 0 && (row.active() || row.gap < 0.))
-            result.gap = std::max(result.gap,
-                                  (row.tied ? row.gap_vector.norm() : std::abs(row.gap)) / row.size);
+            result.gap =
+              std::max(result.gap,
+                       (row.tied ? row.gap_vector.norm() - row.granted_gap :
+                                   std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
+                         row.size);
           const double strength = demand(row);
           if (strength > 0. && strength >= threshold)
             {
               row.status = row.active() ? ContactStatus::open : ContactStatus::slip;
               row.lambda = 0.;
-              row.force  = Tensor<1, dim>();
+              row.force = row.augmented = Tensor<1, dim>();
               ++result.changes;
             }
           if (row.active())

@@ -15,6 +15,9 @@ namespace Touchstone
     class Elimination : public Enforcement
     {
     public:
+      explicit Elimination(const ContactParameters &)
+      {}
+
       bool
       has_multipliers() const override
       {

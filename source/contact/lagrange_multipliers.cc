@@ -13,6 +13,9 @@ namespace Touchstone
     class LagrangeMultipliers : public Enforcement
     {
     public:
+      explicit LagrangeMultipliers(const ContactParameters &)
+      {}
+
       bool
       has_multipliers() const override
       {

@@ -22,8 +22,7 @@ namespace Touchstone
           observer(iteration, state, linear);
         if (!std::isfinite(state.residual) || !std::isfinite(state.gap))
           throw NewtonFailure("the residual is not finite");
-        if (state.changes == 0 && state.prescribed &&
-            state.residual <= parameters.residual_tolerance &&
+        if (state.changes == 0 && state.prescribed && balanced(state, parameters) &&
             state.gap <= parameters.gap_tolerance)
           return result;
         if (iteration == parameters.maximum_iterations)

@@ -26,7 +26,6 @@ namespace Touchstone
       return ReferenceRegistry::make(scene.reference.type, scene);
     }
 
-    /** Names the scene, so that messages know what they talk about. */
     std::string
     complete_parameters(const Scene &scene)
     {
@@ -107,7 +106,6 @@ namespace Touchstone
                           const unsigned int newton,
                           const unsigned int cuts)
   {
-    static_assert(dim == 3, "");
     const Vector u       = problem.ghosted_displacement();
     const auto   results = problem.contact_state().results(u);
     StepRecord   record;
@@ -126,6 +124,7 @@ namespace Touchstone
         record.reactions[reaction.body + "/" + reaction.boundary]  = reaction.force;
         summary.reactions[reaction.body][reaction.boundary]        = reaction.force;
       }
+    record.energies["strain"] = problem.strain_energy();
     {
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);

@@ -20,7 +20,7 @@ namespace Touchstone
     , timer(timer)
     , boundary_conditions(scene, forest, solid)
     , contact(scene, forest, solid)
-    , enforcement(EnforcementRegistry::make(scene.contact.enforcement))
+    , enforcement(EnforcementRegistry::make(scene.contact.enforcement, scene.contact))
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
     , hanging(solid.relevant)
     , u(solid.owned, solid.communicator)
@@ -40,6 +40,10 @@ namespace Touchstone
     modes  = std::make_unique<RigidBodyModes>(scene, solid);
     length = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
     length = Utilities::MPI::min(length, solid.communicator);
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        extent = std::max(extent, cell->center().norm());
+    extent = Utilities::MPI::max(extent, solid.communicator);
   }
 
 
@@ -123,12 +127,20 @@ namespace Touchstone
     const double scale =
       std::max({internal.l2_norm(), external.l2_norm(), contact_force.l2_norm()});
     state.residual = scale > 0. ? free.l2_norm() / scale : 0.;
+    if (scale > 0.)
+      state.round_off =
+        std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
+                                      solid.communicator)) /
+        scale;
     const Contact::ActiveSetUpdate set =
       contact.update_active_set(scene.newton.gap_tolerance, caution);
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;
     state.signature = set.signature;
+
+    if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
+      enforcement->balanced(contact);
 
     // A solve that goes far below what Newton needs in the end is wasted. But one
     // that moves supports has a right-hand side much larger than the forces that

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include <cmath>
+
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -204,13 +206,34 @@ namespace Touchstone
     prm.add_parameter("Enforcement",
                       enforcement,
                       "How contact is enforced: 'elimination' of the slave unknowns, which "
-                      "leaves a symmetric positive definite system for any linear solver, or "
-                      "'lagrange multipliers' as unknowns of their own, which need MUMPS.",
-                      Patterns::Selection("elimination|lagrange multipliers"));
+                      "leaves a symmetric positive definite system for any linear solver; "
+                      "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
+                      "'augmented lagrange', springs whose forces grow until the gaps close; "
+                      "or 'penalty', springs that leave a penetration.",
+                      Patterns::Selection(
+                        "elimination|lagrange multipliers|augmented lagrange|penalty"));
+    prm.add_parameter("Penalty factor",
+                      penalty_factor,
+                      "Multiplies the automatic stiffness of the springs, which is Young's "
+                      "modulus times tributary area over face size, times 100 for 'penalty' "
+                      "and 20 for 'augmented lagrange'. [no unit]",
+                      Patterns::Double());
+    prm.add_parameter("Augmentation",
+                      augmentation,
+                      "Forces of 'augmented lagrange' grow in each Newton iteration "
+                      "('merged'), or each time that Newton has found a balance ('outer').",
+                      Patterns::Selection("merged|outer"));
   }
 
 
 
-  void ContactParameters::check(const std::string &) const
-  {}
+  void ContactParameters::check(const std::string &section) const
+  {
+    if (!(penalty_factor > 0.) || !std::isfinite(penalty_factor))
+      throw InputError(section,
+                       "Penalty factor",
+                       std::to_string(penalty_factor),
+                       "must be positive",
+                       "1 is the automatic choice.");
+  }
 } // namespace Touchstone

@@ -42,12 +42,26 @@ namespace Touchstone
     virtual void
     enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) = 0;
 
+    /** @brief The forces are in balance with the active set as it is; called
+     * before convergence is judged by the gaps. */
+    virtual void
+    balanced(Contact &)
+    {}
+
+    /** @brief Force that the round-off of positions of magnitude @p length leads
+     * to: the residual cannot fall below it. Of this rank's rows, squared. */
+    virtual double
+    round_off_squared(const Contact &, const double) const
+    {
+      return 0.;
+    }
+
     /** @brief Take the values of this rank's extra unknowns. */
     virtual void
     update(Contact &contact, const std::vector<double> &extra) = 0;
   };
 
-  using EnforcementRegistry = Registry<Enforcement>;
+  using EnforcementRegistry = Registry<Enforcement, const ContactParameters &>;
 
   /** @brief The conditions that a row puts on the displacement increment: none if
    * it is open, along the normal if it is free to slide, in all directions if it

@@ -71,6 +71,10 @@ namespace Touchstone
     /** Conditions of the row that the constraint graph took and refused: what a
      * refused one asks for is decided by others. */
     unsigned int accepted = 0, refused = 0;
+    /** Gap that the enforcement grants for now: the penetration of a penalty. */
+    double granted_gap = 0.;
+    /** Force at the last augmentation of an augmented Lagrangian. */
+    dealii::Tensor<1, dim> augmented;
     /** Contact force on the slave node, force: lambda_n n + t_T. */
     dealii::Tensor<1, dim> force;
     /** Normal contact force, >= 0 in compression. */

@@ -3,6 +3,7 @@
 
 #include <touchstone/scene/solver_parameters.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 
@@ -13,6 +14,8 @@ namespace Touchstone
   {
     /** Out-of-balance force relative to the forces that act; no unit. */
     double residual = 0.;
+    /** Residual that round-off alone can make; no unit. */
+    double round_off = 0.;
     /** Largest violation of a gap relative to the faces, and whether prescribed
      * displacements are met; no unit. */
     double gap        = 0.;
@@ -23,6 +26,13 @@ namespace Touchstone
     unsigned int  changes   = 0;
     std::uint64_t signature = 0;
   };
+
+  /** @brief Whether the forces of a state are in balance. */
+  inline bool
+  balanced(const NewtonState &state, const NewtonParameters &parameters)
+  {
+    return state.residual <= std::max(parameters.residual_tolerance, state.round_off);
+  }
 
   /** @brief All that the Newton method needs to know of a problem. */
   class NonlinearProblem

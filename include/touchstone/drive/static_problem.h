@@ -62,6 +62,13 @@ namespace Touchstone
     std::vector<Reaction>
     reactions() const;
 
+    /** @brief Elastic energy of all bodies, force times length. */
+    double
+    strain_energy() const
+    {
+      return 0.5 * (u * internal);
+    }
+
     const Contact &
     contact_state() const
     {
@@ -109,6 +116,8 @@ namespace Touchstone
 
     /** Length against which a missed prescribed displacement is measured. */
     double length = 1.;
+    /** Magnitude of the coordinates, for their round-off. */
+    double extent = 0.;
 
     void
     check_supports();

@@ -73,6 +73,13 @@ namespace Touchstone
     /** Name under which the enforcement is registered
      * ("elimination", "lagrange multipliers"). */
     std::string enforcement = "elimination";
+    /** Multiplies the automatic penalty (Young's modulus times tributary area over
+     * face size, times 100 for penalty and 20 for augmented Lagrange); no unit. */
+    double penalty_factor = 1.;
+    /** Augmented Lagrange: "merged" with Newton's iterations, or in an "outer"
+     * loop around them (Uzawa). */
+    std::string augmentation = "merged";
+
 
     void declare(dealii::ParameterHandler &prm);
     void check(const std::string &section) const;

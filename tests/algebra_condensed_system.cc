@@ -1,0 +1,237 @@
+// The condensed system against dense matrices: constraints with chains and
+// inhomogeneities, contact terms in rows of other ranks, a diagonal shift, and
+// extra unknowns.
+
+#include "mesh_common.h"
+
+#include <touchstone/algebra/linear_system.h>
+#include <touchstone/algebra/vector.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+
+#include <random>
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  constexpr unsigned int n = 24;
+
+  double
+  number(const unsigned int i, const unsigned int j)
+  {
+    std::mt19937 generator(1000 * i + j);
+    return generator() / 2147483648. - 1.;
+  }
+
+  /** A banded symmetric matrix. */
+  double
+  entry(const unsigned int i, const unsigned int j)
+  {
+    const unsigned int distance = i > j ? i - j : j - i;
+    if (i == j)
+      return 10. + number(i, i);
+    return distance <= 4 ? number(std::min(i, j), std::max(i, j)) : 0.;
+  }
+
+
+
+  void
+  check(const std::string                     &what,
+        const AffineConstraints<double>       &constraints,
+        const std::vector<MatrixTerm>         &terms,
+        const bool                             shifted,
+        const std::vector<unsigned int>       &extra_of_rank,
+        const bool                             break_it = false)
+  {
+    const MPI_Comm     communicator = MPI_COMM_WORLD;
+    const unsigned int rank         = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int n_ranks      = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int begin = n * rank / n_ranks, end = n * (rank + 1) / n_ranks;
+    IndexSet           owned(n);
+    owned.add_range(begin, end);
+
+    DynamicSparsityPattern pattern(n, n, owned);
+    for (unsigned int i = begin; i < end; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        if (entry(i, j) != 0.)
+          pattern.add(i, j);
+    Matrix stiffness;
+    stiffness.reinit(owned, owned, pattern, communicator);
+    for (unsigned int i = begin; i < end; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        if (entry(i, j) != 0.)
+          stiffness.set(i, j, entry(i, j));
+    stiffness.compress(VectorOperation::insert);
+
+    LinearSystem system;
+    system.stiffness = &stiffness;
+    system.rhs.reinit(owned, communicator);
+    for (unsigned int i = begin; i < end; ++i)
+      system.rhs[i] = number(i, 77);
+    system.rhs.compress(VectorOperation::insert);
+    if (shifted)
+      {
+        system.diagonal_shift.reinit(owned, communicator);
+        for (unsigned int i = begin; i < end; ++i)
+          system.diagonal_shift[i] = 1. + i;
+        system.diagonal_shift.compress(VectorOperation::insert);
+      }
+    system.constraints.copy_from(constraints);
+
+    // Extra unknowns: on one rank there are those of all.
+    unsigned int n_extra = 0;
+    for (unsigned int r = 0; r < extra_of_rank.size(); ++r)
+      {
+        const unsigned int owner = std::min<unsigned int>(r, n_ranks - 1);
+        if (owner < rank)
+          system.first_extra += extra_of_rank[r];
+        if (owner == rank)
+          system.n_extra += extra_of_rank[r];
+        n_extra += extra_of_rank[r];
+      }
+    system.first_extra += n;
+    for (unsigned int k = 0; k < system.n_extra; ++k)
+      system.extra_rhs.push_back(number(system.first_extra + k, 78));
+    // Each term comes from some rank, not always from that of its row.
+    for (unsigned int k = 0; k < terms.size(); ++k)
+      if (k % n_ranks == rank)
+        system.terms.push_back(terms[k]);
+    system.definite = (n_extra == 0);
+
+    const CondensedSystem condensed(system);
+
+    // The same with dense matrices.
+    const unsigned int     m = n + n_extra;
+    FullMatrix<double>     a(m, m), t(m, m), at(m, m), reference(m, m);
+    dealii::Vector<double> b(m), g(m), tmp(m), rhs(m);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        for (unsigned int j = 0; j < n; ++j)
+          a(i, j) = entry(i, j);
+        if (shifted)
+          a(i, i) += 1. + i;
+        b[i] = number(i, 77);
+      }
+    for (unsigned int k = n; k < m; ++k)
+      b[k] = number(k, 78);
+    for (const MatrixTerm &term : terms)
+      a(term.row, term.column) += term.value;
+    if (break_it)
+      a(3, 4) += 1e-3;
+    for (unsigned int i = 0; i < m; ++i)
+      if (i < n && constraints.is_constrained(i))
+        {
+          for (const auto &pair : *constraints.get_constraint_entries(i))
+            t(i, pair.first) = pair.second;
+          g[i] = constraints.get_inhomogeneity(i);
+        }
+      else
+        t(i, i) = 1.;
+    a.mmult(at, t);
+    t.Tmmult(reference, at);
+    a.vmult(tmp, g);
+    tmp.sadd(-1., b);
+    t.Tvmult(rhs, tmp);
+
+    double             worst = 0., worst_rhs = 0., worst_constrained = 0.;
+    bool               diagonal = true, marks = true;
+    const Epetra_CrsMatrix &matrix = *condensed.matrix;
+    for (int row = 0; row < matrix.NumMyRows(); ++row)
+      {
+        const unsigned int  i = matrix.GRID(row);
+        std::vector<double> values(m, 0.);
+        int                 length;
+        double             *value;
+        int                *column;
+        matrix.ExtractMyRowView(row, length, value, column);
+        for (int k = 0; k < length; ++k)
+          values[matrix.GCID(column[k])] += value[k];
+        const bool constrained = i < n && constraints.is_constrained(i);
+        marks = marks && (row >= static_cast<int>(condensed.constrained.size()) ?
+                            !constrained :
+                            static_cast<bool>(condensed.constrained[row]) == constrained);
+        for (unsigned int j = 0; j < m; ++j)
+          if (constrained || (j < n && constraints.is_constrained(j)))
+            {
+              if (i == j)
+                diagonal = diagonal && values[j] > 0.;
+              else
+                worst_constrained = std::max(worst_constrained, std::abs(values[j]));
+            }
+          else
+            worst = std::max(worst, std::abs(values[j] - reference(i, j)));
+        worst_rhs = std::max(worst_rhs, std::abs((*condensed.rhs)[row] - (constrained ? 0. : rhs[i])));
+      }
+    const auto all = [&](const double x) { return Utilities::MPI::max(x, communicator); };
+    worst             = all(worst);
+    worst_rhs         = all(worst_rhs);
+    worst_constrained = all(worst_constrained);
+    const bool good   = all(diagonal && marks ? 0. : 1.) == 0.;
+    const int  rows   = Utilities::MPI::sum(matrix.NumMyRows(), communicator);
+    if (rank == 0)
+      {
+        std::cout << what << ": " << rows << " rows, matrix ";
+        if (break_it)
+          std::cout << (worst > 1e-4 ? "differs, as it must" : "does not notice FAILED") << std::endl;
+        else
+          std::cout << small(worst) << ", constrained " << small(worst_constrained) << ", rhs "
+                    << small(worst_rhs) << (good ? "" : ", diagonal or marks FAILED") << std::endl;
+      }
+  }
+
+
+
+  AffineConstraints<double>
+  make_constraints(const unsigned int kind)
+  {
+    AffineConstraints<double> constraints(complete_index_set(n));
+    const auto line = [&](const Index i, const std::vector<std::pair<Index, double>> &entries, const double value) {
+      constraints.add_line(i);
+      constraints.add_entries(i, entries);
+      constraints.set_inhomogeneity(i, value);
+    };
+    if (kind >= 1)
+      {
+        line(0, {}, 0.);
+        line(n - 1, {}, 0.3);
+      }
+    if (kind >= 2)
+      {
+        // A slave on masters far away; one on a slave; one on a prescribed value.
+        line(5, {{4, -0.5}, {20, 0.75}, {21, 0.25}}, 0.1);
+        line(18, {{2, 0.5}, {5, 0.5}}, -0.2);
+        line(8, {{9, -1.}, {n - 1, 0.4}}, 0.);
+      }
+    constraints.close();
+    return constraints;
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const std::vector<MatrixTerm> contact = {{1, 22, 0.5}, {22, 1, 0.5}, {5, 5, 2.}, {5, 20, -1.},
+                                           {20, 5, -1.}, {20, 20, 1.}, {18, 18, 3.}, {3, 3, 1.}};
+  std::vector<MatrixTerm> multipliers;
+  for (const MatrixTerm &term : {MatrixTerm{n, 2, 1.}, MatrixTerm{n, 21, -1.}, MatrixTerm{n + 1, 5, 1.},
+                                 MatrixTerm{n + 1, 0, 0.5}, MatrixTerm{n + 2, 12, -1.}})
+    {
+      multipliers.push_back(term);
+      multipliers.push_back({term.column, term.row, term.value});
+    }
+  for (const unsigned int kind : {0, 1, 2})
+    {
+      const auto        constraints = make_constraints(kind);
+      const std::string name        = "constraints " + std::to_string(kind);
+      check(name, constraints, {}, false, {});
+      check(name + ", shift", constraints, {}, true, {});
+      check(name + ", contact terms", constraints, contact, false, {});
+      check(name + ", multipliers", constraints, multipliers, true, {2, 1});
+      check(name + ", another matrix", constraints, contact, false, {}, true);
+    }
+}
