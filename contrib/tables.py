@@ -116,10 +116,12 @@ def press_fit(runner):
                     cells = "12 : 12"
                 settings.append((DEGREE, 2))
             s = runner.run(f"press_fit_q{degree}_{name}", "press_fit", settings)
-            fit = s["results"]["contact"]["fit"]
+            # Of a run that did not converge there is no result.
+            fit = s["results"]["contact"].get("fit", {"active": "–", "force": [0]})
             rows.append([degree, cells, slave, nodes(s), fit["active"],
                          s["iterations"]["newton"],
-                         f"{abs(abs(fit['force'][0]) / FIT_FORCE - 1):.1e}",
+                         f"{abs(abs(fit['force'][0]) / FIT_FORCE - 1):.1e}"
+                         if s["converged"] else "not converged",
                          error(s, "contact_pressure_mean"),
                          error(s, "contact_pressure_max_deviation")])
     table(["degree", "cells over 90°, inner : outer", "slave", "nodes", "active", "Newton",

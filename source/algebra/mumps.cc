@@ -47,8 +47,17 @@ namespace Touchstone
 
       DMUMPS_STRUC_C      data        = {};
       bool                initialised = false;
+      /** There are factors, of the rows, columns and values below. */
+      bool                factorised = false;
       std::vector<int>    rows, columns;
       std::vector<double> values;
+
+      /** MUMPS' name for the system: positive definite, symmetric, or neither. */
+      static int
+      kind(const CondensedSystem &system)
+      {
+        return !system.symmetric ? 0 : system.definite ? 1 : 2;
+      }
 
       void
       start(const CondensedSystem &system);
@@ -74,7 +83,7 @@ namespace Touchstone
       const auto &comm   = dynamic_cast<const Epetra_MpiComm &>(system.matrix->Comm());
       data.comm_fortran  = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.Comm()));
       data.par           = 1; // rank 0 takes part in the factorisation
-      data.sym           = system.symmetric ? 2 : 0;
+      data.sym           = kind(system);
       data.job           = -1;
       dmumps_c(&data);
       initialised = true;
@@ -97,7 +106,7 @@ namespace Touchstone
           data.job = -2;
           dmumps_c(&data);
         }
-      initialised = false;
+      initialised = factorised = false;
     }
 
 
@@ -106,9 +115,14 @@ namespace Touchstone
     Mumps::factorise(const CondensedSystem &system)
     {
       const Epetra_CrsMatrix &matrix = *system.matrix;
-      rows.clear();
-      columns.clear();
-      values.clear();
+      std::vector<int>        old_rows, old_columns;
+      std::vector<double>     old_values;
+      rows.swap(old_rows);
+      columns.swap(old_columns);
+      values.swap(old_values);
+      rows.reserve(old_rows.size());
+      columns.reserve(old_rows.size());
+      values.reserve(old_rows.size());
       for (int i = 0; i < matrix.NumMyRows(); ++i)
         {
           int     n;
@@ -131,7 +145,15 @@ namespace Touchstone
       data.irn_loc = rows.data();
       data.jcn_loc = columns.data();
       data.a_loc   = values.data();
-      data.job     = 4; // analysis and factorisation
+      // What has not changed since the last call is not done again: nothing where
+      // a linear scene repeats itself, the pattern where only normals turn.
+      int same[2] = {rows == old_rows && columns == old_columns, values == old_values};
+      int all_same[2];
+      matrix.Comm().MinAll(same, all_same, 2);
+      if (factorised && all_same[0] && all_same[1])
+        return;
+      data.job   = factorised && all_same[0] ? 2 : 4; // 4: with a new analysis
+      factorised = false;
       dmumps_c(&data);
       // Working space too small: the estimate does not know of delayed pivots.
       while ((infog(1) == -8 || infog(1) == -9) && icntl(14) < 1000)
@@ -149,6 +171,7 @@ namespace Touchstone
                                   ", INFOG(2) = " + std::to_string(infog(2)) +
                                   (infog(1) == -13 ? " (not enough memory)" : ""));
       check_pivots();
+      factorised = true;
     }
 
 
@@ -183,7 +206,7 @@ namespace Touchstone
                     const Epetra_MultiVector &,
                     Epetra_Vector &solution)
     {
-      if (initialised && data.sym != (system.symmetric ? 2 : 0))
+      if (initialised && data.sym != kind(system))
         finish();
       if (!initialised)
         start(system);

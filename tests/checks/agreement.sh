@@ -3,7 +3,7 @@
 # and two, elimination and multipliers (1e-8), MUMPS and Belos CG (1e-6), one load
 # step and ten, and the same scene in other units.
 set -eu
-. "$(dirname -- "$0")/common.sh" "$@"
+. "$(dirname -- "$0")/common.sh"
 tests=$source/tests
 
 multipliers="Contact/Enforcement=lagrange multipliers"

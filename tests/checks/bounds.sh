@@ -2,7 +2,7 @@
 # bounds.sh PROGRAM PROJECT FOLDER: the accuracy that the shipped scenes promise. A
 # golden can be made anew by mistake, these bounds cannot.
 set -eu
-. "$(dirname -- "$0")/common.sh" "$@"
+. "$(dirname -- "$0")/common.sh"
 prm=$source/prm
 
 error_below() {

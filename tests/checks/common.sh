@@ -1,4 +1,5 @@
-# Read by the checks: how to run scenes and compare their summaries.
+# Read by the checks, which are called with PROGRAM PROJECT FOLDER: how to run scenes
+# and compare their summaries.
 
 program=$1
 source=$2 # the project's folder

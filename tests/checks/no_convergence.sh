@@ -2,7 +2,7 @@
 # no_convergence.sh PROGRAM PROJECT FOLDER: a run that does not converge says so with
 # exit code and reason, and leaves the last converged state on disk.
 set -eu
-. "$(dirname -- "$0")/common.sh" "$@"
+. "$(dirname -- "$0")/common.sh"
 
 for ranks in 1 2; do
   rm -rf results

@@ -1,7 +1,7 @@
 #!/bin/sh
 # reports.sh PROGRAM PROJECT FOLDER: what a user must be told about hard input.
 set -eu
-. "$(dirname -- "$0")/common.sh" "$@"
+. "$(dirname -- "$0")/common.sh"
 
 # says SCENE TEXT: the log of a run has the text.
 says() {
