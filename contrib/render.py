@@ -73,7 +73,6 @@ def show(view, source, time, field, title, edges, camera):
     view.Background = [1, 1, 1]
     view.UseColorPaletteForBackground = 0
     view.OrientationAxesVisibility = 1
-    view.OrientationAxesOutlineColor = [1, 1, 1]
     view.OrientationAxesLabelColor = [0, 0, 0]
     display = Show(source, view)
     display.Representation = "Surface With Edges" if edges else "Surface"

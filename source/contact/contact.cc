@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -225,6 +226,39 @@ namespace Touchstone
 
 
 
+  std::vector<double>
+  Contact::order(const ContactRow &row) const
+  {
+    // Numbers of nodes depend on the partition, places do not.
+    const auto      &nodes = pairs[row.pair].slave->owned_nodes();
+    const auto       found = std::lower_bound(nodes.begin(),
+                                        nodes.end(),
+                                        row.slave,
+                                        [](const SurfaceNode &node, const Index index) {
+                                          return node.node < index;
+                                        });
+    const Point<dim> x     = found->reference;
+    return {static_cast<double>(row.pair), x[0], x[1], x[2]};
+  }
+
+
+
+  std::vector<double>
+  Contact::first_in_order(const std::function<double(const ContactRow &)> &demand) const
+  {
+    std::vector<double> first;
+    for (const auto &pair_rows : rows)
+      for (const ContactRow &row : pair_rows)
+        if (demand(row) > 0. && (first.empty() || order(row) < first))
+          first = order(row);
+    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, first))
+      if (!other.empty() && (first.empty() || other < first))
+        first = other;
+    return first;
+  }
+
+
+
   Contact::ActiveSetUpdate
   Contact::update_active_set(const double gap_tolerance, const unsigned int caution)
   {
@@ -240,14 +274,21 @@ namespace Touchstone
       return -row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.;
     };
 
-    double threshold = 0.;
-    if (caution > 0)
+    // With caution only the rows that ask more than half as strongly as the
+    // strongest change, then only the first row that asks at all: that rule ends
+    // for every linear problem with a unique solution.
+    // Murty (1974), Math. Programming 7.
+    double             threshold = 0.;
+    std::vector<double> only;
+    if (caution == 1)
       {
         for (const auto &pair_rows : rows)
           for (const ContactRow &row : pair_rows)
             threshold = std::max(threshold, demand(row));
-        threshold = Utilities::MPI::max(threshold, solid.communicator) * (caution == 1 ? 0.5 : 0.999);
+        threshold = 0.5 * Utilities::MPI::max(threshold, solid.communicator);
       }
+    else if (caution > 1)
+      only = first_in_order(demand);
 
     ActiveSetUpdate result;
     for (auto &pair_rows : rows)
@@ -268,7 +309,7 @@ namespace Touchstone
                                    std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
                          row.size);
           const double strength = demand(row);
-          if (strength > 0. && strength >= threshold)
+          if (strength > 0. && strength >= threshold && (only.empty() || only == order(row)))
             {
               row.status = row.active() ? ContactStatus::open : ContactStatus::slip;
               row.lambda = 0.;

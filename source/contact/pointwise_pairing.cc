@@ -34,7 +34,8 @@ namespace Touchstone
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
             ContactRow &row     = rows[k];
-            const auto  partner = search.find(positions[k], input.slave->normal(nodes[k].node));
+            const auto  partner =
+              search.find(positions[k], input.slave->normal(nodes[k].node), row.active());
             row.stencil.clear();
             if (!partner)
               {

@@ -166,7 +166,9 @@ namespace Touchstone
 
 
   std::optional<ContactPartner>
-  Search::find(const Point<dim> &x, const Tensor<1, dim> &slave_normal) const
+  Search::find(const Point<dim>     &x,
+               const Tensor<1, dim> &slave_normal,
+               const bool            in_contact) const
   {
     double         best_distance = reach * reach;
     const Face    *best          = nullptr;
@@ -193,7 +195,7 @@ namespace Touchstone
             best_projection = projection;
           }
       }
-    if (best == nullptr || best_projection.beyond_outer > tolerance)
+    if (best == nullptr || best_projection.beyond_outer > (in_contact ? 5. : 1.) * tolerance)
       return {};
 
     const AnalyticSurface *exact = master.exact_surface(*best);

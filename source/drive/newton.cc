@@ -7,10 +7,9 @@
 
 namespace Touchstone
 {
-  Newton::Result
+  unsigned int
   Newton::solve(NonlinearProblem &problem, const Observer &observer) const
   {
-    Result                  result;
     std::set<std::uint64_t> seen;
     unsigned int            caution = 0;
     int                     linear  = 0;
@@ -24,26 +23,18 @@ namespace Touchstone
           throw NewtonFailure("the residual is not finite");
         if (state.changes == 0 && state.prescribed && balanced(state, parameters) &&
             state.gap <= parameters.gap_tolerance)
-          return result;
+          return iteration;
         if (iteration == parameters.maximum_iterations)
           break;
 
         // A set that was left and comes back would come back for ever. Changing
         // only the rows that ask most strongly leads elsewhere.
-        if (state.changes > 0)
-          {
-            ++result.contact_changes;
-            if (!seen.insert(state.signature).second)
-              {
-                if (++caution > 2 + parameters.maximum_iterations / 4)
-                  throw ActiveSetCycle("the active set goes in circles: " +
-                                       std::to_string(state.changes) +
-                                       " rows keep changing their state");
-              }
-          }
+        if (state.changes > 0 && !seen.insert(state.signature).second &&
+            ++caution > 2 + parameters.maximum_iterations / 4)
+          throw ActiveSetCycle("the active set goes in circles: " + std::to_string(state.changes) +
+                               " rows keep changing their state");
         problem.linearize();
         linear = problem.solve();
-        ++result.solves;
         problem.update();
       }
     std::ostringstream text;

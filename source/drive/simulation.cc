@@ -43,7 +43,9 @@ namespace Touchstone
                          const MPI_Comm     communicator)
     : scene(scene)
     , communicator(communicator)
-    , timer(communicator, std::cout, TimerOutput::never, TimerOutput::wall_times)
+    // Without a communicator: with one its destructor waits for other ranks and
+    // prints when an exception passes.
+    , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , folder(scene.output.directory, communicator)
     , log(folder, terminal)
     , forest(scene, folder_of_scene, communicator)
@@ -70,14 +72,14 @@ namespace Touchstone
   {
     problem.begin_step(time);
     const Newton         newton(scene.newton);
-    const Newton::Result result = newton.solve(
+    // Iterations of attempts that fail count as well.
+    return newton.solve(
       problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
         progress.iteration(
           {iteration, state.residual, state.gap, state.active, state.changes, linear});
+        ++summary.iterations.newton;
+        summary.iterations.contact += (state.changes > 0);
       });
-    summary.iterations.newton += result.solves;
-    summary.iterations.contact += result.contact_changes;
-    return result.solves;
   }
 
 

@@ -129,9 +129,11 @@ namespace Touchstone
     state.residual = scale > 0. ? free.l2_norm() / scale : 0.;
     if (scale > 0.)
       state.round_off =
-        std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
-                                      solid.communicator)) /
+        (solid.round_off(u) +
+         std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
+                                       solid.communicator))) /
         scale;
+
     const Contact::ActiveSetUpdate set =
       contact.update_active_set(scene.newton.gap_tolerance, caution);
     state.gap       = set.gap;

@@ -144,7 +144,9 @@ namespace Touchstone
           << "  moment         " << rounded(result.moment, moment_scale) << '\n'
           << "  area            " << std::setw(12) << rounded(result.area, result.area) << '\n'
           << "  max pressure    " << std::setw(12)
-          << rounded(result.max_pressure, result.max_pressure) << '\n'
+          << rounded(result.max_pressure,
+                     std::max(result.max_pressure,
+                              result.area > 0. ? result.force.norm() / result.area : 0.)) << '\n'
           << "  max penetration " << std::setw(12)
           << rounded(result.max_penetration, std::sqrt(result.area), gap_round_off) << '\n'
           << "  active nodes    " << std::setw(12) << result.active << '\n';

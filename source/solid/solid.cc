@@ -8,6 +8,8 @@
 #include <Epetra_CrsMatrix.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace Touchstone
 {
@@ -54,6 +56,16 @@ namespace Touchstone
       entry(const int row, const int position)
       {
         return values + begin[row] + position;
+      }
+
+      std::vector<double>
+      absolute_row_sums() const
+      {
+        std::vector<double> sums(matrix.NumMyRows(), 0.);
+        for (int i = 0; i < matrix.NumMyRows(); ++i)
+          for (int k = begin[i]; k < begin[i + 1]; ++k)
+            sums[i] += std::abs(values[k]);
+        return sums;
       }
 
     private:
@@ -147,6 +159,7 @@ namespace Touchstone
                     }
                 }
         }
+    row_sums = writer.absolute_row_sums();
   }
 
 
@@ -155,6 +168,18 @@ namespace Touchstone
   Solid::internal_force(const Vector &u, Vector &force) const
   {
     matrix.vmult(force, u);
+  }
+
+
+
+  double
+  Solid::round_off(const Vector &u) const
+  {
+    double sum = 0.;
+    for (std::size_t i = 0; i < row_sums.size(); ++i)
+      sum += std::pow(row_sums[i] * u.begin()[i], 2);
+    return std::numeric_limits<double>::epsilon() *
+           std::sqrt(Utilities::MPI::sum(sum, communicator));
   }
 
 

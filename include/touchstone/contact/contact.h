@@ -5,6 +5,7 @@
 #include <touchstone/contact/results.h>
 #include <touchstone/scene/scene.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -43,8 +44,8 @@ namespace Touchstone
     /**
      * @brief Decide which rows are active: lambda - c g > 0.
      *
-     * @param caution 0 changes every row that asks for it; larger values change
-     *                only those that ask most strongly, which breaks cycles.
+     * @param caution 0 changes every row that asks for it, 1 only those that ask
+     *                most strongly, more only one: this breaks cycles.
      */
     ActiveSetUpdate
     update_active_set(double gap_tolerance, unsigned int caution);
@@ -109,6 +110,12 @@ namespace Touchstone
     unsigned int searches = 0;
     bool         started  = false;
 
+    /** A place of a row in an order that does not depend on the partition. */
+    std::vector<double>
+    order(const ContactRow &row) const;
+    /** The first row, over all ranks, that asks to change its state. */
+    std::vector<double>
+    first_in_order(const std::function<double(const ContactRow &)> &demand) const;
     void
     make_reference(Pair &pair, std::vector<ContactRow> &pair_rows, double time);
     void

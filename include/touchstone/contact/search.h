@@ -51,9 +51,14 @@ namespace Touchstone
      * @brief The partner of a node at @p x.
      * @param slave_normal Outward normal of the slave surface there: faces that
      *                     look the same way are on the far side of a body.
+     * @param in_contact   A node in contact slides off an edge only five times as
+     *                     far beyond it as one that is not comes on, or it would
+     *                     go on and off for ever.
      */
     std::optional<ContactPartner>
-    find(const dealii::Point<dim> &x, const dealii::Tensor<1, dim> &slave_normal) const;
+    find(const dealii::Point<dim>     &x,
+         const dealii::Tensor<1, dim> &slave_normal,
+         bool                          in_contact) const;
 
     /**
      * @brief Unit outward normal of the master surface at @p xi of a face,

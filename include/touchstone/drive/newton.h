@@ -78,14 +78,9 @@ namespace Touchstone
       : parameters(parameters)
     {}
 
-    struct Result
-    {
-      /** Linear solves, and iterations in which the active set changed. */
-      unsigned int solves = 0, contact_changes = 0;
-    };
-
-    /** @throws NewtonFailure, ActiveSetCycle, and what the problem throws. */
-    Result
+    /** @return the number of linear solves.
+     * @throws NewtonFailure, ActiveSetCycle, and what the problem throws. */
+    unsigned int
     solve(NonlinearProblem &problem, const Observer &observer) const;
 
   private:

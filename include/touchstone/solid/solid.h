@@ -48,6 +48,11 @@ namespace Touchstone
     void
     internal_force(const Vector &u, Vector &force) const;
 
+    /** @brief Norm of the error that round-off makes in the internal forces of
+     * @p u: no residual can fall below it. Force; collective. */
+    double
+    round_off(const Vector &u) const;
+
     /** @brief Visit the quadrature points of the owned cells with body number,
      * reference position, stress and volume. @p u has ghosts. */
     void
@@ -66,6 +71,8 @@ namespace Touchstone
   private:
     const Scene &scene;
     Matrix       matrix;
+    /** Sum of the absolute entries of each owned row. */
+    std::vector<double> row_sums;
   };
 } // namespace Touchstone
 
