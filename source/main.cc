@@ -16,7 +16,8 @@ namespace
   {
     bad_input     = 1,
     not_converged = 2,
-    no_output     = 3
+    no_output     = 3,
+    broken        = 4
   };
 
   int
@@ -89,5 +90,12 @@ main(int argc, char **argv)
       if (first)
         std::cerr << error.what() << '\n';
       return no_output;
+    }
+  catch (const std::exception &error)
+    {
+      // Not foreseen, and perhaps on one rank only: the others must not wait.
+      std::cerr << "Touchstone broke down: " << error.what() << '\n';
+      MPI_Abort(communicator, broken);
+      return broken;
     }
 }

@@ -168,7 +168,8 @@ namespace Touchstone
   Vector
   RigidBodyModes::stabilisation(const FreeMotion &motion,
                                 const Vector     &unbalanced,
-                                const double      distance) const
+                                const double      distance,
+                                const double      smallest) const
   {
     Vector      shift(solid.owned, solid.communicator);
     const auto &stiffness = solid.stiffness().trilinos_matrix();
@@ -202,7 +203,7 @@ namespace Touchstone
       }
     Utilities::MPI::sum(sums, solid.communicator, sums);
 
-    double fraction = 1e-7;
+    double fraction = smallest;
     for (unsigned int v = 0; v < motion.n_modes; ++v)
       {
         double work = 0., resistance = 0.;

@@ -130,7 +130,7 @@ namespace Touchstone
 
 
     void
-    AveragedPairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
+    AveragedPairing::update(const Vector &, const double, std::vector<ContactRow> &rows)
     {
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       std::unordered_map<Index, Sums> sums;
@@ -181,7 +181,6 @@ namespace Touchstone
           row.gap        = row.gap_vector * row.normal;
           row.area       = std::min(sum.area, nodes[k].area);
         }
-      (void)u;
     }
   } // namespace
 } // namespace Touchstone

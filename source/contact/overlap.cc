@@ -27,6 +27,21 @@ namespace Touchstone
       return sum;
     }
 
+    /** Centre of area: unlike any of the corners it moves by round-off only when
+     * round-off adds or removes a corner. */
+    Point<2>
+    centroid(const Polygon &polygon)
+    {
+      Tensor<1, 2> sum;
+      for (std::size_t i = 2; i < polygon.size(); ++i)
+        {
+          const Tensor<1, 2> a = polygon[i - 1] - polygon[0];
+          const Tensor<1, 2> b = polygon[i] - polygon[0];
+          sum += 0.5 * cross(a, b) / 3. * (a + b);
+        }
+      return polygon[0] + sum / area(polygon);
+    }
+
     /** The part of @p subject within the convex, counterclockwise @p window.
      * Sutherland and Hodgman (1974), Commun. ACM 17. */
     Polygon
@@ -145,13 +160,16 @@ namespace Touchstone
             const Polygon common = clip(piece, window);
             if (common.size() < 3 || area(common) < 1e-12 * whole)
               continue;
-            for (std::size_t i = 2; i < common.size(); ++i)
+            const Point<2> middle = centroid(common);
+            for (std::size_t i = 0; i < common.size(); ++i)
               {
-                const Tensor<1, 2> a = common[i - 1] - common[0];
-                const Tensor<1, 2> b = common[i] - common[0];
+                const Tensor<1, 2> a = common[i] - middle;
+                const Tensor<1, 2> b = common[(i + 1) % common.size()] - middle;
+                if (cross(a, b) < 1e-12 * whole)
+                  continue;
                 for (unsigned int q = 0; q < rule.size(); ++q)
                   {
-                    const Point<2> x = common[0] + rule.point(q)[0] * a + rule.point(q)[1] * b;
+                    const Point<2> x = middle + rule.point(q)[0] * a + rule.point(q)[1] * b;
                     OverlapPoint   point;
                     double         slave_jacobian, master_jacobian;
                     if (!slave_shadow.invert(x, point.slave, slave_jacobian) ||

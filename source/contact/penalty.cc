@@ -49,8 +49,9 @@ namespace Touchstone
                   row.force  = row.augmented - epsilon * row.gap_vector;
                   row.lambda = row.force * row.normal;
                 }
-              grant(row);
+              grant(row, solved);
             }
+        solved = false;
       }
 
       void
@@ -79,7 +80,9 @@ namespace Touchstone
 
       void
       update(Contact &, const std::vector<double> &) override
-      {}
+      {
+        solved = true;
+      }
 
       double
       round_off_squared(const Contact &contact, const double length) const override
@@ -95,12 +98,15 @@ namespace Touchstone
       }
 
     protected:
-      /** Decide what gap the row may have, and whether its force is augmented. */
+      /** Decide what gap the row may have, and whether its force is augmented;
+       * @p solved says that the gap is the outcome of a solve, and not the
+       * overlap that a step begins with. */
       virtual void
-      grant(ContactRow &row) const = 0;
+      grant(ContactRow &row, bool solved) const = 0;
 
     private:
       const double factor;
+      bool         solved = false;
 
       /** The force after the iteration is lambda_k - epsilon (g + B du), where
        * the condition's value is -g. */
@@ -141,7 +147,7 @@ namespace Touchstone
 
     private:
       void
-      grant(ContactRow &row) const override
+      grant(ContactRow &row, bool) const override
       {
         row.granted_gap = row.tied ? row.gap_vector.norm() : row.gap;
       }
@@ -167,10 +173,10 @@ namespace Touchstone
       const bool merged;
 
       void
-      grant(ContactRow &row) const override
+      grant(ContactRow &row, const bool solved) const override
       {
         row.granted_gap = 0.;
-        if (merged)
+        if (merged && solved)
           row.augmented = row.force;
       }
     };

@@ -177,10 +177,11 @@ namespace Touchstone
           }
         catch (const NonConvergence &failure)
           {
+            const std::string reason = failure.what() + problem.suspicion();
             problem.rollback();
             if (cuts >= parameters.maximum_cuts)
               {
-                summary.failure = std::string(failure.what()) + " (step " + std::to_string(step) +
+                summary.failure = reason + " (step " + std::to_string(step) +
                                   " at time " + std::to_string(next) + ", cut " +
                                   std::to_string(cuts) + " times)";
                 write_pictures(step - 1, time);
@@ -188,7 +189,7 @@ namespace Touchstone
               }
             ++cuts;
             size *= 0.5;
-            progress.cut_step(failure.what(), size);
+            progress.cut_step(reason, size);
           }
       }
     if (scene.output.vtu_interval > 0)
@@ -267,9 +268,14 @@ namespace Touchstone
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
-    const Forest             forest(scene, folder_of_scene, communicator);
-    const Solid              solid(scene, forest, communicator);
-    const BoundaryConditions boundary_conditions(scene, forest, solid);
-    const Contact            contact(scene, forest, solid);
+    const Forest  forest(scene, folder_of_scene, communicator);
+    Solid         solid(scene, forest, communicator);
+    TimerOutput   timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
+    StaticProblem problem(scene, forest, solid, timer);
+    // Up to the first linear system: finds bodies that nothing holds.
+    problem.start();
+    problem.begin_step(scene.load_stepping.end_time / scene.load_stepping.steps);
+    problem.residual(0);
+    problem.linearize();
   }
 } // namespace Touchstone

@@ -201,23 +201,30 @@ namespace Touchstone
                            "contact pair.");
       }
 
-    // Not farther than the nearest gap, so that contact can catch the body.
-    double distance = std::numeric_limits<double>::max();
-    double size     = 0.;
+    // Before contact, not farther than the nearest gap, so that contact can catch
+    // the body. In contact the body is left to slide: there, the springs must
+    // outweigh the geometric stiffness of the contact forces, which is about the
+    // pressure over Young's modulus and missing from the tangent, or the iteration
+    // would leap from one side of its place to the other.
+    double       distance = std::numeric_limits<double>::max();
+    double       size     = 0.;
+    unsigned int active   = 0;
     for (const auto &rows : contact.rows)
       for (const ContactRow &row : rows)
         if (row.status != ContactStatus::no_partner)
           {
             size = std::max(size, row.size);
+            active += row.active();
             if (!row.active() && row.gap > 0.)
               distance = std::min(distance, row.gap);
           }
     distance = Utilities::MPI::min(distance, solid.communicator);
     size     = Utilities::MPI::max(size, solid.communicator);
+    active   = Utilities::MPI::sum(active, solid.communicator);
     if (size == 0.)
       size = length;
-    distance = std::clamp(1.01 * distance, 1e-3 * size, size);
-    system->diagonal_shift = modes->stabilisation(motion, unbalanced, distance);
+    distance = active > 0 ? 1e-3 * size : std::clamp(1.01 * distance, 1e-3 * size, size);
+    system->diagonal_shift = modes->stabilisation(motion, unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
     stabilised             = motion.description;
   }
 

@@ -108,7 +108,8 @@ namespace Touchstone
                       pairing,
                       "How rows are made of surfaces: 'pointwise' projects each "
                       "slave node onto the master surface; 'averaged' averages over the "
-                      "slave faces with a dual basis and passes the patch test.",
+                      "slave faces with a dual basis and passes the patch test. An "
+                      "obstacle needs neither.",
                       Patterns::Selection("averaged|pointwise"));
     prm.add_parameter("Behaviour",
                       behaviour,
@@ -118,7 +119,8 @@ namespace Touchstone
     prm.add_parameter("Sliding",
                       sliding,
                       "'finite' searches the partners in each iteration, 'small' "
-                      "keeps those of the reference state. Tied pairs are small.",
+                      "keeps those of the reference state. Tied pairs are small; an "
+                      "obstacle is always met where it is.",
                       Patterns::Selection("finite|small"));
     prm.add_parameter("Contact geometry",
                       contact_geometry,

@@ -61,10 +61,14 @@ namespace Touchstone
      *
      * Added to the tangent but not to the residual, they slow the way to
      * equilibrium and do not change it (a proximal point step). The fraction is
-     * such that the free motion under @p unbalanced is about @p distance.
+     * such that the free motion under @p unbalanced is about @p distance, and at
+     * least @p smallest.
      */
     Vector
-    stabilisation(const FreeMotion &motion, const Vector &unbalanced, double distance) const;
+    stabilisation(const FreeMotion &motion,
+                  const Vector     &unbalanced,
+                  double            distance,
+                  double            smallest) const;
 
   private:
     const Scene                        &scene;

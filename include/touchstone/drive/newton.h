@@ -66,7 +66,8 @@ namespace Touchstone
    * @brief Semismooth Newton method with active set.
    *
    * Converged when residual, gap and prescribed displacements are met and the
-   * active set did not change.
+   * active set did not change; a residual that round-off holds within 100 times
+   * its tolerance, for three iterations, counts as met.
    * Hueeber and Wohlmuth (2005), Comput. Methods Appl. Mech. Engng 194.
    */
   class Newton

@@ -87,6 +87,16 @@ namespace Touchstone
       return assemblies;
     }
 
+    /** @brief Why the present step may not converge: bodies that nothing but
+     * contact holds; empty if there are none. */
+    std::string
+    suspicion() const
+    {
+      return stabilised.empty() ?
+               "" :
+               "; held by contact alone, perhaps against no resistance: " + stabilised;
+    }
+
     /** @brief What happened in the present step that the user should know: rows
      * dropped, bodies stabilised; empty if nothing. Collective. */
     std::string
