@@ -56,8 +56,8 @@ namespace
           {
             for (const std::string &text : simulation.comparison())
               std::cout << text << '\n';
-            std::cout << "Wall time " << readable_duration(summary.seconds.wall)
-                      << ". Results in " << scene.output.directory
+            std::cout << "Wall time " << readable_duration(summary.seconds.wall) << ". Results in "
+                      << scene.output.directory
                       << ": solution.pvd, contact.pvd, statistics, summary.json\n";
           }
         if (!summary.converged)

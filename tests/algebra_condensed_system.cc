@@ -2,8 +2,6 @@
 // inhomogeneities, contact terms in rows of other ranks, a diagonal shift, and
 // extra unknowns.
 
-#include "mesh_common.h"
-
 #include <touchstone/algebra/linear_system.h>
 #include <touchstone/algebra/vector.h>
 
@@ -11,6 +9,7 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include "mesh_common.h"
 #include <random>
 
 using namespace Touchstone;
@@ -40,12 +39,12 @@ namespace
 
 
   void
-  check(const std::string                     &what,
-        const AffineConstraints<double>       &constraints,
-        const std::vector<MatrixTerm>         &terms,
-        const bool                             shifted,
-        const std::vector<unsigned int>       &extra_of_rank,
-        const bool                             break_it = false)
+  check(const std::string               &what,
+        const AffineConstraints<double> &constraints,
+        const std::vector<MatrixTerm>   &terms,
+        const bool                       shifted,
+        const std::vector<unsigned int> &extra_of_rank,
+        const bool                       break_it = false)
   {
     const MPI_Comm     communicator = MPI_COMM_WORLD;
     const unsigned int rank         = Utilities::MPI::this_mpi_process(communicator);
@@ -137,8 +136,8 @@ namespace
     tmp.sadd(-1., b);
     t.Tvmult(rhs, tmp);
 
-    double             worst = 0., worst_rhs = 0., worst_constrained = 0.;
-    bool               diagonal = true, marks = true;
+    double                  worst = 0., worst_rhs = 0., worst_constrained = 0.;
+    bool                    diagonal = true, marks = true;
     const Epetra_CrsMatrix &matrix = *condensed.matrix;
     for (int row = 0; row < matrix.NumMyRows(); ++row)
       {
@@ -151,9 +150,9 @@ namespace
         for (int k = 0; k < length; ++k)
           values[matrix.GCID(column[k])] += value[k];
         const bool constrained = i < n && constraints.is_constrained(i);
-        marks = marks && (row >= static_cast<int>(condensed.constrained.size()) ?
-                            !constrained :
-                            static_cast<bool>(condensed.constrained[row]) == constrained);
+        marks                  = marks && (row >= static_cast<int>(condensed.constrained.size())
+                                             ? !constrained
+                                             : static_cast<bool>(condensed.constrained[row]) == constrained);
         for (unsigned int j = 0; j < m; ++j)
           if (constrained || (j < n && constraints.is_constrained(j)))
             {
@@ -164,9 +163,10 @@ namespace
             }
           else
             worst = std::max(worst, std::abs(values[j] - reference(i, j)));
-        worst_rhs = std::max(worst_rhs, std::abs((*condensed.rhs)[row] - (constrained ? 0. : rhs[i])));
+        worst_rhs =
+          std::max(worst_rhs, std::abs((*condensed.rhs)[row] - (constrained ? 0. : rhs[i])));
       }
-    const auto all = [&](const double x) { return Utilities::MPI::max(x, communicator); };
+    const auto all    = [&](const double x) { return Utilities::MPI::max(x, communicator); };
     worst             = all(worst);
     worst_rhs         = all(worst_rhs);
     worst_constrained = all(worst_constrained);
@@ -176,7 +176,8 @@ namespace
       {
         std::cout << what << ": " << rows << " rows, matrix ";
         if (break_it)
-          std::cout << (worst > 1e-4 ? "differs, as it must" : "does not notice FAILED") << std::endl;
+          std::cout << (worst > 1e-4 ? "differs, as it must" : "does not notice FAILED")
+                    << std::endl;
         else
           std::cout << small(worst) << ", constrained " << small(worst_constrained) << ", rhs "
                     << small(worst_rhs) << (good ? "" : ", diagonal or marks FAILED") << std::endl;
@@ -189,11 +190,12 @@ namespace
   make_constraints(const unsigned int kind)
   {
     AffineConstraints<double> constraints(complete_index_set(n));
-    const auto line = [&](const Index i, const std::vector<std::pair<Index, double>> &entries, const double value) {
-      constraints.add_line(i);
-      constraints.add_entries(i, entries);
-      constraints.set_inhomogeneity(i, value);
-    };
+    const auto                line =
+      [&](const Index i, const std::vector<std::pair<Index, double>> &entries, const double value) {
+        constraints.add_line(i);
+        constraints.add_entries(i, entries);
+        constraints.set_inhomogeneity(i, value);
+      };
     if (kind >= 1)
       {
         line(0, {}, 0.);
@@ -215,11 +217,20 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::vector<MatrixTerm> contact = {{1, 22, 0.5}, {22, 1, 0.5}, {5, 5, 2.}, {5, 20, -1.},
-                                           {20, 5, -1.}, {20, 20, 1.}, {18, 18, 3.}, {3, 3, 1.}};
-  std::vector<MatrixTerm> multipliers;
-  for (const MatrixTerm &term : {MatrixTerm{n, 2, 1.}, MatrixTerm{n, 21, -1.}, MatrixTerm{n + 1, 5, 1.},
-                                 MatrixTerm{n + 1, 0, 0.5}, MatrixTerm{n + 2, 12, -1.}})
+  const std::vector<MatrixTerm>    contact = {{1, 22, 0.5},
+                                              {22, 1, 0.5},
+                                              {5, 5, 2.},
+                                              {5, 20, -1.},
+                                              {20, 5, -1.},
+                                              {20, 20, 1.},
+                                              {18, 18, 3.},
+                                              {3, 3, 1.}};
+  std::vector<MatrixTerm>          multipliers;
+  for (const MatrixTerm &term : {MatrixTerm{n, 2, 1.},
+                                 MatrixTerm{n, 21, -1.},
+                                 MatrixTerm{n + 1, 5, 1.},
+                                 MatrixTerm{n + 1, 0, 0.5},
+                                 MatrixTerm{n + 2, 12, -1.}})
     {
       multipliers.push_back(term);
       multipliers.push_back({term.column, term.row, term.value});

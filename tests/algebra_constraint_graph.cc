@@ -1,10 +1,9 @@
 // The constraint graph: which conditions it refuses, and that its lines meet all
 // that it accepted.
 
-#include "mesh_common.h"
-
 #include <touchstone/algebra/constraint_graph.h>
 
+#include "mesh_common.h"
 #include <random>
 
 using namespace Touchstone;
@@ -85,7 +84,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const Tensor<1, dim> x({1., 0., 0.}), y({0., 1., 0.}), z({0., 0., 1.});
+  const Tensor<1, dim>             x({1., 0., 0.}), y({0., 1., 0.}), z({0., 0., 1.});
 
   std::cout << "one node\n";
   {
@@ -133,7 +132,7 @@ main(int argc, char **argv)
 
   // Nodes 0, 1, 2 are slaves of 3, 4, 5, and node 1 also of node 0.
   std::cout << "lines\n";
-  double       worst = 0.;
+  double       worst      = 0.;
   unsigned int n_accepted = 0, n_offered = 0;
   for (unsigned int trial = 0; trial < 500; ++trial)
     {
@@ -145,8 +144,11 @@ main(int argc, char **argv)
           const unsigned int n_conditions = 1 + trial % 4;
           for (unsigned int k = 0; k < n_conditions; ++k)
             {
-              Condition condition = make(node, trial % 5 == 0 && k < 3 ? (k == 0 ? z : k == 1 ? x : y) :
-                                                                          random_direction(),
+              Condition condition = make(node,
+                                         trial % 5 == 0 && k < 3 ? (k == 0   ? z
+                                                                    : k == 1 ? x
+                                                                             : y)
+                                                                 : random_direction(),
                                          random_number());
               if (k > 0 || trial % 2 == 0)
                 {

@@ -1,10 +1,10 @@
 // What bodies can do without resistance under given supports and contacts, in
 // words; and that the modes are motions without energy.
 
-#include "mesh_common.h"
-
 #include <touchstone/algebra/rigid_body_modes.h>
 #include <touchstone/solid/boundary_conditions.h>
+
+#include "mesh_common.h"
 
 using namespace Touchstone;
 using namespace dealii;
@@ -84,8 +84,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::string fix_upper = "Body upper/Fixed=top";
-  const auto        lower     = [](const std::string &value) { return "Body lower/Symmetry=" + value; };
+  const std::string                fix_upper = "Body upper/Fixed=top";
+  const auto lower = [](const std::string &value) { return "Body lower/Symmetry=" + value; };
 
   print("both fixed", {fix_upper, "Body lower/Fixed=left"});
   print("nothing held", {});
@@ -117,9 +117,9 @@ main(int argc, char **argv)
   const Forest   forest(scene, "", communicator);
   Solid          solid(scene, forest, communicator);
   solid.assemble();
-  const RigidBodyModes      modes(scene, solid);
-  const Epetra_CrsMatrix   &stiffness = solid.stiffness().trilinos_matrix();
-  Epetra_MultiVector        product(stiffness.RowMap(), 6);
+  const RigidBodyModes    modes(scene, solid);
+  const Epetra_CrsMatrix &stiffness = solid.stiffness().trilinos_matrix();
+  Epetra_MultiVector      product(stiffness.RowMap(), 6);
   stiffness.Multiply(false, modes.columns(), product);
   double largest[6], length[6];
   product.NormInf(largest);
@@ -131,6 +131,6 @@ main(int argc, char **argv)
       shortest = std::min(shortest, length[k]);
     }
   if (Utilities::MPI::this_mpi_process(communicator) == 0)
-    std::cout << "forces of rigid motions " << small(worst) << (shortest > 1. ? "" : ", no motion FAILED")
-              << std::endl;
+    std::cout << "forces of rigid motions " << small(worst)
+              << (shortest > 1. ? "" : ", no motion FAILED") << std::endl;
 }

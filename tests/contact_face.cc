@@ -1,10 +1,9 @@
 // Faces of contact surfaces: shape functions, tangents against central
 // differences, and the closest-point projection against a brute-force search.
 
-#include "mesh_common.h"
-
 #include <touchstone/contact/face.h>
 
+#include "mesh_common.h"
 #include <functional>
 
 using namespace Touchstone;
@@ -14,10 +13,12 @@ namespace
 {
   /** A face with nodes and displacements given by functions of xi. */
   Face
-  make_face(const unsigned int                                     degree,
-            const std::function<Point<dim>(double, double)>       &position,
-            const std::function<Tensor<1, dim>(double, double)> &displacement =
-              [](double, double) { return Tensor<1, dim>(); })
+  make_face(
+    const unsigned int                                   degree,
+    const std::function<Point<dim>(double, double)>     &position,
+    const std::function<Tensor<1, dim>(double, double)> &displacement = [](double, double) {
+      return Tensor<1, dim>();
+    })
   {
     Face face;
     face.degree = degree;
@@ -55,7 +56,8 @@ namespace
               for (unsigned int a = 0; a < 2; ++a)
                 sum_gradient[a] += shapes.gradient[m][a];
             }
-          sums = std::max({sums, std::abs(sum), std::abs(sum_gradient[0]), std::abs(sum_gradient[1])});
+          sums =
+            std::max({sums, std::abs(sum), std::abs(sum_gradient[0]), std::abs(sum_gradient[1])});
           const FacePoint point = evaluate(face, exact, {{x, y}});
           for (unsigned int a = 0; a < 2; ++a)
             {
@@ -65,7 +67,8 @@ namespace
               const Tensor<1, dim> difference =
                 (evaluate(face, exact, plus).x - evaluate(face, exact, minus).x) / (2. * h);
               tangents =
-                std::max(tangents, (difference - point.tangents[a]).norm() / point.tangents[a].norm());
+                std::max(tangents,
+                         (difference - point.tangents[a]).norm() / point.tangents[a].norm());
             }
           if (std::abs(point.normal().norm() - 1.) > 1e-14 ||
               std::abs(point.normal() * point.tangents[0]) > 1e-12 * point.tangents[0].norm() ||
@@ -82,8 +85,8 @@ namespace
   double
   brute_force(const Point<dim> &x, const Face &face, const AnalyticSurface *exact)
   {
-    const int    n        = 40;
-    double       centre[] = {0., 0.}, half = 1., best = 1e300;
+    const int n        = 40;
+    double    centre[] = {0., 0.}, half = 1., best = 1e300;
     for (unsigned int round = 0; round < 14; ++round)
       {
         double found[] = {centre[0], centre[1]};
@@ -130,7 +133,8 @@ namespace
             worse = std::max(worse, (distance - brute_force(x, face, exact)) / size);
             inconsistent =
               std::max(inconsistent,
-                       std::abs(distance - x.distance(evaluate(face, exact, projection.xi).x)) / size);
+                       std::abs(distance - x.distance(evaluate(face, exact, projection.xi).x)) /
+                         size);
             for (const double xi : projection.xi)
               outside = std::max(outside, std::abs(xi) - 1.);
             ++count;
@@ -168,16 +172,16 @@ main()
         make_face(
           1,
           [](double a, double b) { return Point<dim>(a, b, 0.); },
-          [](double a, double b) { return Tensor<1, dim>({0.1 * a * b, 0.02 * b, -0.25 * a * b}); }));
+          [](double a, double b) {
+            return Tensor<1, dim>({0.1 * a * b, 0.02 * b, -0.25 * a * b});
+          }));
   check("aspect ratio 100", make_face(1, [](double a, double b) {
           return Point<dim>(100. * a, b + 0.05 * a * b, 0.02 * a * b);
         }));
-  check("aspect ratio 1/100", make_face(1, [](double a, double b) {
-          return Point<dim>(0.01 * a, b, 0.);
-        }));
-  check("biquadratic, plane", make_face(2, [](double a, double b) {
-          return Point<dim>(a, b, 0.);
-        }));
+  check("aspect ratio 1/100",
+        make_face(1, [](double a, double b) { return Point<dim>(0.01 * a, b, 0.); }));
+  check("biquadratic, plane",
+        make_face(2, [](double a, double b) { return Point<dim>(a, b, 0.); }));
   check("biquadratic, curved", make_face(2, [](double a, double b) {
           return Point<dim>(a + 0.05 * b * b, b, 0.15 * a * a - 0.1 * b * b + 0.05 * a * b);
         }));
@@ -204,8 +208,10 @@ main()
   // How far beyond the edge: in fractions of the face, outer and inner edges apart.
   Face square        = make_face(1, [](double a, double b) { return Point<dim>(a, b, 0.); });
   square.outer_edges = 1u << 1; // xi_1 = 1
-  for (const Point<dim> &x : {Point<dim>(1.2, 0., 0.1), Point<dim>(-1.4, 0., 0.1),
-                              Point<dim>(1.1, -1.3, 0.), Point<dim>(0.5, 0.5, 0.3)})
+  for (const Point<dim> &x : {Point<dim>(1.2, 0., 0.1),
+                              Point<dim>(-1.4, 0., 0.1),
+                              Point<dim>(1.1, -1.3, 0.),
+                              Point<dim>(0.5, 0.5, 0.3)})
     {
       const Projection projection = closest_point_projection(x, square, nullptr);
       std::cout << x << ": xi " << projection.xi[0] << ' ' << projection.xi[1] << ", beyond outer "

@@ -17,7 +17,8 @@ namespace Touchstone
 {
   /** The number, or that it is as small as it should be: rounding differs
    * between machines. */
-  inline std::string small(const double x, const double tolerance = 1e-12)
+  inline std::string
+  small(const double x, const double tolerance = 1e-12)
   {
     std::ostringstream out;
     if (std::abs(x) <= tolerance)
@@ -28,7 +29,8 @@ namespace Touchstone
   }
 
   /** A geometry with the parameters in @p text. */
-  inline std::shared_ptr<Geometry> make_geometry(const std::string &type, const std::string &text)
+  inline std::shared_ptr<Geometry>
+  make_geometry(const std::string &type, const std::string &text)
   {
     const auto               geometry = GeometryRegistry::make(type);
     dealii::ParameterHandler prm;
@@ -39,11 +41,12 @@ namespace Touchstone
   }
 
   /** Volume, areas and distances of boundary points from exact surfaces. */
-  inline void measure(const BodyMesh                               &mesh,
-                      const dealii::Triangulation<3>               &triangulation,
-                      std::map<dealii::types::boundary_id, double> &areas,
-                      double                                       &volume,
-                      double                                       &distance)
+  inline void
+  measure(const BodyMesh                               &mesh,
+          const dealii::Triangulation<3>               &triangulation,
+          std::map<dealii::types::boundary_id, double> &areas,
+          double                                       &volume,
+          double                                       &distance)
   {
     using namespace dealii;
     const MappingQ<3> mapping(2);
@@ -56,28 +59,28 @@ namespace Touchstone
     areas.clear();
     volume = distance = 0.;
     for (const auto &cell : triangulation.active_cell_iterators())
-    {
-      cells.reinit(cell);
-      for (const double weight : cells.get_JxW_values())
       {
-        volume += weight;
-        if (weight <= 0.)
-          std::cout << "negative Jacobian FAILED\n";
+        cells.reinit(cell);
+        for (const double weight : cells.get_JxW_values())
+          {
+            volume += weight;
+            if (weight <= 0.)
+              std::cout << "negative Jacobian FAILED\n";
+          }
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary())
+            {
+              const auto id = cell->face(f)->boundary_id();
+              faces.reinit(cell, f);
+              for (const double weight : faces.get_JxW_values())
+                areas[id] += weight;
+              if (mesh.surfaces.count(id) == 0)
+                continue;
+              nodes.reinit(cell, f);
+              for (const Point<3> &x : nodes.get_quadrature_points())
+                distance = std::max(distance, x.distance(mesh.surfaces.at(id)->project(x)));
+            }
       }
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary())
-        {
-          const auto id = cell->face(f)->boundary_id();
-          faces.reinit(cell, f);
-          for (const double weight : faces.get_JxW_values())
-            areas[id] += weight;
-          if (mesh.surfaces.count(id) == 0)
-            continue;
-          nodes.reinit(cell, f);
-          for (const Point<3> &x : nodes.get_quadrature_points())
-            distance = std::max(distance, x.distance(mesh.surfaces.at(id)->project(x)));
-        }
-    }
   }
 
   /** Create, refine, print. */
@@ -97,40 +100,41 @@ namespace Touchstone
     Triangulation<3> triangulation;
     create_triangulation(mesh, triangulation);
     for (unsigned int level = 0; level < 2; ++level)
-    {
-      std::map<types::boundary_id, double> areas;
-      double                               volume, distance;
-      measure(mesh, triangulation, areas, volume, distance);
-      std::cout << "  level " << level << ": " << triangulation.n_active_cells() << " cells, "
-                << triangulation.n_used_vertices() << " vertices, volume " << volume << '\n';
-      for (const auto &[name, id] : mesh.boundary_names)
-        std::cout << "    " << name << ' ' << id << ": " << areas[id] << '\n';
-      for (const auto &[id, area] : areas)
       {
-        bool named = false;
-        for (const auto &[name, other] : mesh.boundary_names)
-          named = named || other == id;
-        if (!named)
-          std::cout << "    boundary " << id << " has no name FAILED\n";
+        std::map<types::boundary_id, double> areas;
+        double                               volume, distance;
+        measure(mesh, triangulation, areas, volume, distance);
+        std::cout << "  level " << level << ": " << triangulation.n_active_cells() << " cells, "
+                  << triangulation.n_used_vertices() << " vertices, volume " << volume << '\n';
+        for (const auto &[name, id] : mesh.boundary_names)
+          std::cout << "    " << name << ' ' << id << ": " << areas[id] << '\n';
+        for (const auto &[id, area] : areas)
+          {
+            bool named = false;
+            for (const auto &[name, other] : mesh.boundary_names)
+              named = named || other == id;
+            if (!named)
+              std::cout << "    boundary " << id << " has no name FAILED\n";
+          }
+        std::cout << "    off the exact surface " << small(distance) << '\n';
+        triangulation.refine_global(1);
       }
-      std::cout << "    off the exact surface " << small(distance) << '\n';
-      triangulation.refine_global(1);
-    }
   }
 
   /** Print the message of the InputError that @p action throws. */
   template <class Action>
-  void print_error(const Action &action)
+  void
+  print_error(const Action &action)
   {
     try
-    {
-      action();
-      std::cout << "no error FAILED\n";
-    }
+      {
+        action();
+        std::cout << "no error FAILED\n";
+      }
     catch (const InputError &error)
-    {
-      std::cout << error.what() << '\n';
-    }
+      {
+        std::cout << error.what() << '\n';
+      }
   }
 } // namespace Touchstone
 

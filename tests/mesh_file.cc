@@ -10,12 +10,14 @@ namespace
 {
   const std::string folder = SOURCE_DIR "/meshes";
 
-  BodyMesh read(const std::string &text, const double factor = 1.)
+  BodyMesh
+  read(const std::string &text, const double factor = 1.)
   {
     return make_geometry("file", text)->create(factor, "Body x/Geometry", folder);
   }
 
-  void print(const std::string &text)
+  void
+  print(const std::string &text)
   {
     std::string title = text;
     std::replace(title.begin(), title.end(), '\n', ';');
@@ -24,35 +26,36 @@ namespace
     Triangulation<3> triangulation;
     create_triangulation(mesh, triangulation);
     for (unsigned int level = 0; level < 2; ++level)
-    {
-      std::map<types::boundary_id, double> areas;
-      double                               volume, distance;
-      measure(mesh, triangulation, areas, volume, distance);
-      std::cout << "  level " << level << ": " << triangulation.n_active_cells() << " cells, "
-                << triangulation.n_used_vertices() << " vertices, volume " << volume
-                << ", off the exact surface " << small(distance) << '\n';
-      for (const auto &[name, id] : mesh.boundary_names)
-        std::cout << "    " << name << ' ' << id << ": " << areas[id] << '\n';
-      triangulation.refine_global(1);
-    }
+      {
+        std::map<types::boundary_id, double> areas;
+        double                               volume, distance;
+        measure(mesh, triangulation, areas, volume, distance);
+        std::cout << "  level " << level << ": " << triangulation.n_active_cells() << " cells, "
+                  << triangulation.n_used_vertices() << " vertices, volume " << volume
+                  << ", off the exact surface " << small(distance) << '\n';
+        for (const auto &[name, id] : mesh.boundary_names)
+          std::cout << "    " << name << ' ' << id << ": " << areas[id] << '\n';
+        triangulation.refine_global(1);
+      }
   }
 
   /** The message without the folder, which differs between machines. */
-  void print_message(const std::string &text, const double factor = 1.)
+  void
+  print_message(const std::string &text, const double factor = 1.)
   {
     try
-    {
-      read(text, factor);
-      std::cout << "no error FAILED\n";
-    }
+      {
+        read(text, factor);
+        std::cout << "no error FAILED\n";
+      }
     catch (const InputError &error)
-    {
-      std::string message = error.what();
-      const auto  at      = message.find(folder);
-      if (at != std::string::npos)
-        message.replace(at, folder.size(), "FOLDER");
-      std::cout << message << '\n';
-    }
+      {
+        std::string message = error.what();
+        const auto  at      = message.find(folder);
+        if (at != std::string::npos)
+          message.replace(at, folder.size(), "FOLDER");
+        std::cout << message << '\n';
+      }
   }
 } // namespace
 

@@ -13,46 +13,51 @@ using namespace dealii;
 
 namespace
 {
-  std::string body(const std::string &name, const std::string &geometry)
+  std::string
+  body(const std::string &name, const std::string &geometry)
   {
     return "subsection Body " + name + "\nsubsection Geometry\n" + geometry +
            "end\nsubsection Material\nset Young modulus = 1\nend\nend\n";
   }
 
-  Scene make_scene(const std::string &text, const std::string &factor)
+  Scene
+  make_scene(const std::string &text, const std::string &factor)
   {
     return Scene(text, "test.prm", {"Discretisation/Refinement factor=" + factor});
   }
 
   /** Cells and vertices of all ranks, and how far boundary vertices are from the
    * exact surfaces. */
-  void print_counts(const std::string              &title,
-                    const std::string              &text,
-                    const std::vector<std::string> &factors)
+  void
+  print_counts(const std::string              &title,
+               const std::string              &text,
+               const std::vector<std::string> &factors)
   {
     for (const std::string &factor : factors)
-    {
-      const Scene   scene = make_scene(text, factor);
-      const Forest  forest(scene, ".", MPI_COMM_WORLD);
-      const FE_Q<3> fe(1);
-      DoFHandler<3> vertices(forest.triangulation);
-      vertices.distribute_dofs(fe);
+      {
+        const Scene   scene = make_scene(text, factor);
+        const Forest  forest(scene, ".", MPI_COMM_WORLD);
+        const FE_Q<3> fe(1);
+        DoFHandler<3> vertices(forest.triangulation);
+        vertices.distribute_dofs(fe);
 
-      double distance = 0.;
-      for (const auto &cell : forest.triangulation.active_cell_iterators())
-        if (cell->is_locally_owned())
-          for (const auto &face : cell->face_iterators())
-            if (face->at_boundary())
-              if (const auto surface = forest.surface(face->boundary_id()))
-                for (const unsigned int v : face->vertex_indices())
-                  distance =
-                    std::max(distance, face->vertex(v).distance(surface->project(face->vertex(v))));
-      distance = Utilities::MPI::max(distance, MPI_COMM_WORLD);
-      if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-        std::cout << title << ", factor " << factor << ": "
-                  << forest.triangulation.n_global_active_cells() << " cells, " << vertices.n_dofs()
-                  << " vertices, off the exact surface " << small(distance) << '\n';
-    }
+        double distance = 0.;
+        for (const auto &cell : forest.triangulation.active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const auto &face : cell->face_iterators())
+              if (face->at_boundary())
+                if (const auto surface = forest.surface(face->boundary_id()))
+                  for (const unsigned int v : face->vertex_indices())
+                    distance =
+                      std::max(distance,
+                               face->vertex(v).distance(surface->project(face->vertex(v))));
+        distance = Utilities::MPI::max(distance, MPI_COMM_WORLD);
+        if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+          std::cout << title << ", factor " << factor << ": "
+                    << forest.triangulation.n_global_active_cells() << " cells, "
+                    << vertices.n_dofs() << " vertices, off the exact surface " << small(distance)
+                    << '\n';
+      }
   }
 } // namespace
 
@@ -69,21 +74,21 @@ main(int argc, char **argv)
          "set Cells = 2, 2, 1\n");
   // Each rank has only its own cells: printed serially.
   if (Utilities::MPI::n_mpi_processes(world) == 1)
-  {
-    const Scene  scene = make_scene(boxes, "1");
-    const Forest forest(scene, ".", world);
-    std::cout << forest.n_bodies() << " bodies, " << forest.triangulation.n_active_cells()
-              << " cells, " << forest.triangulation.n_used_vertices() << " vertices\n";
-    for (const auto &cell : forest.triangulation.active_cell_iterators())
-      std::cout << "  body " << cell->material_id() << " at " << cell->center() << '\n';
-    for (const char *name : {"top", "5", "left"})
-      for (unsigned int b = 0; b < 2; ++b)
-        std::cout << "  " << name << " of body " << b << ": "
-                  << forest.boundary_id(b, name, "s", "k") << '\n';
-    std::cout << "  exact surface of a plane side: " << (forest.surface(0) ? "yes FAILED" : "none")
-              << '\n';
-    print_error([&] { forest.boundary_id(0, "outer", "Body lower", "Fixed"); });
-  }
+    {
+      const Scene  scene = make_scene(boxes, "1");
+      const Forest forest(scene, ".", world);
+      std::cout << forest.n_bodies() << " bodies, " << forest.triangulation.n_active_cells()
+                << " cells, " << forest.triangulation.n_used_vertices() << " vertices\n";
+      for (const auto &cell : forest.triangulation.active_cell_iterators())
+        std::cout << "  body " << cell->material_id() << " at " << cell->center() << '\n';
+      for (const char *name : {"top", "5", "left"})
+        for (unsigned int b = 0; b < 2; ++b)
+          std::cout << "  " << name << " of body " << b << ": "
+                    << forest.boundary_id(b, name, "s", "k") << '\n';
+      std::cout << "  exact surface of a plane side: "
+                << (forest.surface(0) ? "yes FAILED" : "none") << '\n';
+      print_error([&] { forest.boundary_id(0, "outer", "Body lower", "Fixed"); });
+    }
 
   const std::string tubes =
     "set Bodies = outer, inner\n" +

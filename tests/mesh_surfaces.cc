@@ -8,35 +8,36 @@ using namespace dealii;
 
 namespace
 {
-  void print(const std::string           &title,
-             const AnalyticSurface       &surface,
-             const std::vector<Point<3>> &points)
+  void
+  print(const std::string           &title,
+        const AnalyticSurface       &surface,
+        const std::vector<Point<3>> &points)
   {
     std::cout << title << '\n';
     for (const Point<3> &x : points)
-    {
-      const Point<3>     p        = surface.project(x);
-      const Tensor<1, 3> n        = surface.normal(x);
-      const Tensor<2, 3> gradient = surface.projection_gradient(x);
-
-      const double h = 1e-5;
-      Tensor<2, 3> difference;
-      for (unsigned int d = 0; d < 3; ++d)
       {
-        Tensor<1, 3> step;
-        step[d]               = h;
-        const Tensor<1, 3> dp = surface.project(x + step) - surface.project(x - step);
-        for (unsigned int c = 0; c < 3; ++c)
-          difference[c][d] = dp[c] / (2. * h);
+        const Point<3>     p        = surface.project(x);
+        const Tensor<1, 3> n        = surface.normal(x);
+        const Tensor<2, 3> gradient = surface.projection_gradient(x);
+
+        const double h = 1e-5;
+        Tensor<2, 3> difference;
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            Tensor<1, 3> step;
+            step[d]               = h;
+            const Tensor<1, 3> dp = surface.project(x + step) - surface.project(x - step);
+            for (unsigned int c = 0; c < 3; ++c)
+              difference[c][d] = dp[c] / (2. * h);
+          }
+        const Tensor<1, 3> d = x - p;
+        std::cout << "  " << x << " -> " << p << ", normal " << n << '\n'
+                  << "    normal length " << small(n.norm() - 1.) << ", foot "
+                  << small((d - (d * n) * n).norm()) << ", stays "
+                  << small(surface.project(p).distance(p)) << ", gradient "
+                  << small((gradient - difference).norm(), 1e-7) << ", symmetric "
+                  << small((gradient - transpose(gradient)).norm()) << '\n';
       }
-      const Tensor<1, 3> d = x - p;
-      std::cout << "  " << x << " -> " << p << ", normal " << n << '\n'
-                << "    normal length " << small(n.norm() - 1.) << ", foot "
-                << small((d - (d * n) * n).norm()) << ", stays "
-                << small(surface.project(p).distance(p)) << ", gradient "
-                << small((gradient - difference).norm(), 1e-7) << ", symmetric "
-                << small((gradient - transpose(gradient)).norm()) << '\n';
-    }
   }
 } // namespace
 

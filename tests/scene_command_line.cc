@@ -11,7 +11,8 @@ using namespace Touchstone;
 
 namespace
 {
-  void try_line(std::vector<const char *> arguments)
+  void
+  try_line(std::vector<const char *> arguments)
   {
     std::cout << "* touchstone";
     for (const char *argument : arguments)
@@ -19,33 +20,34 @@ namespace
     std::cout << "\n  ";
     arguments.insert(arguments.begin(), "touchstone");
     try
-    {
-      const CommandLine line = CommandLine::parse(arguments.size(), arguments.data());
-      std::cout << "scene '" << line.scene_file << "'" << (line.help ? ", help" : "")
-                << (line.version ? ", version" : "") << (line.validate ? ", validate" : "")
-                << (line.print_parameters ? ", print parameters" : "")
-                << (line.results_only ? ", results only" : "");
-      for (const std::string &override_text : line.overrides)
-        std::cout << ", [" << override_text << "]";
-      std::cout << std::endl;
-    }
+      {
+        const CommandLine line = CommandLine::parse(arguments.size(), arguments.data());
+        std::cout << "scene '" << line.scene_file << "'" << (line.help ? ", help" : "")
+                  << (line.version ? ", version" : "") << (line.validate ? ", validate" : "")
+                  << (line.print_parameters ? ", print parameters" : "")
+                  << (line.results_only ? ", results only" : "");
+        for (const std::string &override_text : line.overrides)
+          std::cout << ", [" << override_text << "]";
+        std::cout << std::endl;
+      }
     catch (const InputError &error)
-    {
-      std::cout << error.what() << std::endl;
-    }
+      {
+        std::cout << error.what() << std::endl;
+      }
   }
 
-  void try_file(const std::string &name)
+  void
+  try_file(const std::string &name)
   {
     std::cout << "* file " << name << "\n  ";
     try
-    {
-      std::cout << read_scene_file(name).size() << " characters" << std::endl;
-    }
+      {
+        std::cout << read_scene_file(name).size() << " characters" << std::endl;
+      }
     catch (const InputError &error)
-    {
-      std::cout << error.what() << std::endl;
-    }
+      {
+        std::cout << error.what() << std::endl;
+      }
   }
 } // namespace
 

@@ -72,14 +72,14 @@ try_scene(const std::string              &what,
 {
   std::cout << "* " << what << '\n';
   try
-  {
-    const Touchstone::Scene scene(text, "scene.prm", overrides);
-    std::cout << "  accepted" << std::endl;
-  }
+    {
+      const Touchstone::Scene scene(text, "scene.prm", overrides);
+      std::cout << "  accepted" << std::endl;
+    }
   catch (const Touchstone::InputError &error)
-  {
-    std::cout << "  " << error.what() << std::endl;
-  }
+    {
+      std::cout << "  " << error.what() << std::endl;
+    }
 }
 
 /** Print what the program has to say to the good scene with one change. */

@@ -5,17 +5,18 @@
 
 namespace
 {
-  void show(const Touchstone::Scene &scene)
+  void
+  show(const Touchstone::Scene &scene)
   {
     std::cout << scene.title << ", " << scene.bodies.size() << " bodies\n";
     for (const auto &body : scene.bodies)
-    {
-      std::cout << body.name << ": " << body.geometry_name << ", " << body.element_name << ", E "
-                << body.material.young_modulus << ", nu " << body.material.poisson_ratio
-                << ", fixed " << body.fixed.size() << '\n';
-      for (const auto &[name, boundary] : body.boundaries)
-        std::cout << "  " << name << ": pressure '" << boundary.pressure << "'\n";
-    }
+      {
+        std::cout << body.name << ": " << body.geometry_name << ", " << body.element_name << ", E "
+                  << body.material.young_modulus << ", nu " << body.material.poisson_ratio
+                  << ", fixed " << body.fixed.size() << '\n';
+        for (const auto &[name, boundary] : body.boundaries)
+          std::cout << "  " << name << ": pressure '" << boundary.pressure << "'\n";
+      }
     for (const auto &obstacle : scene.obstacles)
       std::cout << obstacle.name << ": " << obstacle.shape << " at " << obstacle.point << ", moves "
                 << obstacle.motion_z << '\n';

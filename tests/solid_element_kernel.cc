@@ -1,8 +1,6 @@
 // Element stiffness of all types: patch test on distorted cells, symmetry, six
 // motions without energy and no more.
 
-#include "mesh_common.h"
-
 #include <touchstone/solid/element_kernel.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -10,6 +8,8 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+
+#include "mesh_common.h"
 
 using namespace Touchstone;
 using namespace dealii;
@@ -30,9 +30,9 @@ namespace
             Point<dim>  &x = cell->vertex(v);
             const double a = x[0], b = x[1], c = x[2];
             const double bubble = a * (1. - a) * b * (1. - b) * c * (1. - c);
-            x[0] = 1.2 * a + 0.2 * b * c + 9. * bubble;
-            x[1] = b - 0.15 * a * c - 7. * bubble + 0.1 * a;
-            x[2] = 0.8 * c + 0.2 * a * b + 5. * bubble + 0.1 * b;
+            x[0]                = 1.2 * a + 0.2 * b * c + 9. * bubble;
+            x[1]                = b - 0.15 * a * c - 7. * bubble + 0.1 * a;
+            x[2]                = 0.8 * c + 0.2 * a * b + 5. * bubble + 0.1 * b;
           }
   }
 
@@ -53,7 +53,7 @@ namespace
     material.poisson_ratio = nu;
     ElementKernel kernel(mapping, fe, type, material);
 
-    const double lambda = 2. * nu / ((1. + nu) * (1. - 2. * nu)), mu = 1. / (1. + nu);
+    const double   lambda = 2. * nu / ((1. + nu) * (1. - 2. * nu)), mu = 1. / (1. + nu);
     Tensor<2, dim> gradient;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
@@ -65,14 +65,14 @@ namespace
 
     std::vector<Point<dim>> support(dof_handler.n_dofs());
     DoFTools::map_dofs_to_support_points(mapping, dof_handler, support);
-    dealii::Vector<double>    residual(dof_handler.n_dofs());
-    std::vector<char>         inner(dof_handler.n_dofs(), 1);
-    const IndexSet            boundary = DoFTools::extract_boundary_dofs(dof_handler);
+    dealii::Vector<double> residual(dof_handler.n_dofs());
+    std::vector<char>      inner(dof_handler.n_dofs(), 1);
+    const IndexSet         boundary = DoFTools::extract_boundary_dofs(dof_handler);
     for (const auto i : boundary)
       inner[i] = 0;
 
-    double stress = 0., force = 0., asymmetry = 0., energy = 0., volume = 0.;
-    unsigned int zero = 0, cells = 0;
+    double             stress = 0., force = 0., asymmetry = 0., energy = 0., volume = 0.;
+    unsigned int       zero = 0, cells = 0;
     std::vector<Index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       {

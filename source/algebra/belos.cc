@@ -6,9 +6,8 @@
 #include <BelosLinearProblem.hpp>
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_RCP.hpp>
-#include <ml_MultiLevelPreconditioner.h>
-
 #include <memory>
+#include <ml_MultiLevelPreconditioner.h>
 
 namespace Touchstone
 {
@@ -25,13 +24,14 @@ namespace Touchstone
     public:
       explicit BelosCg(const LinearSolverParameters &parameters)
         : LinearSolver(parameters)
-      {}
+      {
+      }
 
     private:
       /** The matrix that the multigrid was made from; ML keeps a reference. */
-      std::shared_ptr<Epetra_CrsMatrix>                     preconditioned_matrix;
+      std::shared_ptr<Epetra_CrsMatrix>                    preconditioned_matrix;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> preconditioner;
-      std::vector<double>                                   null_space;
+      std::vector<double>                                  null_space;
       /** Constrained unknowns of that matrix. */
       std::vector<char> constrained;
       /** Iterations of the first solve with the present preconditioner. */

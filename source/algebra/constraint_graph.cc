@@ -105,18 +105,18 @@ namespace Touchstone
       return false;
 
     scale(reduced, 1. / reduced.direction[reduced.pivot]);
-    reduced.direction[reduced.pivot] = 1.;
+    reduced.direction[reduced.pivot]   = 1.;
     std::vector<ReducedCondition> &all = nodes[condition.node];
     // What is eliminated must not refer to another pivot of its own node, or the
     // lines would depend on each other in a circle.
     if (treatment == Treatment::eliminate)
       for (ReducedCondition &earlier : all)
-      {
-        if (earlier.treatment == Treatment::multiplier)
-          continue;
-        subtract(earlier, earlier.direction[reduced.pivot], reduced);
-        earlier.direction[reduced.pivot] = 0.;
-      }
+        {
+          if (earlier.treatment == Treatment::multiplier)
+            continue;
+          subtract(earlier, earlier.direction[reduced.pivot], reduced);
+          earlier.direction[reduced.pivot] = 0.;
+        }
     all.push_back(reduced);
     conditions.push_back(condition);
     return true;

@@ -4,10 +4,8 @@
 
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
-
-#include <boost/serialization/utility.hpp>
-
 #include <algorithm>
+#include <boost/serialization/utility.hpp>
 #include <map>
 #include <unordered_map>
 
@@ -40,9 +38,9 @@ namespace Touchstone
     /** Raw storage of an Epetra matrix whose storage is optimised. */
     struct RawRows
     {
-      int    *begin   = nullptr;
-      int    *column  = nullptr;
-      double *value   = nullptr;
+      int    *begin  = nullptr;
+      int    *column = nullptr;
+      double *value  = nullptr;
 
       explicit RawRows(const Epetra_CrsMatrix &matrix)
       {
@@ -60,11 +58,12 @@ namespace Touchstone
         : system(system)
         , constraints(system.constraints)
         , owned(system.rhs.locally_owned_elements())
-      {}
+      {
+      }
 
       /** Additions to owned rows, and to right-hand sides. */
-      std::unordered_map<Index, Row>    rows;
-      std::unordered_map<Index, double> values;
+      std::unordered_map<Index, Row>                  rows;
+      std::unordered_map<Index, double>               values;
       std::map<unsigned int, std::vector<MatrixTerm>> remote;
 
       bool
@@ -109,9 +108,9 @@ namespace Touchstone
       bool
       is_owned(const Index i) const
       {
-        return i < system.rhs.size() ?
-                 owned.is_element(i) :
-                 i >= system.first_extra && i < system.first_extra + system.n_extra;
+        return i < system.rhs.size()
+                 ? owned.is_element(i)
+                 : i >= system.first_extra && i < system.first_extra + system.n_extra;
       }
 
       void
@@ -139,11 +138,10 @@ namespace Touchstone
       /** Send what belongs to other ranks; @p first are the first unknowns of
        * each rank, displacement and extra. */
       void
-      exchange(const MPI_Comm                                communicator,
-               const std::vector<std::pair<Index, Index>>   &first)
+      exchange(const MPI_Comm communicator, const std::vector<std::pair<Index, Index>> &first)
       {
         const auto owner = [&](const Index i) {
-          unsigned int rank = 0;
+          unsigned int rank  = 0;
           const bool   extra = i >= system.rhs.size();
           for (unsigned int r = 0; r < first.size(); ++r)
             if ((extra ? first[r].second : first[r].first) <= i)
@@ -183,10 +181,10 @@ namespace Touchstone
   {
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
     const RawRows           raw(stiffness);
-    const Epetra_Map       &row_map = stiffness.RowMap();
-    const Epetra_Map       &col_map = stiffness.ColMap();
-    const int               n_rows  = row_map.NumMyElements();
-    const int               n_cols  = col_map.NumMyElements();
+    const Epetra_Map       &row_map      = stiffness.RowMap();
+    const Epetra_Map       &col_map      = stiffness.ColMap();
+    const int               n_rows       = row_map.NumMyElements();
+    const int               n_cols       = col_map.NumMyElements();
     const MPI_Comm          communicator = system.rhs.get_mpi_communicator();
 
     // Which columns are constrained is asked 27 times for each of them: look it
@@ -245,17 +243,15 @@ namespace Touchstone
 
     const Index first_owned =
       n_rows > 0 ? static_cast<Index>(row_map.GID(0)) : static_cast<Index>(system.rhs.size());
-    condensation.exchange(communicator,
-                          Utilities::MPI::all_gather(communicator,
-                                                     std::make_pair(first_owned,
-                                                                    system.first_extra)));
+    condensation.exchange(
+      communicator,
+      Utilities::MPI::all_gather(communicator, std::make_pair(first_owned, system.first_extra)));
     diagonal = Utilities::MPI::max(diagonal, communicator);
     if (diagonal == 0.)
       diagonal = 1.;
 
     // Columns: those of the stiffness keep their local numbers, new ones follow.
-    std::vector<int>               columns(col_map.MyGlobalElements(),
-                             col_map.MyGlobalElements() + n_cols);
+    std::vector<int> columns(col_map.MyGlobalElements(), col_map.MyGlobalElements() + n_cols);
     std::unordered_map<Index, int> new_columns;
     const auto                     local_column = [&](const Index j) {
       if (j < system.rhs.size())
@@ -270,17 +266,17 @@ namespace Touchstone
       return found->second;
     };
 
-    const int                            n_all = n_rows + system.n_extra;
-    std::vector<std::vector<int>>        special_columns(n_all);
-    std::vector<std::vector<double>>     special_values(n_all);
-    std::vector<int>                     lengths(n_all);
-    std::vector<char>                    special(n_all, 0);
+    const int                        n_all = n_rows + system.n_extra;
+    std::vector<std::vector<int>>    special_columns(n_all);
+    std::vector<std::vector<double>> special_values(n_all);
+    std::vector<int>                 lengths(n_all);
+    std::vector<char>                special(n_all, 0);
     for (int i = 0; i < n_all; ++i)
       {
-        const Index global = i < n_rows ? static_cast<Index>(row_map.GID(i)) :
-                                          system.first_extra + (i - n_rows);
+        const Index global =
+          i < n_rows ? static_cast<Index>(row_map.GID(i)) : system.first_extra + (i - n_rows);
         const auto found = condensation.rows.find(global);
-        special[i] = (i >= n_rows || replaced[i] || found != condensation.rows.end());
+        special[i]       = (i >= n_rows || replaced[i] || found != condensation.rows.end());
         if (!special[i])
           {
             lengths[i] = raw.begin[i + 1] - raw.begin[i];
@@ -309,14 +305,21 @@ namespace Touchstone
       all_rows.push_back(static_cast<int>(system.first_extra + k));
     const Epetra_Map new_row_map(-1, n_all, all_rows.data(), 0, comm);
     const Epetra_Map new_col_map(-1, static_cast<int>(columns.size()), columns.data(), 0, comm);
-    matrix = std::make_shared<Epetra_CrsMatrix>(Copy, new_row_map, new_col_map, lengths.data(), true);
-    rhs    = std::make_unique<Epetra_Vector>(new_row_map);
+    matrix =
+      std::make_shared<Epetra_CrsMatrix>(Copy, new_row_map, new_col_map, lengths.data(), true);
+    rhs = std::make_unique<Epetra_Vector>(new_row_map);
     for (int i = 0; i < n_all; ++i)
       {
         if (special[i])
-          matrix->InsertMyValues(i, lengths[i], special_values[i].data(), special_columns[i].data());
+          matrix->InsertMyValues(i,
+                                 lengths[i],
+                                 special_values[i].data(),
+                                 special_columns[i].data());
         else
-          matrix->InsertMyValues(i, lengths[i], raw.value + raw.begin[i], raw.column + raw.begin[i]);
+          matrix->InsertMyValues(i,
+                                 lengths[i],
+                                 raw.value + raw.begin[i],
+                                 raw.column + raw.begin[i]);
         const auto found = condensation.values.find(new_row_map.GID(i));
         if (!constrained[i] && found != condensation.values.end())
           (*rhs)[i] = found->second;

@@ -7,7 +7,6 @@
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
 #include <dmumps_c.h>
-
 #include <string>
 #include <vector>
 
@@ -25,7 +24,8 @@ namespace Touchstone
     public:
       explicit Mumps(const LinearSolverParameters &parameters)
         : LinearSolver(parameters)
-      {}
+      {
+      }
 
       ~Mumps() override
       {
@@ -45,8 +45,8 @@ namespace Touchstone
         return data.infog[i - 1];
       }
 
-      DMUMPS_STRUC_C      data        = {};
-      bool                initialised = false;
+      DMUMPS_STRUC_C data        = {};
+      bool           initialised = false;
       /** There are factors, of the rows, columns and values below. */
       bool                factorised = false;
       std::vector<int>    rows, columns;
@@ -80,11 +80,11 @@ namespace Touchstone
     void
     Mumps::start(const CondensedSystem &system)
     {
-      const auto &comm   = dynamic_cast<const Epetra_MpiComm &>(system.matrix->Comm());
-      data.comm_fortran  = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.Comm()));
-      data.par           = 1; // rank 0 takes part in the factorisation
-      data.sym           = kind(system);
-      data.job           = -1;
+      const auto &comm  = dynamic_cast<const Epetra_MpiComm &>(system.matrix->Comm());
+      data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.Comm()));
+      data.par          = 1; // rank 0 takes part in the factorisation
+      data.sym          = kind(system);
+      data.job          = -1;
       dmumps_c(&data);
       initialised = true;
       for (int i = 1; i <= 4; ++i)
@@ -166,10 +166,10 @@ namespace Touchstone
       if (infog(1) == -10)
         throw SingularSystem("MUMPS: the matrix is numerically singular");
       if (infog(1) < 0)
-        throw LinearSolverFailure("MUMPS: the factorisation failed, INFOG(1) = " +
-                                  std::to_string(infog(1)) +
-                                  ", INFOG(2) = " + std::to_string(infog(2)) +
-                                  (infog(1) == -13 ? " (not enough memory)" : ""));
+        throw LinearSolverFailure(
+          "MUMPS: the factorisation failed, INFOG(1) = " + std::to_string(infog(1)) +
+          ", INFOG(2) = " + std::to_string(infog(2)) +
+          (infog(1) == -13 ? " (not enough memory)" : ""));
       check_pivots();
       factorised = true;
     }

@@ -5,7 +5,6 @@
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
-
 #include <cmath>
 #include <sstream>
 
@@ -35,8 +34,9 @@ namespace Touchstone
     , centres(scene.bodies.size())
     , sizes(scene.bodies.size())
   {
-    const unsigned int     n_bodies = scene.bodies.size();
-    std::vector<double>    count(n_bodies), lower(dim * n_bodies, 1e300), upper(dim * n_bodies, -1e300);
+    const unsigned int  n_bodies = scene.bodies.size();
+    std::vector<double> count(n_bodies), lower(dim * n_bodies, 1e300),
+      upper(dim * n_bodies, -1e300);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int v : cell->vertex_indices())
@@ -117,12 +117,12 @@ namespace Touchstone
           matrix(i, j) = gram[i * n + j];
           largest      = std::max(largest, std::abs(gram[i * n + j]));
         }
-    dealii::Vector<double>     eigenvalues;
-    FreeMotion                 result;
-    FullMatrix<double>        &eigenvectors = result.basis;
+    dealii::Vector<double> eigenvalues;
+    FreeMotion             result;
+    FullMatrix<double>    &eigenvectors = result.basis;
     if (largest == 0.)
       {
-        eigenvectors = IdentityMatrix(n);
+        eigenvectors   = IdentityMatrix(n);
         result.n_modes = n;
       }
     else
@@ -171,8 +171,8 @@ namespace Touchstone
                                 const double      distance,
                                 const double      smallest) const
   {
-    Vector      shift(solid.owned, solid.communicator);
-    const auto &stiffness = solid.stiffness().trilinos_matrix();
+    Vector        shift(solid.owned, solid.communicator);
+    const auto   &stiffness = solid.stiffness().trilinos_matrix();
     Epetra_Vector diagonal(stiffness.RowMap());
     stiffness.ExtractDiagonalCopy(diagonal);
 
@@ -195,7 +195,7 @@ namespace Touchstone
             for (unsigned int d = 0; d < dim; ++d)
               direction[d] = translation[d];
             const double about_first = (*modes)[dim + k][row] * sizes[0];
-            const double offset = cross_product_3d(e, centres[0] - centres[b]) * direction;
+            const double offset      = cross_product_3d(e, centres[0] - centres[b]) * direction;
             sums[6 * b + k] += force * translation[k];
             sums[6 * b + dim + k] += force * (about_first + offset) / sizes[b];
           }

@@ -27,12 +27,13 @@ namespace Touchstone
       explicit AveragedPairing(const PairingInput &input)
         : Pairing(input)
         , search(*input.master,
-                 input.parameters->search_distance > 0. ?
-                   input.parameters->search_distance :
-                   std::max(input.slave->largest_face(), input.master->largest_face()),
+                 input.parameters->search_distance > 0.
+                   ? input.parameters->search_distance
+                   : std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
                  input.solid->communicator)
-      {}
+      {
+      }
 
       void
       update(const Vector &u, double, std::vector<ContactRow> &rows) override;
@@ -53,15 +54,14 @@ namespace Touchstone
     };
 
     const PairingRegistry::Entry<AveragedPairing>
-      entry("averaged",
-            "averages over the slave faces with a dual basis; passes the patch test");
+      entry("averaged", "averages over the slave faces with a dual basis; passes the patch test");
 
 
 
     void
     AveragedPairing::add_face(const Face &slave, std::unordered_map<Index, Sums> &sums) const
     {
-      const unsigned int n = slave.n_nodes();
+      const unsigned int n     = slave.n_nodes();
       Point<dim>         lower = slave.reference[0] + slave.displacement[0], upper = lower;
       for (unsigned int m = 1; m < n; ++m)
         for (unsigned int d = 0; d < dim; ++d)

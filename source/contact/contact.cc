@@ -62,12 +62,9 @@ namespace Touchstone
               make(parameters.master_body, parameters.master_boundaries, "Master boundaries");
           }
         pair.small   = pair.tied || (obstacle == nullptr && parameters.sliding == "small");
-        pair.pairing = PairingRegistry::make(obstacle ? "obstacle" : parameters.pairing,
-                                             {&parameters,
-                                              obstacle,
-                                              &solid,
-                                              pair.slave.get(),
-                                              pair.master.get()});
+        pair.pairing = PairingRegistry::make(
+          obstacle ? "obstacle" : parameters.pairing,
+          {&parameters, obstacle, &solid, pair.slave.get(), pair.master.get()});
 
         std::vector<ContactRow> pair_rows;
         for (const SurfaceNode &node : pair.slave->owned_nodes())
@@ -278,7 +275,7 @@ namespace Touchstone
     // strongest change, then only the first row that asks at all: that rule ends
     // for every linear problem with a unique solution.
     // Murty (1974), Math. Programming 7.
-    double             threshold = 0.;
+    double              threshold = 0.;
     std::vector<double> only;
     if (caution == 1)
       {
@@ -305,8 +302,8 @@ namespace Touchstone
           if (row.refused == 0 && (row.active() || row.gap < 0.))
             result.gap =
               std::max(result.gap,
-                       (row.tied ? row.gap_vector.norm() - row.granted_gap :
-                                   std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
+                       (row.tied ? row.gap_vector.norm() - row.granted_gap
+                                 : std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
                          row.size);
           const double strength = demand(row);
           if (strength > 0. && strength >= threshold && (only.empty() || only == order(row)))
@@ -456,7 +453,7 @@ namespace Touchstone
     std::vector<std::string> lines;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
-        double       lowest  = std::numeric_limits<double>::max(), size = 0.;
+        double       lowest = std::numeric_limits<double>::max(), size = 0.;
         unsigned int partner = 0, overlapping = 0;
         for (const ContactRow &row : rows[p])
           if (row.status != ContactStatus::no_partner)
@@ -473,7 +470,10 @@ namespace Touchstone
         overlapping              = Utilities::MPI::sum(overlapping, solid.communicator);
         char text[300];
         if (partner == 0)
-          std::snprintf(text, sizeof(text), "no master face within reach of any of %u slave nodes", total);
+          std::snprintf(text,
+                        sizeof(text),
+                        "no master face within reach of any of %u slave nodes",
+                        total);
         else
           std::snprintf(text,
                         sizeof(text),
@@ -481,9 +481,10 @@ namespace Touchstone
                         total,
                         partner,
                         lowest,
-                        overlapping == 0 ? "" :
-                        lowest < -size   ? ": an initial overlap larger than a face, taken as interference" :
-                                           ": an initial overlap, taken as interference");
+                        overlapping == 0 ? ""
+                        : lowest < -size
+                          ? ": an initial overlap larger than a face, taken as interference"
+                          : ": an initial overlap, taken as interference");
         lines.push_back("contact pair " + pairs[p].parameters->name + ": " + text);
       }
     return lines;

@@ -16,7 +16,8 @@ namespace Touchstone
     {
     public:
       explicit Elimination(const ContactParameters &)
-      {}
+      {
+      }
 
       bool
       has_multipliers() const override
@@ -34,7 +35,7 @@ namespace Touchstone
           {
             Vector force(unbalanced);
             contact.add_forces(force);
-            double change = 0., largest = 0.;
+            double                          change = 0., largest = 0.;
             std::map<Index, Tensor<1, dim>> corrections;
             for (auto &pair_rows : contact.rows)
               for (ContactRow &row : pair_rows)
@@ -52,8 +53,8 @@ namespace Touchstone
                       // The force follows the present normal.
                       const double next =
                         square > 1e-6 ? ((row.force - rest) * normal) / square : 0.;
-                      correction        = next * row.normal - row.force;
-                      row.lambda        = next;
+                      correction = next * row.normal - row.force;
+                      row.lambda = next;
                     }
                   else
                     {
@@ -84,7 +85,8 @@ namespace Touchstone
 
       void
       update(Contact &, const std::vector<double> &) override
-      {}
+      {
+      }
     };
 
     const EnforcementRegistry::Entry<Elimination>

@@ -103,10 +103,7 @@ namespace Touchstone
   {
     /** One run of the projected Newton method. @return whether it converged. */
     bool
-    project(const Point<dim>      &x,
-            const Face            &face,
-            const AnalyticSurface *exact,
-            Projection            &result)
+    project(const Point<dim> &x, const Face &face, const AnalyticSurface *exact, Projection &result)
     {
       std::array<double, 2> &xi    = result.xi;
       FacePoint              point = evaluate(face, exact, xi);

@@ -14,7 +14,8 @@ namespace Touchstone
     {
     public:
       explicit LagrangeMultipliers(const ContactParameters &)
-      {}
+      {
+      }
 
       bool
       has_multipliers() const override

@@ -44,7 +44,7 @@ namespace Touchstone
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
-            const Point<dim> x = input.slave->position(nodes[k], u) - shift;
+            const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
             ContactRow      &row = rows[k];
             row.stencil.clear();
             row.normal     = surface->normal(x);
@@ -56,7 +56,7 @@ namespace Touchstone
       }
 
     private:
-      std::shared_ptr<const AnalyticSurface>                  surface;
+      std::shared_ptr<const AnalyticSurface>              surface;
       std::array<std::unique_ptr<FunctionParser<1>>, dim> motion;
     };
 

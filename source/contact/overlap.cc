@@ -71,7 +71,7 @@ namespace Touchstone
     /** A face projected onto a plane. */
     struct Shadow
     {
-      const Face                          &face;
+      const Face                           &face;
       std::array<Point<2>, Face::max_nodes> nodes;
 
       Shadow(const Face           &face,

@@ -22,7 +22,8 @@ namespace Touchstone
       /** @param factor Spring stiffness over ContactRow::stiffness. */
       explicit SpringEnforcement(const double factor)
         : factor(factor)
-      {}
+      {
+      }
 
       bool
       has_multipliers() const override
@@ -143,7 +144,8 @@ namespace Touchstone
     public:
       explicit Penalty(const ContactParameters &parameters)
         : SpringEnforcement(100. * parameters.penalty_factor)
-      {}
+      {
+      }
 
     private:
       void
@@ -159,7 +161,8 @@ namespace Touchstone
       explicit AugmentedLagrange(const ContactParameters &parameters)
         : SpringEnforcement(20. * parameters.penalty_factor)
         , merged(parameters.augmentation == "merged")
-      {}
+      {
+      }
 
       void
       balanced(Contact &contact) override
@@ -184,6 +187,7 @@ namespace Touchstone
     const EnforcementRegistry::Entry<Penalty>
       penalty("penalty", "springs; leaves a penetration of force over penalty");
     const EnforcementRegistry::Entry<AugmentedLagrange>
-      augmented_lagrange("augmented lagrange", "springs whose forces are augmented until gaps close");
+      augmented_lagrange("augmented lagrange",
+                         "springs whose forces are augmented until gaps close");
   } // namespace
 } // namespace Touchstone

@@ -16,12 +16,13 @@ namespace Touchstone
         , search(*input.master,
                  // A node that has gone deeper than its neighbours are apart must
                  // still find its way out.
-                 input.parameters->search_distance > 0. ?
-                   input.parameters->search_distance :
-                   4. * std::max(input.slave->largest_face(), input.master->largest_face()),
+                 input.parameters->search_distance > 0.
+                   ? input.parameters->search_distance
+                   : 4. * std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
                  input.solid->communicator)
-      {}
+      {
+      }
 
       void
       update(const Vector &u, const double, std::vector<ContactRow> &rows) override
@@ -33,7 +34,7 @@ namespace Touchstone
         search.update(positions);
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
-            ContactRow &row     = rows[k];
+            ContactRow &row = rows[k];
             const auto  partner =
               search.find(positions[k], input.slave->normal(nodes[k].node), row.active());
             row.stencil.clear();

@@ -22,7 +22,8 @@ namespace Touchstone
     , reach(reach)
     , tolerance(tolerance)
     , communicator(communicator)
-  {}
+  {
+  }
 
 
 
@@ -42,7 +43,7 @@ namespace Touchstone
     // A curved face reaches beyond its nodes: by less than half its size, or it
     // would be bent by more than a right angle.
     const double margin = 0.25 * lower.distance(upper) * (face.degree == 1 ? 0.5 : 1.);
-    Box box({lower, upper});
+    Box          box({lower, upper});
     box.extend(margin);
     return box;
   }
@@ -81,7 +82,7 @@ namespace Touchstone
             const Box box = bounding_box(face);
             for (unsigned int rank = 0; rank < n_ranks; ++rank)
               {
-                const auto &c = captures[rank];
+                const auto &c     = captures[rank];
                 bool        meets = (c[0] <= c[dim]);
                 for (unsigned int d = 0; d < dim; ++d)
                   meets = meets && box.lower_bound(d) <= c[dim + d] && box.upper_bound(d) >= c[d];
@@ -139,7 +140,9 @@ namespace Touchstone
         if (!looks_the_same_way(face, master.exact_surface(face), slave_normal))
           near.push_back(&face);
       }
-    std::sort(near.begin(), near.end(), [](const Face *a, const Face *b) { return a->key < b->key; });
+    std::sort(near.begin(), near.end(), [](const Face *a, const Face *b) {
+      return a->key < b->key;
+    });
     for (const Face *face : near)
       visit(*face);
   }
@@ -166,13 +169,11 @@ namespace Touchstone
 
 
   std::optional<ContactPartner>
-  Search::find(const Point<dim>     &x,
-               const Tensor<1, dim> &slave_normal,
-               const bool            in_contact) const
+  Search::find(const Point<dim> &x, const Tensor<1, dim> &slave_normal, const bool in_contact) const
   {
-    double         best_distance = reach * reach;
-    const Face    *best          = nullptr;
-    Projection     best_projection;
+    double      best_distance = reach * reach;
+    const Face *best          = nullptr;
+    Projection  best_projection;
     for (auto it = tree.qbegin(bgi::nearest(x, static_cast<unsigned int>(faces.size())));
          it != tree.qend();
          ++it)
@@ -200,8 +201,7 @@ namespace Touchstone
 
     const AnalyticSurface *exact = master.exact_surface(*best);
     const FacePoint        point = evaluate(*best, exact, best_projection.xi);
-    ContactPartner         partner{
-      best, best_projection.xi, point.x, normal(*best, best_projection.xi)};
+    ContactPartner partner{best, best_projection.xi, point.x, normal(*best, best_projection.xi)};
     if (best_projection.beyond_inner > 1e-6)
       {
         const FaceShapes shapes(best->degree, best_projection.xi);

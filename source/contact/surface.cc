@@ -33,10 +33,10 @@ namespace Touchstone
         {
           const std::array<double, 2> xi{
             {2. * quadrature.point(q)[0] - 1., 2. * quadrature.point(q)[1] - 1.}};
-          const FaceShapes      shapes(face.degree, xi);
-          const FacePoint       point = evaluate(face, nullptr, xi);
-          const double          jxw =
-            4. * quadrature.weight(q) * cross_product_3d(point.tangents[0], point.tangents[1]).norm();
+          const FaceShapes shapes(face.degree, xi);
+          const FacePoint  point = evaluate(face, nullptr, xi);
+          const double     jxw   = 4. * quadrature.weight(q) *
+                             cross_product_3d(point.tangents[0], point.tangents[1]).norm();
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
             areas[m] += shapes.value[m] * jxw;
         }
@@ -51,12 +51,12 @@ namespace Touchstone
     std::array<std::pair<Index, Index>, 4>
     edges(const Face &face)
     {
-      const unsigned int p = face.degree;
+      const unsigned int p    = face.degree;
       const Index        c[4] = {face.nodes[0],
-                          face.nodes[p],
-                          face.nodes[(p + 1) * p],
-                          face.nodes[(p + 1) * (p + 1) - 1]};
-      const auto pair = [](const Index a, const Index b) {
+                                 face.nodes[p],
+                                 face.nodes[(p + 1) * p],
+                                 face.nodes[(p + 1) * (p + 1) - 1]};
+      const auto         pair = [](const Index a, const Index b) {
         return std::make_pair(std::min(a, b), std::max(a, b));
       };
       return {{pair(c[0], c[2]), pair(c[1], c[3]), pair(c[0], c[1]), pair(c[2], c[3])}};
@@ -65,11 +65,11 @@ namespace Touchstone
 
 
 
-  Surface::Surface(const Solid                         &solid,
-                   const Forest                        &forest,
-                   const unsigned int                   body,
-                   const std::set<types::boundary_id>  &boundaries,
-                   const bool                           exact)
+  Surface::Surface(const Solid                        &solid,
+                   const Forest                       &forest,
+                   const unsigned int                  body,
+                   const std::set<types::boundary_id> &boundaries,
+                   const bool                          exact)
     : forest(forest)
     , exact(exact)
   {
@@ -94,7 +94,7 @@ namespace Touchstone
             // position of a node on the unit cell tells where it stands.
             const unsigned int normal_axis = f / 2;
             const unsigned int axes[2]     = {(normal_axis + (f % 2 == 1 ? 1 : 2)) % 3,
-                                          (normal_axis + (f % 2 == 1 ? 2 : 1)) % 3};
+                                              (normal_axis + (f % 2 == 1 ? 2 : 1)) % 3};
             for (unsigned int i = 0; i < dofs.size(); ++i)
               if (solid.fe.system_to_component_index(i).first == 0 &&
                   solid.fe.has_support_on_face(i, f))
@@ -130,8 +130,8 @@ namespace Touchstone
               }
           const unsigned int last = face.n_nodes() - 1;
           diagonal                = std::max({diagonal,
-                               face.reference[0].distance(face.reference[last]),
-                               face.reference[p].distance(face.reference[last - p])});
+                                              face.reference[0].distance(face.reference[last]),
+                                              face.reference[p].distance(face.reference[last - p])});
         }
     for (const auto &entry : found)
       nodes.push_back(entry.second);
@@ -192,8 +192,9 @@ namespace Touchstone
               face.displacement[m][d] = u(dim * face.nodes[m] + d);
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
             {
-              const FacePoint point = evaluate(face, exact_surface(face), node_coordinates(face, m));
-              face.normals[m]       = cross_product_3d(point.tangents[0], point.tangents[1]);
+              const FacePoint point =
+                evaluate(face, exact_surface(face), node_coordinates(face, m));
+              face.normals[m] = cross_product_3d(point.tangents[0], point.tangents[1]);
               parts[face.nodes[m]].push_back(face.normals[m]);
             }
         }

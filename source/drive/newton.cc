@@ -51,9 +51,9 @@ namespace Touchstone
         problem.update();
       }
     std::ostringstream text;
-    text << "no convergence in " << parameters.maximum_iterations
-         << " Newton iterations: residual " << state.residual << ", gap " << state.gap << ", "
-         << state.changes << " contact rows changed"
+    text << "no convergence in " << parameters.maximum_iterations << " Newton iterations: residual "
+         << state.residual << ", gap " << state.gap << ", " << state.changes
+         << " contact rows changed"
          << (state.prescribed ? "" : ", prescribed displacements not met");
     throw NewtonFailure(text.str());
   }

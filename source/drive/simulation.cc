@@ -71,7 +71,7 @@ namespace Touchstone
   Simulation::solve_step(const double time)
   {
     problem.begin_step(time);
-    const Newton         newton(scene.newton);
+    const Newton newton(scene.newton);
     // Iterations of attempts that fail count as well.
     return newton.solve(
       problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
@@ -123,8 +123,8 @@ namespace Touchstone
     summary.reactions.clear();
     for (const Reaction &reaction : problem.reactions())
       {
-        record.reactions[reaction.body + "/" + reaction.boundary]  = reaction.force;
-        summary.reactions[reaction.body][reaction.boundary]        = reaction.force;
+        record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
+        summary.reactions[reaction.body][reaction.boundary]       = reaction.force;
       }
     record.energies["strain"] = problem.strain_energy();
     {
@@ -148,12 +148,12 @@ namespace Touchstone
     while (time < parameters.end_time * (1. - 1e-12))
       {
         // The last step ends at the end; no sliver of a step is left over.
-        size              = std::min(size, parameters.end_time - time);
-        const double next = parameters.end_time - time - size < 1e-9 * nominal ?
-                              parameters.end_time :
-                              time + size;
+        size = std::min(size, parameters.end_time - time);
+        const double next =
+          parameters.end_time - time - size < 1e-9 * nominal ? parameters.end_time : time + size;
         const unsigned int expected =
-          step - 1 + static_cast<unsigned int>(std::ceil((parameters.end_time - time) / size - 1e-9));
+          step - 1 +
+          static_cast<unsigned int>(std::ceil((parameters.end_time - time) / size - 1e-9));
         progress.begin_step(step, expected, next);
         try
           {
@@ -181,9 +181,9 @@ namespace Touchstone
             problem.rollback();
             if (cuts >= parameters.maximum_cuts)
               {
-                summary.failure = reason + " (step " + std::to_string(step) +
-                                  " at time " + std::to_string(next) + ", cut " +
-                                  std::to_string(cuts) + " times)";
+                summary.failure = reason + " (step " + std::to_string(step) + " at time " +
+                                  std::to_string(next) + ", cut " + std::to_string(cuts) +
+                                  " times)";
                 write_pictures(step - 1, time);
                 return;
               }
@@ -244,15 +244,16 @@ namespace Touchstone
         summary.errors                   = result.errors;
         comparison_lines                 = result.lines;
       }
-    const LinearSolverCounts &counts         = problem.linear_counts();
-    summary.iterations.linear_total          = counts.iterations;
-    summary.iterations.linear_mean           = counts.solves > 0 ? double(counts.iterations) / counts.solves : 0.;
-    summary.counts.assemblies                = problem.n_assemblies();
-    summary.counts.factorisations            = counts.factorisations;
-    summary.counts.preconditioner_setups     = counts.preconditioner_setups;
-    summary.counts.searches                  = problem.contact_state().n_searches();
+    const LinearSolverCounts &counts = problem.linear_counts();
+    summary.iterations.linear_total  = counts.iterations;
+    summary.iterations.linear_mean =
+      counts.solves > 0 ? double(counts.iterations) / counts.solves : 0.;
+    summary.counts.assemblies            = problem.n_assemblies();
+    summary.counts.factorisations        = counts.factorisations;
+    summary.counts.preconditioner_setups = counts.preconditioner_setups;
+    summary.counts.searches              = problem.contact_state().n_searches();
 
-    auto seconds = timer.get_summary_data(TimerOutput::total_wall_time);
+    auto seconds                  = timer.get_summary_data(TimerOutput::total_wall_time);
     summary.seconds.assembly      = seconds["assembly"];
     summary.seconds.linear_solver = seconds["linear solver"];
     summary.seconds.search        = seconds["search"];

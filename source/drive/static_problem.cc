@@ -224,8 +224,9 @@ namespace Touchstone
     if (size == 0.)
       size = length;
     distance = active > 0 ? 1e-3 * size : std::clamp(1.01 * distance, 1e-3 * size, size);
-    system->diagonal_shift = modes->stabilisation(motion, unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
-    stabilised             = motion.description;
+    system->diagonal_shift =
+      modes->stabilisation(motion, unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
+    stabilised = motion.description;
   }
 
 
@@ -291,7 +292,8 @@ namespace Touchstone
       text = std::to_string(dropped) +
              " contact row(s) dropped: prescribed displacements or other pairs decide there";
     if (!stabilised.empty())
-      text += std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
+      text +=
+        std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
     return text;
   }
 } // namespace Touchstone

@@ -14,7 +14,8 @@ namespace Touchstone
 
     /** Any unit vector perpendicular to @p direction: the way out for points on
      * an axis, where every direction leads to a closest point. */
-    Tensor<1, 3> some_perpendicular(const Tensor<1, 3> &direction)
+    Tensor<1, 3>
+    some_perpendicular(const Tensor<1, 3> &direction)
     {
       unsigned int smallest = 0;
       for (unsigned int d = 1; d < 3; ++d)
@@ -34,19 +35,23 @@ namespace Touchstone
       Plane(const Point<3> &point, const Tensor<1, 3> &normal)
         : point(point)
         , n(normal / normal.norm())
-      {}
+      {
+      }
 
-      Point<3> project(const Point<3> &x) const override
+      Point<3>
+      project(const Point<3> &x) const override
       {
         return x - ((x - point) * n) * n;
       }
 
-      Tensor<2, 3> projection_gradient(const Point<3> &) const override
+      Tensor<2, 3>
+      projection_gradient(const Point<3> &) const override
       {
         return identity - outer_product(n, n);
       }
 
-      Tensor<1, 3> normal(const Point<3> &) const override
+      Tensor<1, 3>
+      normal(const Point<3> &) const override
       {
         return n;
       }
@@ -65,21 +70,25 @@ namespace Touchstone
         : centre(centre)
         , radius(radius)
         , sign(outside ? 1. : -1.)
-      {}
+      {
+      }
 
-      Point<3> project(const Point<3> &x) const override
+      Point<3>
+      project(const Point<3> &x) const override
       {
         return centre + radius * direction(x);
       }
 
-      Tensor<2, 3> projection_gradient(const Point<3> &x) const override
+      Tensor<2, 3>
+      projection_gradient(const Point<3> &x) const override
       {
         const Tensor<1, 3> e = direction(x);
         const double       r = std::max((x - centre).norm(), tiny());
         return (radius / r) * (identity - outer_product(e, e));
       }
 
-      Tensor<1, 3> normal(const Point<3> &x) const override
+      Tensor<1, 3>
+      normal(const Point<3> &x) const override
       {
         return sign * direction(x);
       }
@@ -88,13 +97,15 @@ namespace Touchstone
       const Point<3> centre;
       const double   radius, sign;
 
-      double tiny() const
+      double
+      tiny() const
       {
         return 1e-12 * radius;
       }
 
       /** Unit vector from the centre to @p x; the z direction at the centre. */
-      Tensor<1, 3> direction(const Point<3> &x) const
+      Tensor<1, 3>
+      direction(const Point<3> &x) const
       {
         const Tensor<1, 3> d = x - centre;
         return d.norm() > tiny() ? d / d.norm() : Tensor<1, 3>({0., 0., 1.});
@@ -123,15 +134,18 @@ namespace Touchstone
         , slope(slope)
         , q(std::sqrt(1. + slope * slope))
         , sign(outside ? 1. : -1.)
-      {}
+      {
+      }
 
-      Point<3> project(const Point<3> &x) const override
+      Point<3>
+      project(const Point<3> &x) const override
       {
         const Foot foot = find(x);
         return point + foot.s * axis + foot.r * foot.e;
       }
 
-      Tensor<2, 3> projection_gradient(const Point<3> &x) const override
+      Tensor<2, 3>
+      projection_gradient(const Point<3> &x) const override
       {
         // A step along the generator is kept, a step around the axis shrinks
         // with the distance from it, a step along the normal is lost.
@@ -142,7 +156,8 @@ namespace Touchstone
                (foot.r / foot.r_of_x) * outer_product(around, around);
       }
 
-      Tensor<1, 3> normal(const Point<3> &x) const override
+      Tensor<1, 3>
+      normal(const Point<3> &x) const override
       {
         return sign * (find(x).e - slope * axis) / q;
       }
@@ -161,7 +176,8 @@ namespace Touchstone
         Tensor<1, 3> e;
       };
 
-      Foot find(const Point<3> &x) const
+      Foot
+      find(const Point<3> &x) const
       {
         const Tensor<1, 3> d       = x - point;
         const double       s       = d * axis;
@@ -181,8 +197,8 @@ namespace Touchstone
 
 
 
-  std::shared_ptr<const AnalyticSurface> make_plane(const Point<3>     &point,
-                                                    const Tensor<1, 3> &normal)
+  std::shared_ptr<const AnalyticSurface>
+  make_plane(const Point<3> &point, const Tensor<1, 3> &normal)
   {
     return std::make_shared<Plane>(point, normal);
   }
@@ -197,11 +213,12 @@ namespace Touchstone
 
 
 
-  std::shared_ptr<const AnalyticSurface> make_cone(const Point<3>     &point,
-                                                   const Tensor<1, 3> &axis,
-                                                   const double        radius,
-                                                   const double        slope,
-                                                   const bool          outside)
+  std::shared_ptr<const AnalyticSurface>
+  make_cone(const Point<3>     &point,
+            const Tensor<1, 3> &axis,
+            const double        radius,
+            const double        slope,
+            const bool          outside)
   {
     return std::make_shared<Cone>(point, axis, radius, slope, outside);
   }

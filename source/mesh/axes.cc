@@ -10,7 +10,8 @@ namespace Touchstone
 
   namespace
   {
-    double cosine(const double degrees)
+    double
+    cosine(const double degrees)
     {
       return std::fmod(std::abs(degrees), 180.) == 90. ? 0.
                                                        : std::cos(degrees * numbers::PI / 180.);
@@ -22,11 +23,13 @@ namespace Touchstone
   Axes::Axes(const std::string &name, const Point<3> &origin)
     : axis(name.at(0) - 'x')
     , origin(origin)
-  {}
+  {
+  }
 
 
 
-  Tensor<1, 3> Axes::direction() const
+  Tensor<1, 3>
+  Axes::direction() const
   {
     Tensor<1, 3> d;
     d[axis] = 1.;
@@ -35,7 +38,8 @@ namespace Touchstone
 
 
 
-  Point<3> Axes::point(const double first, const double second, const double along) const
+  Point<3>
+  Axes::point(const double first, const double second, const double along) const
   {
     Point<3> x = origin;
     x[axis] += along;
@@ -46,7 +50,8 @@ namespace Touchstone
 
 
 
-  Point<3> Axes::polar(const double radius, const double angle, const double along) const
+  Point<3>
+  Axes::polar(const double radius, const double angle, const double along) const
   {
     return point(radius * cosine(angle), radius * cosine(angle - 90.), along);
   }

@@ -14,7 +14,8 @@ namespace Touchstone
     class Ball : public Geometry
     {
     public:
-      void declare(ParameterHandler &prm) override
+      void
+      declare(ParameterHandler &prm) override
       {
         prm.add_parameter("Centre", centre, "Centre of the ball, x, y, z; length.");
         prm.add_parameter("Radius", radius, "Radius; length.", Patterns::Double(0.));
@@ -30,7 +31,8 @@ namespace Touchstone
                           Patterns::List(Patterns::Integer(1), 2, 2));
       }
 
-      void check(const std::string &section) const override
+      void
+      check(const std::string &section) const override
       {
         if (!(radius > 0.))
           throw InputError(section,
@@ -40,7 +42,8 @@ namespace Touchstone
                            "give the radius as a length");
       }
 
-      BodyMesh create(const double factor, const std::string &, const std::string &) const override
+      BodyMesh
+      create(const double factor, const std::string &, const std::string &) const override
       {
         const RoundLattice lattice(
           3, keep, scaled_cells(cells[0], factor), scaled_cells(cells[1], factor), 1);
@@ -52,13 +55,13 @@ namespace Touchstone
 
         add_boundary_faces(mesh, [&](const FaceVertices &face) {
           for (unsigned int d = 0; d < 3; ++d)
-          {
-            bool plane = keep[d] != "both";
-            for (const unsigned int v : face)
-              plane = plane && lattice.points[v][d] == 0.;
-            if (plane)
-              return std::make_pair(1 + d, numbers::flat_manifold_id);
-          }
+            {
+              bool plane = keep[d] != "both";
+              for (const unsigned int v : face)
+                plane = plane && lattice.points[v][d] == 0.;
+              if (plane)
+                return std::make_pair(1 + d, numbers::flat_manifold_id);
+            }
           return std::make_pair(0u, types::manifold_id(0));
         });
 

@@ -10,7 +10,8 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  unsigned int scaled_cells(const unsigned int n, const double factor)
+  unsigned int
+  scaled_cells(const unsigned int n, const double factor)
   {
     return std::max(1l, std::lround(n * factor));
   }
@@ -54,41 +55,42 @@ namespace Touchstone
     for (unsigned int k = 0; k < n[2]; ++k)
       for (unsigned int j = 0; j < n[1]; ++j)
         for (unsigned int i = 0; i < n[0]; ++i)
-        {
-          CellData<3> cell;
-          for (unsigned int v = 0; v < 8; ++v)
-            cell.vertices[v] = vertex({{i + v % 2, j + v / 2 % 2, k + v / 4}});
-          mesh.cells.push_back(cell);
-        }
+          {
+            CellData<3> cell;
+            for (unsigned int v = 0; v < 8; ++v)
+              cell.vertices[v] = vertex({{i + v % 2, j + v / 2 % 2, k + v / 4}});
+            mesh.cells.push_back(cell);
+          }
 
     for (unsigned int d = 0; d < 3; ++d)
-    {
-      if (d == 1 && closed)
-        continue;
-      const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
-      for (unsigned int side = 0; side < 2; ++side)
-        for (unsigned int j = 0; j < n[b]; ++j)
-          for (unsigned int i = 0; i < n[a]; ++i)
-          {
-            CellData<2> face;
-            face.boundary_id = ids[2 * d + side];
-            for (unsigned int v = 0; v < 4; ++v)
-            {
-              std::array<unsigned int, 3> index;
-              index[d]         = side * n[d];
-              index[a]         = i + v % 2;
-              index[b]         = j + v / 2;
-              face.vertices[v] = vertex(index);
-            }
-            mesh.subcells.boundary_quads.push_back(face);
-          }
-    }
+      {
+        if (d == 1 && closed)
+          continue;
+        const unsigned int a = (d + 1) % 3, b = (d + 2) % 3;
+        for (unsigned int side = 0; side < 2; ++side)
+          for (unsigned int j = 0; j < n[b]; ++j)
+            for (unsigned int i = 0; i < n[a]; ++i)
+              {
+                CellData<2> face;
+                face.boundary_id = ids[2 * d + side];
+                for (unsigned int v = 0; v < 4; ++v)
+                  {
+                    std::array<unsigned int, 3> index;
+                    index[d]         = side * n[d];
+                    index[a]         = i + v % 2;
+                    index[b]         = j + v / 2;
+                    face.vertices[v] = vertex(index);
+                  }
+                mesh.subcells.boundary_quads.push_back(face);
+              }
+      }
     return mesh;
   }
 
 
 
-  std::vector<FaceVertices> boundary_faces(const std::vector<CellData<3>> &cells)
+  std::vector<FaceVertices>
+  boundary_faces(const std::vector<CellData<3>> &cells)
   {
     struct Seen
     {
@@ -98,18 +100,18 @@ namespace Touchstone
     std::map<FaceVertices, Seen> faces;
     for (const CellData<3> &cell : cells)
       for (const unsigned int f : GeometryInfo<3>::face_indices())
-      {
-        FaceVertices face;
-        for (unsigned int v = 0; v < 4; ++v)
-          face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-        FaceVertices sorted = face;
-        std::sort(sorted.begin(), sorted.end());
+        {
+          FaceVertices face;
+          for (unsigned int v = 0; v < 4; ++v)
+            face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+          FaceVertices sorted = face;
+          std::sort(sorted.begin(), sorted.end());
 
-        Seen &seen = faces[sorted];
-        seen.face  = face;
-        if (++seen.cells > 2)
-          throw std::runtime_error("a face belongs to more than two cells");
-      }
+          Seen &seen = faces[sorted];
+          seen.face  = face;
+          if (++seen.cells > 2)
+            throw std::runtime_error("a face belongs to more than two cells");
+        }
 
     std::vector<FaceVertices> result;
     for (const auto &[sorted, seen] : faces)
@@ -120,52 +122,56 @@ namespace Touchstone
 
 
 
-  void add_boundary_faces(
+  void
+  add_boundary_faces(
     BodyMesh &mesh,
     const std::function<std::pair<types::boundary_id, types::manifold_id>(const FaceVertices &)>
       &classify)
   {
     for (const FaceVertices &vertices : boundary_faces(mesh.cells))
-    {
-      CellData<2> face;
-      std::copy(vertices.begin(), vertices.end(), face.vertices.begin());
-      std::tie(face.boundary_id, face.manifold_id) = classify(vertices);
-      mesh.subcells.boundary_quads.push_back(face);
-    }
+      {
+        CellData<2> face;
+        std::copy(vertices.begin(), vertices.end(), face.vertices.begin());
+        std::tie(face.boundary_id, face.manifold_id) = classify(vertices);
+        mesh.subcells.boundary_quads.push_back(face);
+      }
   }
 
 
 
-  Orientation orientation(const BodyMesh &mesh)
+  Orientation
+  orientation(const BodyMesh &mesh)
   {
     Orientation result;
     for (const CellData<3> &cell : mesh.cells)
-    {
-      unsigned int positive = 0, negative = 0;
-      for (unsigned int v = 0; v < 8; ++v)
       {
-        // The edges that leave corner v, each in its coordinate's direction.
-        std::array<Tensor<1, 3>, 3> edge;
-        double                      scale = 1.;
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          const unsigned int bit = 1u << d;
-          edge[d] = mesh.vertices[cell.vertices[v | bit]] - mesh.vertices[cell.vertices[v & ~bit]];
-          scale *= edge[d].norm();
-        }
-        const double jacobian = edge[0] * cross_product_3d(edge[1], edge[2]);
-        positive += jacobian > 1e-10 * scale;
-        negative += jacobian < -1e-10 * scale;
+        unsigned int positive = 0, negative = 0;
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            // The edges that leave corner v, each in its coordinate's direction.
+            std::array<Tensor<1, 3>, 3> edge;
+            double                      scale = 1.;
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                const unsigned int bit = 1u << d;
+                edge[d] =
+                  mesh.vertices[cell.vertices[v | bit]] - mesh.vertices[cell.vertices[v & ~bit]];
+                scale *= edge[d].norm();
+              }
+            const double jacobian = edge[0] * cross_product_3d(edge[1], edge[2]);
+            positive += jacobian > 1e-10 * scale;
+            negative += jacobian < -1e-10 * scale;
+          }
+        result.negative += negative == 8;
+        result.distorted += positive < 8 && negative < 8;
       }
-      result.negative += negative == 8;
-      result.distorted += positive < 8 && negative < 8;
-    }
     return result;
   }
 
 
 
-  void create_triangulation(const BodyMesh &mesh, Triangulation<3> &triangulation)
+  void
+  create_triangulation(const BodyMesh &mesh, Triangulation<3> &triangulation)
   {
     triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.subcells);
 
@@ -173,13 +179,13 @@ namespace Touchstone
     // the faces between cells. Boundary faces come last: they know best.
     for (const auto &cell : triangulation.cell_iterators_on_level(0))
       if (cell->manifold_id() != numbers::flat_manifold_id)
-      {
-        for (const auto &face : cell->face_iterators())
-          if (face->manifold_id() == numbers::flat_manifold_id)
-            face->set_manifold_id(cell->manifold_id());
-        for (const unsigned int l : cell->line_indices())
-          cell->line(l)->set_manifold_id(cell->manifold_id());
-      }
+        {
+          for (const auto &face : cell->face_iterators())
+            if (face->manifold_id() == numbers::flat_manifold_id)
+              face->set_manifold_id(cell->manifold_id());
+          for (const unsigned int l : cell->line_indices())
+            cell->line(l)->set_manifold_id(cell->manifold_id());
+        }
     for (const auto &cell : triangulation.cell_iterators_on_level(0))
       for (const auto &face : cell->face_iterators())
         if (face->at_boundary() && face->manifold_id() != numbers::flat_manifold_id)

@@ -14,7 +14,8 @@ namespace Touchstone
     class Box : public Geometry
     {
     public:
-      void declare(ParameterHandler &prm) override
+      void
+      declare(ParameterHandler &prm) override
       {
         prm.add_parameter("Lower corner", lower, "Corner with the smallest x, y, z; length.");
         prm.add_parameter("Upper corner", upper, "Corner with the largest x, y, z; length.");
@@ -33,7 +34,8 @@ namespace Touchstone
                           "the directions of x, then y, then z; degrees.");
       }
 
-      void check(const std::string &section) const override
+      void
+      check(const std::string &section) const override
       {
         for (unsigned int d = 0; d < 3; ++d)
           if (!(upper[d] > lower[d]))
@@ -45,27 +47,28 @@ namespace Touchstone
                                Patterns::Tools::to_string(lower) + ")");
       }
 
-      BodyMesh create(const double factor, const std::string &, const std::string &) const override
+      BodyMesh
+      create(const double factor, const std::string &, const std::string &) const override
       {
         std::array<unsigned int, 3>        n;
         std::array<std::vector<double>, 3> positions;
         for (unsigned int d = 0; d < 3; ++d)
-        {
-          n[d]         = scaled_cells(cells[d], factor);
-          positions[d] = graded_positions(lower[d], upper[d], n[d], grading[d]);
-        }
+          {
+            n[d]         = scaled_cells(cells[d], factor);
+            positions[d] = graded_positions(lower[d], upper[d], n[d], grading[d]);
+          }
 
         Tensor<2, 3> turn = unit_symmetric_tensor<3>();
         for (unsigned int d = 0; d < 3; ++d)
           if (rotation[d] != 0.)
-          {
-            Point<3> axis;
-            axis[d] = 1.;
-            turn    = Physics::Transformations::Rotations::rotation_matrix_3d(axis,
-                                                                           rotation[d] *
-                                                                             numbers::PI / 180.) *
-                   turn;
-          }
+            {
+              Point<3> axis;
+              axis[d] = 1.;
+              turn    = Physics::Transformations::Rotations::rotation_matrix_3d(axis,
+                                                                             rotation[d] *
+                                                                               numbers::PI / 180.) *
+                     turn;
+            }
         const bool turned = rotation.norm() > 0.;
 
         BodyMesh mesh =

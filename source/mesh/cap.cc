@@ -27,44 +27,50 @@ namespace Touchstone
         , radius(radius)
         , height(height)
         , direction(direction)
-      {}
+      {
+      }
 
-      std::unique_ptr<Manifold<3>> clone() const override
+      std::unique_ptr<Manifold<3>>
+      clone() const override
       {
         return std::make_unique<CapManifold>(apex, radius, height, direction);
       }
 
       /** Depth of the sphere below the apex's tangent plane. */
-      double sag(const double x, const double y) const
+      double
+      sag(const double x, const double y) const
       {
         // The same as R - sqrt(R^2 - d), without its cancellation.
         const double d = x * x + y * y;
         return radius > 0. ? d / (radius + std::sqrt(radius * radius - d)) : 0.;
       }
 
-      Point<3> push_forward(const Point<3> &chart) const override
+      Point<3>
+      push_forward(const Point<3> &chart) const override
       {
         const double s = sag(chart[0], chart[1]);
         return apex + Tensor<1, 3>({chart[0], chart[1], direction * (s + chart[2] * (height - s))});
       }
 
-      Point<3> pull_back(const Point<3> &x) const override
+      Point<3>
+      pull_back(const Point<3> &x) const override
       {
         const Tensor<1, 3> d = x - apex;
         const double       s = sag(d[0], d[1]);
         return Point<3>(d[0], d[1], (direction * d[2] - s) / (height - s));
       }
 
-      DerivativeForm<1, 3, 3> push_forward_gradient(const Point<3> &chart) const override
+      DerivativeForm<1, 3, 3>
+      push_forward_gradient(const Point<3> &chart) const override
       {
         const double            s = sag(chart[0], chart[1]);
         DerivativeForm<1, 3, 3> gradient;
         for (unsigned int d = 0; d < 2; ++d)
-        {
-          gradient[d][d] = 1.;
-          if (radius > 0.)
-            gradient[2][d] = direction * (1. - chart[2]) * chart[d] / (radius - s);
-        }
+          {
+            gradient[d][d] = 1.;
+            if (radius > 0.)
+              gradient[2][d] = direction * (1. - chart[2]) * chart[d] / (radius - s);
+          }
         gradient[2][2] = direction * (height - s);
         return gradient;
       }
@@ -81,9 +87,12 @@ namespace Touchstone
     class Cap : public Geometry
     {
     public:
-      void     declare(ParameterHandler &prm) override;
-      void     check(const std::string &section) const override;
-      BodyMesh create(double factor, const std::string &, const std::string &) const override;
+      void
+      declare(ParameterHandler &prm) override;
+      void
+      check(const std::string &section) const override;
+      BodyMesh
+      create(double factor, const std::string &, const std::string &) const override;
 
     private:
       enum : types::boundary_id
@@ -106,7 +115,8 @@ namespace Touchstone
 
 
 
-    void Cap::declare(ParameterHandler &prm)
+    void
+    Cap::declare(ParameterHandler &prm)
     {
       prm.add_parameter("Apex", apex, "Point of first contact, x, y, z; length.");
       prm.add_parameter("Radius",
@@ -155,7 +165,8 @@ namespace Touchstone
 
 
 
-    void Cap::check(const std::string &section) const
+    void
+    Cap::check(const std::string &section) const
     {
       const auto text = [](const double x) { return Patterns::Tools::to_string(x); };
       if (!(fine > 0. && fine < width && fine < height))
@@ -185,10 +196,11 @@ namespace Touchstone
 
     /** Positions from 0: @p n_fine equal cells up to @p fine, then @p n_outer
      * cells up to @p end, each larger than the one before by the same factor. */
-    std::vector<double> fine_then_growing(const double       fine,
-                                          const unsigned int n_fine,
-                                          const double       end,
-                                          const unsigned int n_outer)
+    std::vector<double>
+    fine_then_growing(const double       fine,
+                      const unsigned int n_fine,
+                      const double       end,
+                      const unsigned int n_outer)
     {
       const double h       = fine / n_fine;
       const auto   reached = [&](const double growth) {
@@ -199,10 +211,10 @@ namespace Touchstone
       };
       double low = 0., high = (end - fine) / h + 1.;
       for (unsigned int step = 0; step < 200; ++step)
-      {
-        const double middle                  = (low + high) / 2.;
-        (reached(middle) < end ? low : high) = middle;
-      }
+        {
+          const double middle                  = (low + high) / 2.;
+          (reached(middle) < end ? low : high) = middle;
+        }
 
       std::vector<double> positions;
       for (unsigned int i = 0; i <= n_fine; ++i)
@@ -216,7 +228,8 @@ namespace Touchstone
 
 
 
-    BodyMesh Cap::create(const double factor, const std::string &, const std::string &) const
+    BodyMesh
+    Cap::create(const double factor, const std::string &, const std::string &) const
     {
       std::vector<double> plan  = fine_then_growing(fine,
                                                    scaled_cells(fine_cells, factor),
@@ -229,12 +242,12 @@ namespace Touchstone
 
       const bool whole = part == "whole";
       if (whole)
-      {
-        std::vector<double> mirrored;
-        for (unsigned int i = plan.size() - 1; i > 0; --i)
-          mirrored.push_back(-plan[i]);
-        plan.insert(plan.begin(), mirrored.begin(), mirrored.end());
-      }
+        {
+          std::vector<double> mirrored;
+          for (unsigned int i = plan.size() - 1; i > 0; --i)
+            mirrored.push_back(-plan[i]);
+          plan.insert(plan.begin(), mirrored.begin(), mirrored.end());
+        }
 
       const bool top       = side == "top";
       const auto manifold  = std::make_shared<CapManifold>(apex, radius, height, top ? -1. : 1.);
@@ -259,19 +272,19 @@ namespace Touchstone
                              {"x side", x_side},
                              {"y side", y_side}};
       if (!whole)
-      {
-        mesh.boundary_names["x cut"] = x_cut;
-        mesh.boundary_names["y cut"] = y_cut;
-      }
+        {
+          mesh.boundary_names["x cut"] = x_cut;
+          mesh.boundary_names["y cut"] = y_cut;
+        }
 
       if (radius > 0.)
-      {
-        mesh.manifolds[0] = manifold;
-        for (CellData<3> &cell : mesh.cells)
-          cell.manifold_id = 0;
-        mesh.surfaces[contact] =
-          make_sphere(apex + Tensor<1, 3>({0., 0., top ? -radius : radius}), radius, true);
-      }
+        {
+          mesh.manifolds[0] = manifold;
+          for (CellData<3> &cell : mesh.cells)
+            cell.manifold_id = 0;
+          mesh.surfaces[contact] =
+            make_sphere(apex + Tensor<1, 3>({0., 0., top ? -radius : radius}), radius, true);
+        }
       return mesh;
     }
 

@@ -17,9 +17,12 @@ namespace Touchstone
     class Cylinder : public Geometry
     {
     public:
-      void     declare(ParameterHandler &prm) override;
-      void     check(const std::string &section) const override;
-      BodyMesh create(double factor, const std::string &, const std::string &) const override;
+      void
+      declare(ParameterHandler &prm) override;
+      void
+      check(const std::string &section) const override;
+      BodyMesh
+      create(double factor, const std::string &, const std::string &) const override;
 
     private:
       enum : types::boundary_id
@@ -40,7 +43,8 @@ namespace Touchstone
 
 
 
-    void Cylinder::declare(ParameterHandler &prm)
+    void
+    Cylinder::declare(ParameterHandler &prm)
     {
       prm.add_parameter("Axis",
                         axis,
@@ -70,7 +74,8 @@ namespace Touchstone
 
 
 
-    void Cylinder::check(const std::string &section) const
+    void
+    Cylinder::check(const std::string &section) const
     {
       if (!(end > start))
         throw InputError(section,
@@ -88,7 +93,8 @@ namespace Touchstone
 
 
 
-    BodyMesh Cylinder::create(const double factor, const std::string &, const std::string &) const
+    BodyMesh
+    Cylinder::create(const double factor, const std::string &, const std::string &) const
     {
       const std::vector<std::string> keep = {part == "quarter" ? "+" : "both",
                                              part == "full" ? "both" : "+"};

@@ -22,7 +22,8 @@ namespace Touchstone
   namespace
   {
     template <int n>
-    Tensor<1, n> numbers(std::istream &in, const std::string &word)
+    Tensor<1, n>
+    numbers(std::istream &in, const std::string &word)
     {
       Tensor<1, n> values;
       for (unsigned int d = 0; d < n; ++d)
@@ -34,16 +35,17 @@ namespace Touchstone
 
 
 
-    Tensor<1, 3> direction(std::istream &in)
+    Tensor<1, 3>
+    direction(std::istream &in)
     {
       const int first = (in >> std::ws).peek();
       if (first >= 'x' && first <= 'z')
-      {
-        in.get();
-        Tensor<1, 3> axis;
-        axis[first - 'x'] = 1.;
-        return axis;
-      }
+        {
+          in.get();
+          Tensor<1, 3> axis;
+          axis[first - 'x'] = 1.;
+          return axis;
+        }
       const Tensor<1, 3> axis = numbers<3>(in, "axis");
       if (axis.norm() == 0.)
         throw std::runtime_error("the axis has no direction.");
@@ -52,7 +54,8 @@ namespace Touchstone
 
 
 
-    ExactSurface parse_one(const std::string &text)
+    ExactSurface
+    parse_one(const std::string &text)
     {
       std::istringstream in(text);
       std::string        shape;
@@ -89,18 +92,19 @@ namespace Touchstone
 
 
 
-  std::map<std::string, ExactSurface> parse_exact_surfaces(const std::string &text)
+  std::map<std::string, ExactSurface>
+  parse_exact_surfaces(const std::string &text)
   {
     std::map<std::string, ExactSurface> result;
     for (const std::string &entry : Utilities::split_string_list(text, ';'))
-    {
-      if (entry.empty())
-        continue;
-      const auto colon = entry.find(':');
-      if (colon == std::string::npos)
-        throw std::runtime_error("'" + entry + "' has no colon after a name.");
-      result[Utilities::trim(entry.substr(0, colon))] = parse_one(entry.substr(colon + 1));
-    }
+      {
+        if (entry.empty())
+          continue;
+        const auto colon = entry.find(':');
+        if (colon == std::string::npos)
+          throw std::runtime_error("'" + entry + "' has no colon after a name.");
+        result[Utilities::trim(entry.substr(0, colon))] = parse_one(entry.substr(colon + 1));
+      }
     return result;
   }
 } // namespace Touchstone

@@ -24,8 +24,10 @@ namespace Touchstone
     class FileGeometry : public Geometry
     {
     public:
-      void declare(ParameterHandler &prm) override;
-      void check(const std::string &section) const override;
+      void
+      declare(ParameterHandler &prm) override;
+      void
+      check(const std::string &section) const override;
       BodyMesh
       create(double factor, const std::string &section, const std::string &folder) const override;
 
@@ -33,23 +35,29 @@ namespace Touchstone
       std::string                               file, volume, exact;
       std::map<std::string, types::boundary_id> extra_names;
 
-      MeshFile read(const std::string &section, const std::string &folder) const;
+      MeshFile
+      read(const std::string &section, const std::string &folder) const;
       /** Vertices and cells of the body, and the body's numbers of the file's
        * vertices. */
-      BodyMesh select(const MeshFile                       &mesh_file,
-                      std::map<unsigned int, unsigned int> &vertex_numbers,
-                      const std::string                    &section) const;
-      void     orient(BodyMesh &mesh, const std::string &section) const;
-      void     mark(BodyMesh                                   &mesh,
-                    const MeshFile                             &mesh_file,
-                    const std::map<unsigned int, unsigned int> &vertex_numbers,
-                    const std::string                          &section) const;
-      void     attach_exact_surfaces(BodyMesh &mesh, const std::string &section) const;
+      BodyMesh
+      select(const MeshFile                       &mesh_file,
+             std::map<unsigned int, unsigned int> &vertex_numbers,
+             const std::string                    &section) const;
+      void
+      orient(BodyMesh &mesh, const std::string &section) const;
+      void
+      mark(BodyMesh                                   &mesh,
+           const MeshFile                             &mesh_file,
+           const std::map<unsigned int, unsigned int> &vertex_numbers,
+           const std::string                          &section) const;
+      void
+      attach_exact_surfaces(BodyMesh &mesh, const std::string &section) const;
     };
 
 
 
-    void FileGeometry::declare(ParameterHandler &prm)
+    void
+    FileGeometry::declare(ParameterHandler &prm)
     {
       prm.add_parameter("File",
                         file,
@@ -74,7 +82,8 @@ namespace Touchstone
 
 
 
-    void FileGeometry::check(const std::string &section) const
+    void
+    FileGeometry::check(const std::string &section) const
     {
       const std::string extension = std::filesystem::path(file).extension();
       if (extension != ".msh" && extension != ".inp" && extension != ".vtk")
@@ -85,24 +94,25 @@ namespace Touchstone
                                       : "the name does not end in .msh, .inp or .vtk",
                          "name a mesh file of Gmsh (.msh), Abaqus (.inp) or VTK (.vtk)");
       try
-      {
-        parse_exact_surfaces(exact);
-      }
+        {
+          parse_exact_surfaces(exact);
+        }
       catch (const std::runtime_error &error)
-      {
-        throw InputError(section,
-                         "Exact surfaces",
-                         exact,
-                         error.what(),
-                         "write it like 'bore: cylinder axis z radius 1 inside'");
-      }
+        {
+          throw InputError(section,
+                           "Exact surfaces",
+                           exact,
+                           error.what(),
+                           "write it like 'bore: cylinder axis z radius 1 inside'");
+        }
     }
 
 
 
-    BodyMesh FileGeometry::create(const double       factor,
-                                  const std::string &section,
-                                  const std::string &folder) const
+    BodyMesh
+    FileGeometry::create(const double       factor,
+                         const std::string &section,
+                         const std::string &folder) const
     {
       if (factor != 1.)
         throw InputError("Discretisation",
@@ -119,28 +129,29 @@ namespace Touchstone
       BodyMesh                             mesh = select(mesh_file, vertex_numbers, section);
       orient(mesh, section);
       try
-      {
-        mark(mesh, mesh_file, vertex_numbers, section);
-      }
+        {
+          mark(mesh, mesh_file, vertex_numbers, section);
+        }
       catch (const InputError &)
-      {
-        throw;
-      }
+        {
+          throw;
+        }
       catch (const std::runtime_error &error)
-      {
-        throw InputError(section,
-                         "File",
-                         file,
-                         std::string("the mesh is not a body: ") + error.what() + ".",
-                         "remove duplicate cells from the mesh");
-      }
+        {
+          throw InputError(section,
+                           "File",
+                           file,
+                           std::string("the mesh is not a body: ") + error.what() + ".",
+                           "remove duplicate cells from the mesh");
+        }
       attach_exact_surfaces(mesh, section);
       return mesh;
     }
 
 
 
-    MeshFile FileGeometry::read(const std::string &section, const std::string &folder) const
+    MeshFile
+    FileGeometry::read(const std::string &section, const std::string &folder) const
     {
       const std::filesystem::path path = std::filesystem::path(folder) / file;
       std::ifstream               in(path);
@@ -151,70 +162,74 @@ namespace Touchstone
                          "the mesh file '" + path.string() + "' cannot be opened",
                          "check the name; it is relative to the folder of the scene file");
       try
-      {
-        const std::string extension = path.extension();
-        MeshFile          mesh      = extension == ".msh"   ? read_gmsh(in)
-                                      : extension == ".inp" ? read_abaqus(in)
-                                                            : read_vtk(in);
-        if (mesh.cells.empty())
-          throw std::runtime_error("The file has no hexahedra.");
-        return mesh;
-      }
+        {
+          const std::string extension = path.extension();
+          MeshFile          mesh      = extension == ".msh"   ? read_gmsh(in)
+                                        : extension == ".inp" ? read_abaqus(in)
+                                                              : read_vtk(in);
+          if (mesh.cells.empty())
+            throw std::runtime_error("The file has no hexahedra.");
+          return mesh;
+        }
       catch (const std::exception &error)
-      {
-        throw InputError(section,
-                         "File",
-                         file,
-                         std::string("the mesh file cannot be used. ") + error.what(),
-                         "save the mesh again, with hexahedra of order one, in ASCII.");
-      }
+        {
+          throw InputError(section,
+                           "File",
+                           file,
+                           std::string("the mesh file cannot be used. ") + error.what(),
+                           "save the mesh again, with hexahedra of order one, in ASCII.");
+        }
     }
 
 
 
-    BodyMesh FileGeometry::select(const MeshFile                       &mesh_file,
-                                  std::map<unsigned int, unsigned int> &vertex_numbers,
-                                  const std::string                    &section) const
+    BodyMesh
+    FileGeometry::select(const MeshFile                       &mesh_file,
+                         std::map<unsigned int, unsigned int> &vertex_numbers,
+                         const std::string                    &section) const
     {
       std::vector<CellData<3>> cells;
       if (volume.empty())
         cells = mesh_file.cells;
       else
-      {
-        std::string available;
-        for (const MeshFile::Group &group : mesh_file.volumes)
         {
-          if (group.name == volume || std::to_string(group.number) == volume)
-            for (const unsigned int c : group.members)
-              cells.push_back(mesh_file.cells[c]);
-          available += (available.empty() ? "" : ", ") +
-                       (group.name.empty() ? std::to_string(group.number) : "'" + group.name + "'");
+          std::string available;
+          for (const MeshFile::Group &group : mesh_file.volumes)
+            {
+              if (group.name == volume || std::to_string(group.number) == volume)
+                for (const unsigned int c : group.members)
+                  cells.push_back(mesh_file.cells[c]);
+              available +=
+                (available.empty() ? "" : ", ") +
+                (group.name.empty() ? std::to_string(group.number) : "'" + group.name + "'");
+            }
+          if (cells.empty())
+            throw InputError(section,
+                             "Volume",
+                             volume,
+                             "the file '" + file + "' has no cells of this name or number",
+                             available.empty()
+                               ? "leave it empty; the file does not name its volumes."
+                               : "the file has " + available + ".");
         }
-        if (cells.empty())
-          throw InputError(section,
-                           "Volume",
-                           volume,
-                           "the file '" + file + "' has no cells of this name or number",
-                           available.empty() ? "leave it empty; the file does not name its volumes."
-                                             : "the file has " + available + ".");
-      }
 
       BodyMesh mesh;
       mesh.cells = cells;
       for (CellData<3> &cell : mesh.cells)
         for (unsigned int &v : cell.vertices)
-        {
-          const auto [where, is_new] = vertex_numbers.insert({v, mesh.vertices.size()});
-          if (is_new)
-            mesh.vertices.push_back(mesh_file.vertices[v]);
-          v = where->second;
-        }
+          {
+            const auto [where, is_new] = vertex_numbers.insert({v, mesh.vertices.size()});
+            if (is_new)
+              mesh.vertices.push_back(mesh_file.vertices[v]);
+            v = where->second;
+          }
       return mesh;
     }
 
 
 
-    void FileGeometry::orient(BodyMesh &mesh, const std::string &section) const
+    void
+    FileGeometry::orient(BodyMesh &mesh, const std::string &section) const
     {
       // If all are numbered the wrong way round, it is the file's convention. If
       // some are, the mesh is folded, and turning them would only hide it.
@@ -239,28 +254,29 @@ namespace Touchstone
 
 
 
-    void FileGeometry::mark(BodyMesh                                   &mesh,
-                            const MeshFile                             &mesh_file,
-                            const std::map<unsigned int, unsigned int> &vertex_numbers,
-                            const std::string                          &section) const
+    void
+    FileGeometry::mark(BodyMesh                                   &mesh,
+                       const MeshFile                             &mesh_file,
+                       const std::map<unsigned int, unsigned int> &vertex_numbers,
+                       const std::string                          &section) const
     {
       std::map<FaceVertices, types::boundary_id> marks;
       for (const MeshFile::Group &group : mesh_file.surfaces)
         for (const unsigned int f : group.members)
-        {
-          FaceVertices face{};
-          bool         belongs = true;
-          for (unsigned int v = 0; v < 4 && belongs; ++v)
           {
-            const auto found = vertex_numbers.find(mesh_file.faces[f][v]);
-            belongs          = found != vertex_numbers.end();
+            FaceVertices face{};
+            bool         belongs = true;
+            for (unsigned int v = 0; v < 4 && belongs; ++v)
+              {
+                const auto found = vertex_numbers.find(mesh_file.faces[f][v]);
+                belongs          = found != vertex_numbers.end();
+                if (belongs)
+                  face[v] = found->second;
+              }
+            std::sort(face.begin(), face.end());
             if (belongs)
-              face[v] = found->second;
+              marks[face] = group.number;
           }
-          std::sort(face.begin(), face.end());
-          if (belongs)
-            marks[face] = group.number;
-        }
 
       std::set<types::boundary_id> used;
       add_boundary_faces(mesh, [&](FaceVertices face) {
@@ -277,69 +293,70 @@ namespace Touchstone
         if (used.count(group.number) > 0 && !group.name.empty())
           mesh.boundary_names[group.name] = group.number;
       for (const auto &[name, number] : extra_names)
-      {
-        if (used.count(number) == 0)
-          throw InputError(section,
-                           "Boundary names",
-                           name + ": " + std::to_string(number),
-                           "the body has no boundary of this number",
-                           "its numbers are " +
-                             Patterns::Tools::to_string(
-                               std::vector<unsigned int>(used.begin(), used.end())) +
-                             ".");
-        mesh.boundary_names[name] = number;
-      }
+        {
+          if (used.count(number) == 0)
+            throw InputError(section,
+                             "Boundary names",
+                             name + ": " + std::to_string(number),
+                             "the body has no boundary of this number",
+                             "its numbers are " +
+                               Patterns::Tools::to_string(
+                                 std::vector<unsigned int>(used.begin(), used.end())) +
+                               ".");
+          mesh.boundary_names[name] = number;
+        }
     }
 
 
 
-    void FileGeometry::attach_exact_surfaces(BodyMesh &mesh, const std::string &section) const
+    void
+    FileGeometry::attach_exact_surfaces(BodyMesh &mesh, const std::string &section) const
     {
       types::manifold_id next = 0;
       for (const auto &[name, shape] : parse_exact_surfaces(exact))
-      {
-        mesh.manifolds[next] = shape.manifold;
-        if (name == "cells")
-          for (CellData<3> &cell : mesh.cells)
-            cell.manifold_id = next;
-        else
         {
-          const auto found = mesh.boundary_names.find(name);
-          if (found == mesh.boundary_names.end())
-            throw InputError(section,
-                             "Exact surfaces",
-                             name,
-                             "the body has no boundary of this name",
-                             "use a name from the file or from 'Boundary names'");
-          mesh.surfaces[found->second] = shape.surface;
-
-          double farthest = 0., size = 0.;
-          for (CellData<2> &face : mesh.subcells.boundary_quads)
-            if (face.boundary_id == found->second)
+          mesh.manifolds[next] = shape.manifold;
+          if (name == "cells")
+            for (CellData<3> &cell : mesh.cells)
+              cell.manifold_id = next;
+          else
             {
-              face.manifold_id = next;
-              for (const unsigned int v : face.vertices)
-              {
-                // Files have few digits; what the formula says counts.
-                Point<3>      &x     = mesh.vertices[v];
-                const Point<3> exact = shape.surface->project(x);
-                farthest             = std::max(farthest, exact.distance(x));
-                x                    = exact;
-              }
-              size =
-                std::max(size,
-                         mesh.vertices[face.vertices[0]].distance(mesh.vertices[face.vertices[3]]));
+              const auto found = mesh.boundary_names.find(name);
+              if (found == mesh.boundary_names.end())
+                throw InputError(section,
+                                 "Exact surfaces",
+                                 name,
+                                 "the body has no boundary of this name",
+                                 "use a name from the file or from 'Boundary names'");
+              mesh.surfaces[found->second] = shape.surface;
+
+              double farthest = 0., size = 0.;
+              for (CellData<2> &face : mesh.subcells.boundary_quads)
+                if (face.boundary_id == found->second)
+                  {
+                    face.manifold_id = next;
+                    for (const unsigned int v : face.vertices)
+                      {
+                        // Files have few digits; what the formula says counts.
+                        Point<3>      &x     = mesh.vertices[v];
+                        const Point<3> exact = shape.surface->project(x);
+                        farthest             = std::max(farthest, exact.distance(x));
+                        x                    = exact;
+                      }
+                    size = std::max(size,
+                                    mesh.vertices[face.vertices[0]].distance(
+                                      mesh.vertices[face.vertices[3]]));
+                  }
+              if (farthest > 1e-3 * size)
+                throw InputError(section,
+                                 "Exact surfaces",
+                                 name,
+                                 "the surface is " + Patterns::Tools::to_string(farthest) +
+                                   " away from a vertex of the boundary",
+                                 "check axis, point, radius and slope");
             }
-          if (farthest > 1e-3 * size)
-            throw InputError(section,
-                             "Exact surfaces",
-                             name,
-                             "the surface is " + Patterns::Tools::to_string(farthest) +
-                               " away from a vertex of the boundary",
-                             "check axis, point, radius and slope");
+          ++next;
         }
-        ++next;
-      }
     }
 
     const GeometryRegistry::Entry<FileGeometry>

@@ -9,7 +9,8 @@ namespace Touchstone
   namespace
   {
     /** Refuse cells that would make the stiffness meaningless. */
-    void check_cells(const BodyMesh &mesh, const std::string &section)
+    void
+    check_cells(const BodyMesh &mesh, const std::string &section)
     {
       const Orientation cells = orientation(mesh);
       if (cells.negative + cells.distorted > 0)
@@ -36,10 +37,10 @@ namespace Touchstone
 
       std::map<types::manifold_id, types::manifold_id> manifold_ids;
       for (const auto &[id, manifold] : body.manifolds)
-      {
-        manifold_ids[id]                = first_manifold + manifold_ids.size();
-        all.manifolds[manifold_ids[id]] = manifold;
-      }
+        {
+          manifold_ids[id]                = first_manifold + manifold_ids.size();
+          all.manifolds[manifold_ids[id]] = manifold;
+        }
       manifold_ids[numbers::flat_manifold_id] = numbers::flat_manifold_id;
 
       std::map<types::boundary_id, types::boundary_id> boundary_ids;
@@ -50,21 +51,21 @@ namespace Touchstone
 
       all.vertices.insert(all.vertices.end(), body.vertices.begin(), body.vertices.end());
       for (CellData<3> cell : body.cells)
-      {
-        for (unsigned int &v : cell.vertices)
-          v += first_vertex;
-        cell.material_id = number;
-        cell.manifold_id = manifold_ids.at(cell.manifold_id);
-        all.cells.push_back(cell);
-      }
+        {
+          for (unsigned int &v : cell.vertices)
+            v += first_vertex;
+          cell.material_id = number;
+          cell.manifold_id = manifold_ids.at(cell.manifold_id);
+          all.cells.push_back(cell);
+        }
       for (CellData<2> face : body.subcells.boundary_quads)
-      {
-        for (unsigned int &v : face.vertices)
-          v += first_vertex;
-        face.boundary_id = boundary_ids.at(face.boundary_id);
-        face.manifold_id = manifold_ids.at(face.manifold_id);
-        all.subcells.boundary_quads.push_back(face);
-      }
+        {
+          for (unsigned int &v : face.vertices)
+            v += first_vertex;
+          face.boundary_id = boundary_ids.at(face.boundary_id);
+          face.manifold_id = manifold_ids.at(face.manifold_id);
+          all.subcells.boundary_quads.push_back(face);
+        }
       return boundary_ids;
     }
   } // namespace
@@ -84,24 +85,24 @@ namespace Touchstone
 
     BodyMesh all;
     for (unsigned int body = 0; body < scene.bodies.size(); ++body)
-    {
-      const BodyParameters &parameters = scene.bodies[body];
-      const std::string     section    = "Body " + parameters.name + "/Geometry";
+      {
+        const BodyParameters &parameters = scene.bodies[body];
+        const std::string     section    = "Body " + parameters.name + "/Geometry";
 
-      const BodyMesh mesh = parameters.geometry->create(factor, section, scene_folder);
-      check_cells(mesh, section);
-      const auto ids = append(mesh, body, all);
+        const BodyMesh mesh = parameters.geometry->create(factor, section, scene_folder);
+        check_cells(mesh, section);
+        const auto ids = append(mesh, body, all);
 
-      names.emplace_back();
-      for (const auto &[own, id] : ids)
-        names.back()[std::to_string(own)] = id;
-      for (const auto &[name, own] : mesh.boundary_names)
-        if (ids.count(own) > 0)
-          names.back()[name] = ids.at(own);
-      for (const auto &[own, surface] : mesh.surfaces)
-        if (ids.count(own) > 0)
-          surfaces[ids.at(own)] = surface;
-    }
+        names.emplace_back();
+        for (const auto &[own, id] : ids)
+          names.back()[std::to_string(own)] = id;
+        for (const auto &[name, own] : mesh.boundary_names)
+          if (ids.count(own) > 0)
+            names.back()[name] = ids.at(own);
+        for (const auto &[own, surface] : mesh.surfaces)
+          if (ids.count(own) > 0)
+            surfaces[ids.at(own)] = surface;
+      }
 
     create_triangulation(all, triangulation);
     triangulation.refine_global(refinements);
@@ -109,17 +110,19 @@ namespace Touchstone
 
 
 
-  unsigned int Forest::n_bodies() const
+  unsigned int
+  Forest::n_bodies() const
   {
     return names.size();
   }
 
 
 
-  types::boundary_id Forest::boundary_id(const unsigned int body,
-                                         const std::string &name,
-                                         const std::string &section,
-                                         const std::string &key) const
+  types::boundary_id
+  Forest::boundary_id(const unsigned int body,
+                      const std::string &name,
+                      const std::string &section,
+                      const std::string &key) const
   {
     const auto found = names[body].find(name);
     if (found != names[body].end())
@@ -137,7 +140,8 @@ namespace Touchstone
 
 
 
-  std::shared_ptr<const AnalyticSurface> Forest::surface(const types::boundary_id id) const
+  std::shared_ptr<const AnalyticSurface>
+  Forest::surface(const types::boundary_id id) const
   {
     const auto found = surfaces.find(id);
     return found != surfaces.end() ? found->second : nullptr;

@@ -12,52 +12,58 @@ namespace Touchstone
 
   namespace
   {
-    std::string upper(std::string text)
+    std::string
+    upper(std::string text)
     {
       std::transform(text.begin(), text.end(), text.begin(), ::toupper);
       return text;
     }
 
     /** The parts of a line between commas, without blanks around them. */
-    std::vector<std::string> split(const std::string &line)
+    std::vector<std::string>
+    split(const std::string &line)
     {
       std::vector<std::string> words;
       std::istringstream       in(line);
       for (std::string word; std::getline(in, word, ',');)
-      {
-        const auto first = word.find_first_not_of(" \t\r"), last = word.find_last_not_of(" \t\r");
-        words.push_back(first == std::string::npos ? "" : word.substr(first, last - first + 1));
-      }
+        {
+          const auto first = word.find_first_not_of(" \t\r"), last = word.find_last_not_of(" \t\r");
+          words.push_back(first == std::string::npos ? "" : word.substr(first, last - first + 1));
+        }
       while (!words.empty() && words.back().empty())
         words.pop_back();
       return words;
     }
 
-    unsigned long number(const std::string &word)
+    unsigned long
+    number(const std::string &word)
     {
       std::size_t   end   = 0;
       unsigned long value = 0;
       try
-      {
-        value = std::stoul(word, &end);
-      }
+        {
+          value = std::stoul(word, &end);
+        }
       catch (const std::exception &)
-      {}
+        {
+        }
       if (word.empty() || end != word.size())
         throw std::runtime_error("'" + word + "' stands where a whole number should.");
       return value;
     }
 
-    double coordinate(const std::string &word)
+    double
+    coordinate(const std::string &word)
     {
       std::size_t end   = 0;
       double      value = 0.;
       try
-      {
-        value = std::stod(word, &end);
-      }
+        {
+          value = std::stod(word, &end);
+        }
       catch (const std::exception &)
-      {}
+        {
+        }
       if (word.empty() || end != word.size())
         throw std::runtime_error("'" + word + "' stands where a coordinate should.");
       return value;
@@ -69,7 +75,8 @@ namespace Touchstone
     class AbaqusReader
     {
     public:
-      MeshFile read(std::istream &in);
+      MeshFile
+      read(std::istream &in);
 
     private:
       MeshFile mesh;
@@ -87,63 +94,70 @@ namespace Touchstone
       /** In the order of the file, for the sets' numbers. */
       std::vector<std::string> set_names;
 
-      void read_keyword(const std::string &line);
-      void read_element(const std::vector<std::string> &words);
-      void add_to_set(const std::string &name, unsigned long element);
-      void read_set(const std::vector<std::string> &words);
-      void read_surface(const std::vector<std::string> &words);
+      void
+      read_keyword(const std::string &line);
+      void
+      read_element(const std::vector<std::string> &words);
+      void
+      add_to_set(const std::string &name, unsigned long element);
+      void
+      read_set(const std::vector<std::string> &words);
+      void
+      read_surface(const std::vector<std::string> &words);
     };
 
 
 
-    MeshFile AbaqusReader::read(std::istream &in)
+    MeshFile
+    AbaqusReader::read(std::istream &in)
     {
       for (std::string line; std::getline(in, line);)
-      {
-        const std::vector<std::string> words = split(line);
-        if (words.empty() || line.compare(0, 2, "**") == 0)
-          continue;
-        if (line[0] == '*')
-          read_keyword(line);
-        else if (keyword == "*NODE")
         {
-          if (words.size() < 4)
-            throw std::runtime_error("The file ends, or is damaged, in *NODE.");
-          if (!node.insert({number(words[0]), mesh.vertices.size()}).second)
-            throw std::runtime_error("Node " + words[0] +
-                                     " appears twice; save the model as one flat input "
-                                     "without parts and instances.");
-          mesh.vertices.emplace_back(coordinate(words[1]),
-                                     coordinate(words[2]),
-                                     coordinate(words[3]));
+          const std::vector<std::string> words = split(line);
+          if (words.empty() || line.compare(0, 2, "**") == 0)
+            continue;
+          if (line[0] == '*')
+            read_keyword(line);
+          else if (keyword == "*NODE")
+            {
+              if (words.size() < 4)
+                throw std::runtime_error("The file ends, or is damaged, in *NODE.");
+              if (!node.insert({number(words[0]), mesh.vertices.size()}).second)
+                throw std::runtime_error("Node " + words[0] +
+                                         " appears twice; save the model as one flat input "
+                                         "without parts and instances.");
+              mesh.vertices.emplace_back(coordinate(words[1]),
+                                         coordinate(words[2]),
+                                         coordinate(words[3]));
+            }
+          else if (keyword == "*ELEMENT")
+            read_element(words);
+          else if (keyword == "*ELSET")
+            read_set(words);
+          else if (keyword == "*SURFACE")
+            read_surface(words);
         }
-        else if (keyword == "*ELEMENT")
-          read_element(words);
-        else if (keyword == "*ELSET")
-          read_set(words);
-        else if (keyword == "*SURFACE")
-          read_surface(words);
-      }
       if (!pending.empty())
         throw std::runtime_error("The file ends, or is damaged, in *ELEMENT.");
 
       for (const std::string &name : set_names)
         for (const auto &[groups, elements] :
              {std::make_pair(&mesh.volumes, &cell), std::make_pair(&mesh.surfaces, &face)})
-        {
-          MeshFile::Group group{static_cast<unsigned int>(groups->size() + 1), name, {}};
-          for (const unsigned long element : sets[name])
-            if (const auto found = elements->find(element); found != elements->end())
-              group.members.push_back(found->second);
-          if (!group.members.empty())
-            groups->push_back(group);
-        }
+          {
+            MeshFile::Group group{static_cast<unsigned int>(groups->size() + 1), name, {}};
+            for (const unsigned long element : sets[name])
+              if (const auto found = elements->find(element); found != elements->end())
+                group.members.push_back(found->second);
+            if (!group.members.empty())
+              groups->push_back(group);
+          }
       return std::move(mesh);
     }
 
 
 
-    void AbaqusReader::read_keyword(const std::string &line)
+    void
+    AbaqusReader::read_keyword(const std::string &line)
     {
       if (!pending.empty())
         throw std::runtime_error("The file is damaged in *ELEMENT.");
@@ -151,19 +165,20 @@ namespace Touchstone
       keyword                              = upper(words[0]);
       parameters.clear();
       for (unsigned int i = 1; i < words.size(); ++i)
-      {
-        const auto equals = words[i].find('=');
-        const bool has    = equals != std::string::npos;
-        const auto name   = split(words[i].substr(0, equals));
-        const auto value  = split(has ? words[i].substr(equals + 1) : "");
-        if (!name.empty())
-          parameters[upper(name[0])] = value.empty() ? "" : value[0];
-      }
+        {
+          const auto equals = words[i].find('=');
+          const bool has    = equals != std::string::npos;
+          const auto name   = split(words[i].substr(0, equals));
+          const auto value  = split(has ? words[i].substr(equals + 1) : "");
+          if (!name.empty())
+            parameters[upper(name[0])] = value.empty() ? "" : value[0];
+        }
     }
 
 
 
-    void AbaqusReader::read_element(const std::vector<std::string> &words)
+    void
+    AbaqusReader::read_element(const std::vector<std::string> &words)
     {
       const std::string type    = upper(parameters["TYPE"]);
       const bool        is_cell = type.compare(0, 4, "C3D8") == 0;
@@ -171,11 +186,11 @@ namespace Touchstone
                            type.compare(0, 4, "CPE4") == 0 || type.compare(0, 4, "M3D4") == 0 ||
                            type.compare(0, 6, "SFM3D4") == 0;
       if (!is_cell && !is_face)
-      {
-        if (type.compare(0, 3, "C3D") == 0)
-          throw std::runtime_error("It has elements of type " + type + ".");
-        return; // beams, springs and the like
-      }
+        {
+          if (type.compare(0, 3, "C3D") == 0)
+            throw std::runtime_error("It has elements of type " + type + ".");
+          return; // beams, springs and the like
+        }
 
       for (const std::string &word : words)
         pending.push_back(number(word));
@@ -188,23 +203,24 @@ namespace Touchstone
 
       std::vector<unsigned int> v;
       for (unsigned int i = 1; i <= n; ++i)
-      {
-        const auto found = node.find(pending[i]);
-        if (found == node.end())
-          throw std::runtime_error("Element " + std::to_string(pending[0]) + " uses node " +
-                                   std::to_string(pending[i]) + ", which the file does not have.");
-        v.push_back(found->second);
-      }
+        {
+          const auto found = node.find(pending[i]);
+          if (found == node.end())
+            throw std::runtime_error("Element " + std::to_string(pending[0]) + " uses node " +
+                                     std::to_string(pending[i]) +
+                                     ", which the file does not have.");
+          v.push_back(found->second);
+        }
       if (is_cell)
-      {
-        cell[pending[0]] = mesh.cells.size();
-        mesh.add_cell(v);
-      }
+        {
+          cell[pending[0]] = mesh.cells.size();
+          mesh.add_cell(v);
+        }
       else
-      {
-        face[pending[0]] = mesh.faces.size();
-        mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
-      }
+        {
+          face[pending[0]] = mesh.faces.size();
+          mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
+        }
       if (parameters.count("ELSET") > 0)
         add_to_set(parameters["ELSET"], pending[0]);
       pending.clear();
@@ -212,7 +228,8 @@ namespace Touchstone
 
 
 
-    void AbaqusReader::add_to_set(const std::string &name, const unsigned long element)
+    void
+    AbaqusReader::add_to_set(const std::string &name, const unsigned long element)
     {
       if (sets.count(name) == 0)
         set_names.push_back(name);
@@ -221,18 +238,19 @@ namespace Touchstone
 
 
 
-    void AbaqusReader::read_set(const std::vector<std::string> &words)
+    void
+    AbaqusReader::read_set(const std::vector<std::string> &words)
     {
       const std::string name = parameters["ELSET"];
       if (parameters.count("GENERATE") > 0)
-      {
-        if (words.size() < 2)
-          throw std::runtime_error("The file ends, or is damaged, in *ELSET.");
-        const unsigned long step = words.size() > 2 ? number(words[2]) : 1;
-        for (unsigned long e = number(words[0]); e <= number(words[1]) && step > 0; e += step)
-          add_to_set(name, e);
-        return;
-      }
+        {
+          if (words.size() < 2)
+            throw std::runtime_error("The file ends, or is damaged, in *ELSET.");
+          const unsigned long step = words.size() > 2 ? number(words[2]) : 1;
+          for (unsigned long e = number(words[0]); e <= number(words[1]) && step > 0; e += step)
+            add_to_set(name, e);
+          return;
+        }
       for (const std::string &word : words)
         if (std::isdigit(word[0]))
           add_to_set(name, number(word));
@@ -243,7 +261,8 @@ namespace Touchstone
 
 
 
-    void AbaqusReader::read_surface(const std::vector<std::string> &words)
+    void
+    AbaqusReader::read_surface(const std::vector<std::string> &words)
     {
       // Vertices of the faces S1 to S6, in the order of mesh.cells.
       static const unsigned int face_vertices[6][4] = {
@@ -268,19 +287,20 @@ namespace Touchstone
                                {static_cast<unsigned int>(mesh.surfaces.size() + 1), name, {}});
       for (const unsigned long element : elements)
         if (const auto found = cell.find(element); found != cell.end())
-        {
-          group->members.push_back(mesh.faces.size());
-          mesh.faces.emplace_back();
-          for (unsigned int v = 0; v < 4; ++v)
-            mesh.faces.back()[v] =
-              mesh.cells[found->second].vertices[face_vertices[face_name[1] - '1'][v]];
-        }
+          {
+            group->members.push_back(mesh.faces.size());
+            mesh.faces.emplace_back();
+            for (unsigned int v = 0; v < 4; ++v)
+              mesh.faces.back()[v] =
+                mesh.cells[found->second].vertices[face_vertices[face_name[1] - '1'][v]];
+          }
     }
   } // namespace
 
 
 
-  MeshFile read_abaqus(std::istream &in)
+  MeshFile
+  read_abaqus(std::istream &in)
   {
     return AbaqusReader().read(in);
   }

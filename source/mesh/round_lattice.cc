@@ -24,7 +24,8 @@ namespace Touchstone
       std::array<int, 3> i;
       int                ring;
 
-      bool operator<(const Key &other) const
+      bool
+      operator<(const Key &other) const
       {
         return std::tie(i, ring) < std::tie(other.i, other.ring);
       }
@@ -42,19 +43,19 @@ namespace Touchstone
     const int          n = core;
     std::array<int, 3> lower{{0, 0, 0}}, upper{{n, n, static_cast<int>(layers)}};
     for (unsigned int d = 0; d < dimensions; ++d)
-    {
-      lower[d] = keep[d] == "+" ? 0 : -n;
-      upper[d] = keep[d] == "-" ? 0 : n;
-    }
+      {
+        lower[d] = keep[d] == "+" ? 0 : -n;
+        upper[d] = keep[d] == "-" ? 0 : n;
+      }
 
     const auto position = [&](const Key &key) {
       Tensor<1, 3> straight, direction;
       double       size = 0.;
       for (unsigned int d = 0; d < dimensions; ++d)
-      {
-        straight[d] = static_cast<double>(key.i[d]) / n;
-        size        = std::max(size, std::abs(straight[d]));
-      }
+        {
+          straight[d] = static_cast<double>(key.i[d]) / n;
+          size        = std::max(size, std::abs(straight[d]));
+        }
       // Equal angles on the surface; the tangent of zero stays exactly zero,
       // which keeps the cut planes plane.
       if (size > 0.)
@@ -84,31 +85,31 @@ namespace Touchstone
     for (c[2] = lower[2]; c[2] < upper[2]; ++c[2])
       for (c[1] = lower[1]; c[1] < upper[1]; ++c[1])
         for (c[0] = lower[0]; c[0] < upper[0]; ++c[0])
-        {
-          CellData<3> cell;
-          for (int v = 0; v < 8; ++v)
-            cell.vertices[v] = vertex({{{c[0] + v % 2, c[1] + v / 2 % 2, c[2] + v / 4}}, 0});
-          cells.push_back(cell);
+          {
+            CellData<3> cell;
+            for (int v = 0; v < 8; ++v)
+              cell.vertices[v] = vertex({{{c[0] + v % 2, c[1] + v / 2 % 2, c[2] + v / 4}}, 0});
+            cells.push_back(cell);
 
-          // On each outer side of the core a stack of cells stands.
-          for (unsigned int d = 0; d < dimensions; ++d)
-            for (const int side : {-1, 1})
-              if (c[d] == (side > 0 ? n - 1 : -n))
-                for (unsigned int ring = 0; ring < rings; ++ring)
-                {
-                  CellData<3> outer;
-                  for (int v = 0; v < 8; ++v)
-                  {
-                    const int local[3] = {v % 2, v / 2 % 2, v / 4};
-                    Key       key{c, 0};
-                    for (unsigned int e = 0; e < 3; ++e)
-                      key.i[e] += local[e];
-                    key.i[d]          = side * n;
-                    key.ring          = ring + (side > 0 ? local[d] : 1 - local[d]);
-                    outer.vertices[v] = vertex(key);
-                  }
-                  cells.push_back(outer);
-                }
-        }
+            // On each outer side of the core a stack of cells stands.
+            for (unsigned int d = 0; d < dimensions; ++d)
+              for (const int side : {-1, 1})
+                if (c[d] == (side > 0 ? n - 1 : -n))
+                  for (unsigned int ring = 0; ring < rings; ++ring)
+                    {
+                      CellData<3> outer;
+                      for (int v = 0; v < 8; ++v)
+                        {
+                          const int local[3] = {v % 2, v / 2 % 2, v / 4};
+                          Key       key{c, 0};
+                          for (unsigned int e = 0; e < 3; ++e)
+                            key.i[e] += local[e];
+                          key.i[d]          = side * n;
+                          key.ring          = ring + (side > 0 ? local[d] : 1 - local[d]);
+                          outer.vertices[v] = vertex(key);
+                        }
+                      cells.push_back(outer);
+                    }
+          }
   }
 } // namespace Touchstone

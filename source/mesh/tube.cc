@@ -19,9 +19,12 @@ namespace Touchstone
     class Tube : public Geometry
     {
     public:
-      void     declare(ParameterHandler &prm) override;
-      void     check(const std::string &section) const override;
-      BodyMesh create(double factor, const std::string &, const std::string &) const override;
+      void
+      declare(ParameterHandler &prm) override;
+      void
+      check(const std::string &section) const override;
+      BodyMesh
+      create(double factor, const std::string &, const std::string &) const override;
 
     private:
       std::string axis = "z";
@@ -34,12 +37,14 @@ namespace Touchstone
       std::vector<unsigned int> cells          = {2, 8, 1};
       double                    radial_grading = 1.;
 
-      double inner(const double s) const
+      double
+      inner(const double s) const
       {
         return inner_radius + inner_slope * s;
       }
 
-      double outer(const double s) const
+      double
+      outer(const double s) const
       {
         return outer_radius + outer_slope * s;
       }
@@ -47,7 +52,8 @@ namespace Touchstone
 
 
 
-    void Tube::declare(ParameterHandler &prm)
+    void
+    Tube::declare(ParameterHandler &prm)
     {
       prm.add_parameter("Axis",
                         axis,
@@ -93,7 +99,8 @@ namespace Touchstone
 
 
 
-    void Tube::check(const std::string &section) const
+    void
+    Tube::check(const std::string &section) const
     {
       if (!(end > start))
         throw InputError(section,
@@ -102,22 +109,22 @@ namespace Touchstone
                          "the tube ends before it starts",
                          "make it larger than 'Start' (" + Patterns::Tools::to_string(start) + ")");
       for (const double s : {start, end})
-      {
-        const std::string where = " at the position " + Patterns::Tools::to_string(s);
-        if (!(inner(s) > 0.))
-          throw InputError(section,
-                           "Inner radius",
-                           Patterns::Tools::to_string(inner_radius),
-                           "the bore has no positive radius" + where + " of the axis",
-                           "make the radius larger or change 'Inner slope'; for a body "
-                           "without bore use the geometry 'cylinder'");
-        if (!(outer(s) > inner(s)))
-          throw InputError(section,
-                           "Outer radius",
-                           Patterns::Tools::to_string(outer_radius),
-                           "it is not larger than the inner radius" + where + " of the axis",
-                           "change the radii or slopes: r = radius + slope s");
-      }
+        {
+          const std::string where = " at the position " + Patterns::Tools::to_string(s);
+          if (!(inner(s) > 0.))
+            throw InputError(section,
+                             "Inner radius",
+                             Patterns::Tools::to_string(inner_radius),
+                             "the bore has no positive radius" + where + " of the axis",
+                             "make the radius larger or change 'Inner slope'; for a body "
+                             "without bore use the geometry 'cylinder'");
+          if (!(outer(s) > inner(s)))
+            throw InputError(section,
+                             "Outer radius",
+                             Patterns::Tools::to_string(outer_radius),
+                             "it is not larger than the inner radius" + where + " of the axis",
+                             "change the radii or slopes: r = radius + slope s");
+        }
       if (!(angle > 0.))
         throw InputError(section,
                          "Angle",
@@ -134,7 +141,8 @@ namespace Touchstone
 
 
 
-    BodyMesh Tube::create(const double factor, const std::string &, const std::string &) const
+    BodyMesh
+    Tube::create(const double factor, const std::string &, const std::string &) const
     {
       std::array<unsigned int, 3> n;
       for (unsigned int d = 0; d < 3; ++d)
@@ -157,10 +165,10 @@ namespace Touchstone
 
       mesh.boundary_names = {{"inner", 0}, {"outer", 1}, {"start", 2}, {"end", 3}};
       if (!closed)
-      {
-        mesh.boundary_names["first cut"]  = 4;
-        mesh.boundary_names["second cut"] = 5;
-      }
+        {
+          mesh.boundary_names["first cut"]  = 4;
+          mesh.boundary_names["second cut"] = 5;
+        }
 
       // Radius, angle and position are averaged each for itself, so refinement
       // and quadratic mappings stay on cones exactly.

@@ -146,7 +146,8 @@ namespace Touchstone
           << "  max pressure    " << std::setw(12)
           << rounded(result.max_pressure,
                      std::max(result.max_pressure,
-                              result.area > 0. ? result.force.norm() / result.area : 0.)) << '\n'
+                              result.area > 0. ? result.force.norm() / result.area : 0.))
+          << '\n'
           << "  max penetration " << std::setw(12)
           << rounded(result.max_penetration, std::sqrt(result.area), gap_round_off) << '\n'
           << "  active nodes    " << std::setw(12) << result.active << '\n';

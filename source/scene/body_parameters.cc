@@ -8,7 +8,8 @@ namespace Touchstone
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
 
-  void MaterialParameters::declare(ParameterHandler &prm)
+  void
+  MaterialParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Young modulus",
                       young_modulus,
@@ -25,7 +26,8 @@ namespace Touchstone
 
 
 
-  void MaterialParameters::check(const std::string &section) const
+  void
+  MaterialParameters::check(const std::string &section) const
   {
     if (young_modulus <= 0.)
       throw InputError(section,
@@ -45,7 +47,8 @@ namespace Touchstone
 
 
 
-  void BoundaryParameters::declare(ParameterHandler &prm)
+  void
+  BoundaryParameters::declare(ParameterHandler &prm)
   {
     const std::string formula = " A formula in x, y, z (reference coordinates) and t (time); ";
     const auto        component =
@@ -69,27 +72,28 @@ namespace Touchstone
 
 
 
-  void BoundaryParameters::check(const std::string &section) const
+  void
+  BoundaryParameters::check(const std::string &section) const
   {
     const std::string *displacements[] = {&displacement_x, &displacement_y, &displacement_z};
     const std::string *tractions[]     = {&traction_x, &traction_y, &traction_z};
     bool               all_moved       = true;
     for (unsigned int d = 0; d < 3; ++d)
-    {
-      const std::string letter(1, "xyz"[d]);
-      if (!displacements[d]->empty())
-        check_expression(section, "Displacement " + letter, *displacements[d]);
-      if (!tractions[d]->empty())
-        check_expression(section, "Traction " + letter, *tractions[d]);
-      if (!displacements[d]->empty() && !tractions[d]->empty())
-        throw InputError(section,
-                         "Traction " + letter,
-                         *tractions[d],
-                         "contradicts 'Displacement " + letter +
-                           "', which moves the same component",
-                         "prescribe either the displacement or the traction");
-      all_moved = all_moved && !displacements[d]->empty();
-    }
+      {
+        const std::string letter(1, "xyz"[d]);
+        if (!displacements[d]->empty())
+          check_expression(section, "Displacement " + letter, *displacements[d]);
+        if (!tractions[d]->empty())
+          check_expression(section, "Traction " + letter, *tractions[d]);
+        if (!displacements[d]->empty() && !tractions[d]->empty())
+          throw InputError(section,
+                           "Traction " + letter,
+                           *tractions[d],
+                           "contradicts 'Displacement " + letter +
+                             "', which moves the same component",
+                           "prescribe either the displacement or the traction");
+        all_moved = all_moved && !displacements[d]->empty();
+      }
     if (!pressure.empty())
       check_expression(section, "Pressure", pressure);
     if (!pressure.empty() && all_moved)
@@ -102,14 +106,16 @@ namespace Touchstone
 
 
 
-  std::string BodyParameters::section() const
+  std::string
+  BodyParameters::section() const
   {
     return "Body " + name;
   }
 
 
 
-  ElementType BodyParameters::element() const
+  ElementType
+  BodyParameters::element() const
   {
     return element_name == "full"    ? ElementType::full
            : element_name == "b-bar" ? ElementType::b_bar
@@ -118,7 +124,8 @@ namespace Touchstone
 
 
 
-  void BodyParameters::declare(ParameterHandler &prm, const std::string &geometry_type)
+  void
+  BodyParameters::declare(ParameterHandler &prm, const std::string &geometry_type)
   {
     prm.add_parameter("Element",
                       element_name,
@@ -157,16 +164,17 @@ namespace Touchstone
     prm.leave_subsection();
 
     for (const std::string &boundary : conditions)
-    {
-      prm.enter_subsection("Boundary " + boundary);
-      boundaries[boundary].declare(prm);
-      prm.leave_subsection();
-    }
+      {
+        prm.enter_subsection("Boundary " + boundary);
+        boundaries[boundary].declare(prm);
+        prm.leave_subsection();
+      }
   }
 
 
 
-  void BodyParameters::check(const unsigned int degree) const
+  void
+  BodyParameters::check(const unsigned int degree) const
   {
     geometry->check(section() + "/Geometry");
     material.check(section() + "/Material");
@@ -183,50 +191,50 @@ namespace Touchstone
     for (const auto &[key, list] :
          {std::make_pair("Symmetry", &symmetry), std::make_pair("Fixed", &fixed)})
       for (const std::string &boundary : *list)
-      {
-        if (boundary.empty())
-          throw InputError(section(),
-                           key,
-                           Patterns::Tools::to_string(*list),
-                           "a name in this list is empty",
-                           "remove the comma too many");
-        if (held.count(boundary) > 0)
-          throw InputError(section(),
-                           key,
-                           boundary,
-                           held.at(boundary) == key
-                             ? "this boundary is listed twice"
-                             : "this boundary is also in the list '" + held.at(boundary) + "'",
-                           "name it once: a fixed boundary needs no symmetry");
-        held[boundary] = key;
-      }
+        {
+          if (boundary.empty())
+            throw InputError(section(),
+                             key,
+                             Patterns::Tools::to_string(*list),
+                             "a name in this list is empty",
+                             "remove the comma too many");
+          if (held.count(boundary) > 0)
+            throw InputError(section(),
+                             key,
+                             boundary,
+                             held.at(boundary) == key
+                               ? "this boundary is listed twice"
+                               : "this boundary is also in the list '" + held.at(boundary) + "'",
+                             "name it once: a fixed boundary needs no symmetry");
+          held[boundary] = key;
+        }
 
     for (const auto &[boundary, condition] : boundaries)
-    {
-      const std::string where = section() + "/Boundary " + boundary;
-      condition.check(where);
-      if (held.count(boundary) == 0)
-        continue;
-      const std::vector<std::pair<std::string, std::string>> entries = {
-        {"Pressure", condition.pressure},
-        {"Displacement x", condition.displacement_x},
-        {"Displacement y", condition.displacement_y},
-        {"Displacement z", condition.displacement_z},
-        {"Traction x", condition.traction_x},
-        {"Traction y", condition.traction_y},
-        {"Traction z", condition.traction_z}};
-      // A symmetry plane may still be moved or loaded along itself, and
-      // which direction that is only the mesh knows; pressure is across.
-      const unsigned int n = held.at(boundary) == "Fixed" ? entries.size() : 1;
-      for (unsigned int i = 0; i < n; ++i)
-        if (!entries[i].second.empty())
-          throw InputError(where,
-                           entries[i].first,
-                           entries[i].second,
-                           "this boundary is held by '" + held.at(boundary) + "' of '" + section() +
-                             "'",
-                           "remove this entry or take the boundary from the list '" +
-                             held.at(boundary) + "'");
-    }
+      {
+        const std::string where = section() + "/Boundary " + boundary;
+        condition.check(where);
+        if (held.count(boundary) == 0)
+          continue;
+        const std::vector<std::pair<std::string, std::string>> entries = {
+          {"Pressure", condition.pressure},
+          {"Displacement x", condition.displacement_x},
+          {"Displacement y", condition.displacement_y},
+          {"Displacement z", condition.displacement_z},
+          {"Traction x", condition.traction_x},
+          {"Traction y", condition.traction_y},
+          {"Traction z", condition.traction_z}};
+        // A symmetry plane may still be moved or loaded along itself, and
+        // which direction that is only the mesh knows; pressure is across.
+        const unsigned int n = held.at(boundary) == "Fixed" ? entries.size() : 1;
+        for (unsigned int i = 0; i < n; ++i)
+          if (!entries[i].second.empty())
+            throw InputError(where,
+                             entries[i].first,
+                             entries[i].second,
+                             "this boundary is held by '" + held.at(boundary) + "' of '" +
+                               section() + "'",
+                             "remove this entry or take the boundary from the list '" +
+                               held.at(boundary) + "'");
+      }
   }
 } // namespace Touchstone

@@ -16,15 +16,16 @@ namespace Touchstone
     const char *const section = "command line";
 
     /** The arguments in the order in which they count: later ones win. */
-    std::vector<std::string> collect_arguments(const int argc, const char *const *argv)
+    std::vector<std::string>
+    collect_arguments(const int argc, const char *const *argv)
     {
       std::vector<std::string> arguments;
       if (const char *environment = std::getenv("TOUCHSTONE_OPTIONS"))
-      {
-        std::istringstream words(environment);
-        for (std::string word; words >> word;)
-          arguments.push_back(word);
-      }
+        {
+          std::istringstream words(environment);
+          for (std::string word; words >> word;)
+            arguments.push_back(word);
+        }
       arguments.insert(arguments.end(), argv + (argc > 0 ? 1 : 0), argv + argc);
       return arguments;
     }
@@ -32,7 +33,8 @@ namespace Touchstone
 
 
 
-  CommandLine CommandLine::parse(const int argc, const char *const *argv)
+  CommandLine
+  CommandLine::parse(const int argc, const char *const *argv)
   {
     const std::vector<std::string> arguments = collect_arguments(argc, argv);
 
@@ -45,59 +47,59 @@ namespace Touchstone
                                                     {"--results-only", &line.results_only}};
 
     for (std::size_t i = 0; i < arguments.size(); ++i)
-    {
-      const std::string &argument = arguments[i];
-      const std::size_t  equals   = argument.find('=');
-      const std::string  option   = argument.substr(0, equals);
-      if (argument.empty() || argument[0] != '-')
       {
-        if (!line.scene_file.empty() || argument.empty())
-          throw InputError(section,
-                           "",
-                           argument,
-                           "a run has one scene file, and '" + line.scene_file +
-                             "' is already given",
-                           "start one run per scene; a value with blanks needs "
-                           "quotation marks: --set \"Section/Key=value\"");
-        line.scene_file = argument;
-      }
-      else if (option == "--set" || option == "--output")
-      {
-        std::string value;
-        if (equals != std::string::npos)
-          value = argument.substr(equals + 1);
-        else if (i + 1 < arguments.size())
-          value = arguments[++i];
-        if (value.empty())
+        const std::string &argument = arguments[i];
+        const std::size_t  equals   = argument.find('=');
+        const std::string  option   = argument.substr(0, equals);
+        if (argument.empty() || argument[0] != '-')
+          {
+            if (!line.scene_file.empty() || argument.empty())
+              throw InputError(section,
+                               "",
+                               argument,
+                               "a run has one scene file, and '" + line.scene_file +
+                                 "' is already given",
+                               "start one run per scene; a value with blanks needs "
+                               "quotation marks: --set \"Section/Key=value\"");
+            line.scene_file = argument;
+          }
+        else if (option == "--set" || option == "--output")
+          {
+            std::string value;
+            if (equals != std::string::npos)
+              value = argument.substr(equals + 1);
+            else if (i + 1 < arguments.size())
+              value = arguments[++i];
+            if (value.empty())
+              throw InputError(section,
+                               option,
+                               "",
+                               "this option lacks its value",
+                               option == "--set" ? "write --set \"Section/Key=value\""
+                                                 : "write --output FOLDER");
+            line.overrides.push_back(option == "--set" ? value : "Output/Directory=" + value);
+          }
+        else if (option == "--resume")
           throw InputError(section,
                            option,
                            "",
-                           "this option lacks its value",
-                           option == "--set" ? "write --set \"Section/Key=value\""
-                                             : "write --output FOLDER");
-        line.overrides.push_back(option == "--set" ? value : "Output/Directory=" + value);
+                           "this version cannot resume a run",
+                           "run the scene from its beginning, without --resume");
+        else if (equals == std::string::npos && switches.count(option) > 0)
+          *switches.at(option) = true;
+        else
+          {
+            std::vector<std::string> known = {"--set", "--output"};
+            for (const auto &[name, flag] : switches)
+              if (name != "-h")
+                known.push_back(name);
+            throw InputError(section,
+                             argument,
+                             "",
+                             "there is no such option" + did_you_mean(option, known),
+                             "'touchstone --help' lists the options");
+          }
       }
-      else if (option == "--resume")
-        throw InputError(section,
-                         option,
-                         "",
-                         "this version cannot resume a run",
-                         "run the scene from its beginning, without --resume");
-      else if (equals == std::string::npos && switches.count(option) > 0)
-        *switches.at(option) = true;
-      else
-      {
-        std::vector<std::string> known = {"--set", "--output"};
-        for (const auto &[name, flag] : switches)
-          if (name != "-h")
-            known.push_back(name);
-        throw InputError(section,
-                         argument,
-                         "",
-                         "there is no such option" + did_you_mean(option, known),
-                         "'touchstone --help' lists the options");
-      }
-    }
 
     if (line.scene_file.empty() && !line.help && !line.version)
       throw InputError(section,
@@ -111,7 +113,8 @@ namespace Touchstone
 
 
 
-  std::string CommandLine::usage()
+  std::string
+  CommandLine::usage()
   {
     return "Usage: touchstone [options] scene.prm\n"
            "       mpirun -n 2 touchstone [options] scene.prm\n"
@@ -133,7 +136,8 @@ namespace Touchstone
 
 
 
-  std::string read_scene_file(const std::string &name)
+  std::string
+  read_scene_file(const std::string &name)
   {
     errno = 0;
     std::ifstream      file(name, std::ios::binary);

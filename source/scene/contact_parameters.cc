@@ -2,23 +2,24 @@
 #include <touchstone/scene/expression.h>
 #include <touchstone/scene/input_error.h>
 
-#include <set>
-
 #include <cmath>
+#include <set>
 
 namespace Touchstone
 {
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
 
-  std::string ObstacleParameters::section() const
+  std::string
+  ObstacleParameters::section() const
   {
     return "Obstacle " + name;
   }
 
 
 
-  void ObstacleParameters::declare(ParameterHandler &prm)
+  void
+  ObstacleParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Shape",
                       shape,
@@ -51,7 +52,8 @@ namespace Touchstone
 
 
 
-  void ObstacleParameters::check(const std::string &section) const
+  void
+  ObstacleParameters::check(const std::string &section) const
   {
     if (shape != "sphere" && direction.norm() == 0.)
       throw InputError(section,
@@ -72,14 +74,16 @@ namespace Touchstone
 
 
 
-  std::string ContactPairParameters::section() const
+  std::string
+  ContactPairParameters::section() const
   {
     return "Contact pair " + name;
   }
 
 
 
-  void ContactPairParameters::declare(ParameterHandler &prm)
+  void
+  ContactPairParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Slave body",
                       slave_body,
@@ -143,7 +147,8 @@ namespace Touchstone
 
 
 
-  void ContactPairParameters::check(const std::string &section) const
+  void
+  ContactPairParameters::check(const std::string &section) const
   {
     if (slave_boundaries.empty())
       throw InputError(section,
@@ -178,17 +183,17 @@ namespace Touchstone
 
     for (const auto &[key, list] : {std::make_pair("Slave boundaries", &slave_boundaries),
                                     std::make_pair("Master boundaries", &master_boundaries)})
-    {
-      std::set<std::string> names;
-      for (const std::string &boundary : *list)
-        if (boundary.empty() || !names.insert(boundary).second)
-          throw InputError(section,
-                           key,
-                           boundary,
-                           boundary.empty() ? "a name in this list is empty"
-                                            : "this boundary is listed twice",
-                           "name each boundary once, with commas between them");
-    }
+      {
+        std::set<std::string> names;
+        for (const std::string &boundary : *list)
+          if (boundary.empty() || !names.insert(boundary).second)
+            throw InputError(section,
+                             key,
+                             boundary,
+                             boundary.empty() ? "a name in this list is empty"
+                                              : "this boundary is listed twice",
+                             "name each boundary once, with commas between them");
+      }
     if (slave_body == master_body)
       for (const std::string &slave : slave_boundaries)
         for (const std::string &master : master_boundaries)
@@ -203,7 +208,8 @@ namespace Touchstone
 
 
 
-  void ContactParameters::declare(ParameterHandler &prm)
+  void
+  ContactParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Enforcement",
                       enforcement,
@@ -229,7 +235,8 @@ namespace Touchstone
 
 
 
-  void ContactParameters::check(const std::string &section) const
+  void
+  ContactParameters::check(const std::string &section) const
   {
     if (!(penalty_factor > 0.) || !std::isfinite(penalty_factor))
       throw InputError(section,

@@ -19,14 +19,16 @@ namespace Touchstone
     public:
       CaptureErrors()
         : before(std::cerr.rdbuf(text.rdbuf()))
-      {}
+      {
+      }
       ~CaptureErrors()
       {
         std::cerr.rdbuf(before);
       }
 
       /** What muParser says is wrong. */
-      std::string message() const
+      std::string
+      message() const
       {
         const std::string all = text.str();
         std::smatch       found;
@@ -42,25 +44,27 @@ namespace Touchstone
 
     /** muParser takes "1,5" for two formulas of which the last counts: the
      * decimal comma would be read as 5. */
-    bool has_comma_outside_of_brackets(const std::string &expression)
+    bool
+    has_comma_outside_of_brackets(const std::string &expression)
     {
       int depth = 0;
       for (const char c : expression)
-      {
-        depth += (c == '(') - (c == ')');
-        if (c == ',' && depth == 0)
-          return true;
-      }
+        {
+          depth += (c == '(') - (c == ')');
+          if (c == ',' && depth == 0)
+            return true;
+        }
       return false;
     }
   } // namespace
 
 
 
-  void check_expression(const std::string &section,
-                        const std::string &key,
-                        const std::string &expression,
-                        const std::string &variables)
+  void
+  check_expression(const std::string &section,
+                   const std::string &key,
+                   const std::string &expression,
+                   const std::string &variables)
   {
     const std::string remedy =
       "give a formula in the variables " + variables + " and the constant pi, for example '-0.1*t'";
@@ -77,20 +81,20 @@ namespace Touchstone
     {
       const CaptureErrors errors;
       try
-      {
-        dealii::FunctionParser<3> function(1);
-        function.initialize("x,y,z,t",
-                            expression,
-                            {{"pi", dealii::numbers::PI}},
-                            /*time_dependent=*/true);
-        function.set_time(0.5);
-        value = function.value(dealii::Point<3>(0.3, 0.4, 0.6));
-      }
+        {
+          dealii::FunctionParser<3> function(1);
+          function.initialize("x,y,z,t",
+                              expression,
+                              {{"pi", dealii::numbers::PI}},
+                              /*time_dependent=*/true);
+          function.set_time(0.5);
+          value = function.value(dealii::Point<3>(0.3, 0.4, 0.6));
+        }
       catch (const std::exception &)
-      {
-        throw InputError(
-          section, key, expression, "this formula cannot be read: " + errors.message(), remedy);
-      }
+        {
+          throw InputError(
+            section, key, expression, "this formula cannot be read: " + errors.message(), remedy);
+        }
     }
 
     const std::regex any_variable("\\b[xyzt]\\b");

@@ -5,7 +5,8 @@ namespace Touchstone
   namespace
   {
     /** With exactly one full stop or question mark at the end. */
-    std::string ended(std::string sentence)
+    std::string
+    ended(std::string sentence)
     {
       while (!sentence.empty() && (sentence.back() == ' ' || sentence.back() == '.'))
         sentence.pop_back();
@@ -14,11 +15,12 @@ namespace Touchstone
       return sentence;
     }
 
-    std::string message(const std::string &section,
-                        const std::string &key,
-                        const std::string &value,
-                        const std::string &problem,
-                        const std::string &remedy)
+    std::string
+    message(const std::string &section,
+            const std::string &key,
+            const std::string &value,
+            const std::string &problem,
+            const std::string &remedy)
     {
       std::string place;
       const auto  add = [&place](const std::string &what, const std::string &name) {
@@ -43,5 +45,6 @@ namespace Touchstone
                          const std::string &problem,
                          const std::string &remedy)
     : std::runtime_error(message(section, key, value, problem, remedy))
-  {}
+  {
+  }
 } // namespace Touchstone

@@ -21,10 +21,11 @@ namespace Touchstone
      * The names that a list of the scene gives, each of which has a subsection
      * of its own: they cannot be anything.
      */
-    std::vector<std::string> names_of_list(const SceneText   &text,
-                                           const std::string &section,
-                                           const std::string &key,
-                                           const std::string &prefix)
+    std::vector<std::string>
+    names_of_list(const SceneText   &text,
+                  const std::string &section,
+                  const std::string &key,
+                  const std::string &prefix)
     {
       const std::string        value = text.value(section, key, "");
       std::vector<std::string> names = dealii::Utilities::split_string_list(value, ',');
@@ -37,28 +38,28 @@ namespace Touchstone
 
       std::set<std::string> seen;
       for (const std::string &name : names)
-      {
-        if (name.empty())
-          throw InputError(
-            section, key, value, "a name in this list is empty", "remove the comma too many");
-        if (name.find_first_of("/=\"'") != std::string::npos)
-          throw InputError(section,
-                           key,
-                           name,
-                           "a name cannot contain any of / = \" '",
-                           "use letters, numbers and blanks");
-        if (!seen.insert(name).second)
-          throw InputError(
-            section, key, name, "this name is listed twice", "give each its own name");
+        {
+          if (name.empty())
+            throw InputError(
+              section, key, value, "a name in this list is empty", "remove the comma too many");
+          if (name.find_first_of("/=\"'") != std::string::npos)
+            throw InputError(section,
+                             key,
+                             name,
+                             "a name cannot contain any of / = \" '",
+                             "use letters, numbers and blanks");
+          if (!seen.insert(name).second)
+            throw InputError(
+              section, key, name, "this name is listed twice", "give each its own name");
 
-        const std::string own = (section.empty() ? "" : section + "/") + prefix + name;
-        if (text.sections().count(own) == 0)
-          throw InputError(section,
-                           key,
-                           name,
-                           "there is no subsection '" + own + "'" + did_you_mean(own, sections),
-                           "write one, or take '" + name + "' from the list");
-      }
+          const std::string own = (section.empty() ? "" : section + "/") + prefix + name;
+          if (text.sections().count(own) == 0)
+            throw InputError(section,
+                             key,
+                             name,
+                             "there is no subsection '" + own + "'" + did_you_mean(own, sections),
+                             "write one, or take '" + name + "' from the list");
+        }
       return names;
     }
   } // namespace
@@ -79,33 +80,35 @@ namespace Touchstone
 
 
 
-  void Scene::read_lists(const SceneText &text)
+  void
+  Scene::read_lists(const SceneText &text)
   {
     if (text.is_set("", "Bodies") && text.value("", "Bodies", "").empty())
       throw InputError(
         "", "Bodies", "", "the list is empty", "name at least one body: set Bodies = NAME");
     for (const std::string &name : names_of_list(text, "", "Bodies", "Body "))
-    {
-      BodyParameters body;
-      body.name       = name;
-      body.conditions = names_of_list(text, body.section(), "Boundary conditions", "Boundary ");
-      bodies.push_back(body);
-    }
+      {
+        BodyParameters body;
+        body.name       = name;
+        body.conditions = names_of_list(text, body.section(), "Boundary conditions", "Boundary ");
+        bodies.push_back(body);
+      }
     for (const std::string &name : names_of_list(text, "", "Obstacles", "Obstacle "))
-    {
-      obstacles.emplace_back();
-      obstacles.back().name = name;
-    }
+      {
+        obstacles.emplace_back();
+        obstacles.back().name = name;
+      }
     for (const std::string &name : names_of_list(text, "", "Contact pairs", "Contact pair "))
-    {
-      pairs.emplace_back();
-      pairs.back().name = name;
-    }
+      {
+        pairs.emplace_back();
+        pairs.back().name = name;
+      }
   }
 
 
 
-  void Scene::declare(const SceneText &text)
+  void
+  Scene::declare(const SceneText &text)
   {
     prm.add_parameter("Title", title, "What the scene is about.", Patterns::Anything());
     const Patterns::List list(Patterns::Anything{});
@@ -132,24 +135,24 @@ namespace Touchstone
       prm.leave_subsection();
     };
     for (BodyParameters &body : bodies)
-    {
-      const std::string section = body.section() + "/Geometry",
-                        type    = text.value(section, "Type", body.geometry_name);
-      if (GeometryRegistry::records().count(type) == 0)
       {
-        std::vector<std::string> known;
-        for (const auto &[name, record] : GeometryRegistry::records())
-          known.push_back(name);
-        throw InputError(section,
-                         "Type",
-                         type,
-                         "there is no such geometry" + did_you_mean(type, known),
-                         "take one of " + quoted_list(known));
+        const std::string section = body.section() + "/Geometry",
+                          type    = text.value(section, "Type", body.geometry_name);
+        if (GeometryRegistry::records().count(type) == 0)
+          {
+            std::vector<std::string> known;
+            for (const auto &[name, record] : GeometryRegistry::records())
+              known.push_back(name);
+            throw InputError(section,
+                             "Type",
+                             type,
+                             "there is no such geometry" + did_you_mean(type, known),
+                             "take one of " + quoted_list(known));
+          }
+        prm.enter_subsection(body.section());
+        body.declare(prm, type);
+        prm.leave_subsection();
       }
-      prm.enter_subsection(body.section());
-      body.declare(prm, type);
-      prm.leave_subsection();
-    }
     for (ObstacleParameters &obstacle : obstacles)
       declare_in(obstacle.section(), obstacle);
     for (ContactPairParameters &pair : pairs)
@@ -165,7 +168,8 @@ namespace Touchstone
 
 
 
-  void Scene::resolve(const SceneText &text, const std::string &file_name)
+  void
+  Scene::resolve(const SceneText &text, const std::string &file_name)
   {
     for (BodyParameters &body : bodies)
       if (body.element_name == "automatic")
@@ -173,25 +177,27 @@ namespace Touchstone
 
     for (ContactPairParameters &pair : pairs)
       if (pair.behaviour == "tied" && !text.is_set(pair.section(), "Sliding"))
-      {
-        // Through the handler, so that the printed scene can be read back.
-        prm.enter_subsection(pair.section());
-        prm.set("Sliding", std::string("small"));
-        prm.leave_subsection();
-      }
+        {
+          // Through the handler, so that the printed scene can be read back.
+          prm.enter_subsection(pair.section());
+          prm.set("Sliding", std::string("small"));
+          prm.leave_subsection();
+        }
 
     if (output.directory.empty())
-    {
-      const std::size_t slash = file_name.find_last_of('/');
-      const std::string stem = slash == std::string::npos ? file_name : file_name.substr(slash + 1);
-      const std::size_t dot  = stem.find_last_of('.');
-      output.directory       = "output/" + (dot == 0 ? stem : stem.substr(0, dot));
-    }
+      {
+        const std::size_t slash = file_name.find_last_of('/');
+        const std::string stem =
+          slash == std::string::npos ? file_name : file_name.substr(slash + 1);
+        const std::size_t dot = stem.find_last_of('.');
+        output.directory      = "output/" + (dot == 0 ? stem : stem.substr(0, dot));
+      }
   }
 
 
 
-  void Scene::print(std::ostream &out) const
+  void
+  Scene::print(std::ostream &out) const
   {
     prm.print_parameters(out,
                          dealii::ParameterHandler::PRM |
@@ -200,7 +206,8 @@ namespace Touchstone
 
 
 
-  unsigned int Scene::body_index(const std::string &name) const
+  unsigned int
+  Scene::body_index(const std::string &name) const
   {
     const auto body = std::find_if(bodies.begin(), bodies.end(), [&name](const BodyParameters &b) {
       return b.name == name;

@@ -10,7 +10,8 @@ namespace Touchstone
   {
     /** Names of bodies, obstacles or pairs. */
     template <class Parameters>
-    std::vector<std::string> names(const std::vector<Parameters> &all)
+    std::vector<std::string>
+    names(const std::vector<Parameters> &all)
     {
       std::vector<std::string> result;
       for (const Parameters &one : all)
@@ -19,11 +20,12 @@ namespace Touchstone
     }
 
     /** The entry @p key of @p section names one of @p known. */
-    void check_name(const std::string              &section,
-                    const std::string              &key,
-                    const std::string              &name,
-                    const std::string              &list,
-                    const std::vector<std::string> &known)
+    void
+    check_name(const std::string              &section,
+               const std::string              &key,
+               const std::string              &name,
+               const std::string              &list,
+               const std::vector<std::string> &known)
     {
       if (std::find(known.begin(), known.end(), name) == known.end())
         throw InputError(section,
@@ -37,7 +39,8 @@ namespace Touchstone
 
 
 
-  void Scene::check() const
+  void
+  Scene::check() const
   {
     discretisation.check("Discretisation");
     for (const BodyParameters &body : bodies)
@@ -67,7 +70,8 @@ namespace Touchstone
 
 
 
-  void Scene::check_pair(const ContactPairParameters &pair) const
+  void
+  Scene::check_pair(const ContactPairParameters &pair) const
   {
     const std::string section = pair.section();
     check_name(section, "Slave body", pair.slave_body, "Bodies", names(bodies));

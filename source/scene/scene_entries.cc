@@ -19,7 +19,8 @@ namespace Touchstone
 
     /** The handler does not tell its entries, but its short listing is a scene
      * file and can be taken apart like one. */
-    Declared declared_entries(const dealii::ParameterHandler &prm)
+    Declared
+    declared_entries(const dealii::ParameterHandler &prm)
     {
       std::ostringstream listing;
       prm.print_parameters(listing, dealii::ParameterHandler::ShortPRM);
@@ -36,65 +37,68 @@ namespace Touchstone
 
 
     /** Sections that stand in @p parent, without their path. */
-    std::vector<std::string> subsections(const Declared &declared, const std::string &parent)
+    std::vector<std::string>
+    subsections(const Declared &declared, const std::string &parent)
     {
       std::vector<std::string> names;
       for (const auto &[section, keys] : declared)
-      {
-        std::vector<std::string> path = split_path(section);
-        if (path.empty())
-          continue;
-        const std::string name = path.back();
-        path.pop_back();
-        if (join_path(path) == parent)
-          names.push_back(name);
-      }
+        {
+          std::vector<std::string> path = split_path(section);
+          if (path.empty())
+            continue;
+          const std::string name = path.back();
+          path.pop_back();
+          if (join_path(path) == parent)
+            names.push_back(name);
+        }
       return names;
     }
 
 
 
     /** Complain about @p section, which is not declared. */
-    [[noreturn]] void throw_unknown_section(const Declared    &declared,
-                                            const std::string &section,
-                                            const std::string &place)
+    [[noreturn]] void
+    throw_unknown_section(const Declared    &declared,
+                          const std::string &section,
+                          const std::string &place)
     {
       // The outermost part that is unknown is the one to speak of.
       std::vector<std::string> path;
       for (const std::string &part : split_path(section))
-      {
-        const std::string parent = join_path(path);
-        path.push_back(part);
-        if (declared.count(join_path(path)) > 0)
-          continue;
+        {
+          const std::string parent = join_path(path);
+          path.push_back(part);
+          if (declared.count(join_path(path)) > 0)
+            continue;
 
-        const std::vector<std::string> known = subsections(declared, parent);
-        // "Body x" stands for the name x in the list "Bodies", etc.
-        static const std::vector<std::pair<std::string, std::string>> lists = {
-          {"Body ", "Bodies"},
-          {"Contact pair ", "Contact pairs"},
-          {"Obstacle ", "Obstacles"},
-          {"Boundary ", "Boundary conditions"}};
-        for (const auto &[prefix, list] : lists)
-          if (part.compare(0, prefix.size(), prefix) == 0 &&
-              parent.empty() == (prefix != "Boundary "))
-            throw InputError(join_path(path),
-                             "",
-                             "",
-                             "the list '" + list + "'" +
-                               (parent.empty() ? "" : " of '" + parent + "'") + " does not name '" +
-                               part.substr(prefix.size()) + "' (" + place + ")" +
-                               did_you_mean(part, known),
-                             "add the name to '" + list + "' or remove this subsection");
+          const std::vector<std::string> known = subsections(declared, parent);
+          // "Body x" stands for the name x in the list "Bodies", etc.
+          static const std::vector<std::pair<std::string, std::string>> lists = {
+            {"Body ", "Bodies"},
+            {"Contact pair ", "Contact pairs"},
+            {"Obstacle ", "Obstacles"},
+            {"Boundary ", "Boundary conditions"}};
+          for (const auto &[prefix, list] : lists)
+            if (part.compare(0, prefix.size(), prefix) == 0 &&
+                parent.empty() == (prefix != "Boundary "))
+              throw InputError(join_path(path),
+                               "",
+                               "",
+                               "the list '" + list + "'" +
+                                 (parent.empty() ? "" : " of '" + parent + "'") +
+                                 " does not name '" + part.substr(prefix.size()) + "' (" + place +
+                                 ")" + did_you_mean(part, known),
+                               "add the name to '" + list + "' or remove this subsection");
 
-        throw InputError(join_path(path),
-                         "",
-                         "",
-                         "there is no such subsection (" + place + ")" + did_you_mean(part, known),
-                         "correct the name; " + (known.empty()
-                                                   ? "there are no subsections here"
-                                                   : "here can stand " + quoted_list(known)));
-      }
+          throw InputError(join_path(path),
+                           "",
+                           "",
+                           "there is no such subsection (" + place + ")" +
+                             did_you_mean(part, known),
+                           "correct the name; " + (known.empty()
+                                                     ? "there are no subsections here"
+                                                     : "here can stand " + quoted_list(known)));
+        }
       throw InputError(section, "", "", "there is no such subsection", "");
     }
 
@@ -111,10 +115,10 @@ namespace Touchstone
       if (hint.empty())
         for (const auto &[section, others] : declared)
           if (std::find(others.begin(), others.end(), entry.key) != others.end())
-          {
-            hint = ", did you mean the one of section '" + section + "'?";
-            break;
-          }
+            {
+              hint = ", did you mean the one of section '" + section + "'?";
+              break;
+            }
       throw InputError(entry.section,
                        entry.key,
                        entry.value,
@@ -130,7 +134,8 @@ namespace Touchstone
 
 
     /** What deal.II's description of a pattern asks for, as a sentence. */
-    std::string remedy(const std::string &pattern, const std::string &value)
+    std::string
+    remedy(const std::string &pattern, const std::string &value)
     {
       std::smatch found;
       const auto  range = [&found](const std::string &what) {
@@ -150,10 +155,10 @@ namespace Touchstone
       if (std::regex_match(pattern, found, std::regex(R"(\[Double (.*)\.\.\.(.*) \(incl.*)")))
         return range("a number");
       if (std::regex_match(pattern, found, std::regex(R"(\[Selection (.*?) ?\])")))
-      {
-        const auto names = split_string_list(found[1], '|');
-        return "give one of " + quoted_list(names) + did_you_mean(value, names);
-      }
+        {
+          const auto names = split_string_list(found[1], '|');
+          return "give one of " + quoted_list(names) + did_you_mean(value, names);
+        }
       if (std::regex_match(pattern,
                            found,
                            std::regex(R"(\[List of <.*> of length (\d+)\.\.\.\1 .*)")))
@@ -165,30 +170,31 @@ namespace Touchstone
 
 
 
-    void set_entry(const SceneEntry &entry, const std::string &place, dealii::ParameterHandler &prm)
+    void
+    set_entry(const SceneEntry &entry, const std::string &place, dealii::ParameterHandler &prm)
     {
       const std::vector<std::string> path = split_path(entry.section);
       for (const std::string &part : path)
         prm.enter_subsection(part);
       try
-      {
-        prm.set(entry.key, entry.value);
-      }
+        {
+          prm.set(entry.key, entry.value);
+        }
       catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &exception)
-      {
-        std::ostringstream text;
-        exception.print_info(text);
-        const std::string start   = "given pattern <";
-        std::string       pattern = text.str();
-        pattern                   = pattern.substr(pattern.find(start) + start.size());
-        pattern                   = pattern.substr(0, pattern.rfind('>'));
-        throw InputError(entry.section,
-                         entry.key,
-                         entry.value,
-                         (entry.value.empty() ? "an empty value" : "this value") +
-                           std::string(" is not possible here (") + place + ")",
-                         remedy(pattern, entry.value));
-      }
+        {
+          std::ostringstream text;
+          exception.print_info(text);
+          const std::string start   = "given pattern <";
+          std::string       pattern = text.str();
+          pattern                   = pattern.substr(pattern.find(start) + start.size());
+          pattern                   = pattern.substr(0, pattern.rfind('>'));
+          throw InputError(entry.section,
+                           entry.key,
+                           entry.value,
+                           (entry.value.empty() ? "an empty value" : "this value") +
+                             std::string(" is not possible here (") + place + ")",
+                           remedy(pattern, entry.value));
+        }
       for (std::size_t i = 0; i < path.size(); ++i)
         prm.leave_subsection();
     }
@@ -196,15 +202,16 @@ namespace Touchstone
 
 
     /** The handler's own spelling "Body_20inner.Young_20modulus" undone. */
-    std::string demangle(const std::string &name)
+    std::string
+    demangle(const std::string &name)
     {
       std::string result;
       for (std::size_t i = 0; i < name.size(); ++i)
         if (name[i] == '_' && i + 2 < name.size())
-        {
-          result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
-          i += 2;
-        }
+          {
+            result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+          }
         else
           result += name[i] == '.' ? '/' : name[i];
       return result;
@@ -213,7 +220,8 @@ namespace Touchstone
 
 
 
-  void set_entries(const SceneText &text, dealii::ParameterHandler &prm)
+  void
+  set_entries(const SceneText &text, dealii::ParameterHandler &prm)
   {
     const Declared declared = declared_entries(prm);
 
@@ -227,32 +235,32 @@ namespace Touchstone
         unknown = section;
 
     for (const SceneEntry &entry : text.entries())
-    {
-      if (unknown != text.sections().end() && order(unknown->second) <= order(entry.line))
-        throw_unknown_section(declared, unknown->first, text.place(unknown->second));
-      const auto keys = declared.find(entry.section);
-      if (keys == declared.end() ||
-          std::find(keys->second.begin(), keys->second.end(), entry.key) == keys->second.end())
-        throw_unknown_key(declared, entry, text.place(entry.line));
-      set_entry(entry, text.place(entry.line), prm);
-    }
+      {
+        if (unknown != text.sections().end() && order(unknown->second) <= order(entry.line))
+          throw_unknown_section(declared, unknown->first, text.place(unknown->second));
+        const auto keys = declared.find(entry.section);
+        if (keys == declared.end() ||
+            std::find(keys->second.begin(), keys->second.end(), entry.key) == keys->second.end())
+          throw_unknown_key(declared, entry, text.place(entry.line));
+        set_entry(entry, text.place(entry.line), prm);
+      }
     if (unknown != text.sections().end())
       throw_unknown_section(declared, unknown->first, text.place(unknown->second));
 
     for (const std::string &name : prm.get_entries_wrongly_not_set())
-    {
-      std::vector<std::string> path = split_path(demangle(name));
-      const std::string        key  = path.back();
-      path.pop_back();
-      const std::string section  = join_path(path);
-      const bool        is_there = section.empty() || text.sections().count(section) > 0;
-      throw InputError(section,
-                       key,
-                       "",
-                       std::string("this key is required, but not set") +
-                         (is_there ? "" : ": the whole subsection is missing"),
-                       "write 'set " + key + " = ...'" +
-                         (section.empty() ? "" : " in the subsection '" + section + "'"));
-    }
+      {
+        std::vector<std::string> path = split_path(demangle(name));
+        const std::string        key  = path.back();
+        path.pop_back();
+        const std::string section  = join_path(path);
+        const bool        is_there = section.empty() || text.sections().count(section) > 0;
+        throw InputError(section,
+                         key,
+                         "",
+                         std::string("this key is required, but not set") +
+                           (is_there ? "" : ": the whole subsection is missing"),
+                         "write 'set " + key + " = ...'" +
+                           (section.empty() ? "" : " in the subsection '" + section + "'"));
+      }
   }
 } // namespace Touchstone

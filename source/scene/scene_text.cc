@@ -12,7 +12,8 @@ namespace Touchstone
   namespace
   {
     /** Names are compared with single blanks, as deal.II does it. */
-    std::string single_blanks(const std::string &text)
+    std::string
+    single_blanks(const std::string &text)
     {
       std::istringstream words(text);
       std::string        result, word;
@@ -22,7 +23,8 @@ namespace Touchstone
     }
 
     /** Cut @p word off the beginning of @p line, if it stands there. */
-    bool take_word(std::string &line, const std::string &word)
+    bool
+    take_word(std::string &line, const std::string &word)
     {
       std::istringstream stream(line);
       std::string        first;
@@ -38,7 +40,8 @@ namespace Touchstone
 
 
 
-  std::string join_path(const std::vector<std::string> &parts)
+  std::string
+  join_path(const std::vector<std::string> &parts)
   {
     std::string path;
     for (const std::string &part : parts)
@@ -48,7 +51,8 @@ namespace Touchstone
 
 
 
-  std::vector<std::string> split_path(const std::string &section)
+  std::vector<std::string>
+  split_path(const std::string &section)
   {
     std::vector<std::string> parts;
     std::istringstream       stream(section);
@@ -71,28 +75,32 @@ namespace Touchstone
 
 
 
-  const std::vector<SceneEntry> &SceneText::entries() const
+  const std::vector<SceneEntry> &
+  SceneText::entries() const
   {
     return all_entries;
   }
 
 
 
-  const std::map<std::string, unsigned int> &SceneText::sections() const
+  const std::map<std::string, unsigned int> &
+  SceneText::sections() const
   {
     return all_sections;
   }
 
 
 
-  std::string SceneText::place(const unsigned int line) const
+  std::string
+  SceneText::place(const unsigned int line) const
   {
     return line == 0 ? "command line" : "line " + std::to_string(line) + " of " + file_name;
   }
 
 
 
-  const SceneEntry *SceneText::find(const std::string &section, const std::string &key) const
+  const SceneEntry *
+  SceneText::find(const std::string &section, const std::string &key) const
   {
     for (auto entry = all_entries.rbegin(); entry != all_entries.rend(); ++entry)
       if (entry->section == section && entry->key == key)
@@ -102,9 +110,10 @@ namespace Touchstone
 
 
 
-  std::string SceneText::value(const std::string &section,
-                               const std::string &key,
-                               const std::string &otherwise) const
+  std::string
+  SceneText::value(const std::string &section,
+                   const std::string &key,
+                   const std::string &otherwise) const
   {
     const SceneEntry *entry = find(section, key);
     return entry == nullptr ? otherwise : entry->value;
@@ -112,68 +121,72 @@ namespace Touchstone
 
 
 
-  bool SceneText::is_set(const std::string &section, const std::string &key) const
+  bool
+  SceneText::is_set(const std::string &section, const std::string &key) const
   {
     return find(section, key) != nullptr;
   }
 
 
 
-  void SceneText::note_section(const std::string &section, const unsigned int line)
+  void
+  SceneText::note_section(const std::string &section, const unsigned int line)
   {
     for (std::size_t end = section.find('/');; end = section.find('/', end + 1))
-    {
-      all_sections.emplace(section.substr(0, end), line);
-      if (end == std::string::npos)
-        return;
-    }
+      {
+        all_sections.emplace(section.substr(0, end), line);
+        if (end == std::string::npos)
+          return;
+      }
   }
 
 
 
-  void SceneText::read_file(const std::string &text)
+  void
+  SceneText::read_file(const std::string &text)
   {
     std::istringstream       stream(text);
     std::vector<std::string> path;
     std::string              line, physical;
     unsigned int             number = 0, first = 0;
     while (std::getline(stream, physical))
-    {
-      ++number;
-      if (number == 1 && physical.compare(0, 3, "\xEF\xBB\xBF") == 0)
-        physical.erase(0, 3); // the mark with which some editors begin UTF-8
-      if (line.empty())
-        first = number;
-      // A comment ends where its line ends, also if that line is continued.
-      physical           = trim(physical.substr(0, physical.find('#')));
-      const bool goes_on = !physical.empty() && physical.back() == '\\';
-      if (goes_on)
-        physical.pop_back();
-      line += physical;
-      if (goes_on)
-        continue;
-      read_line(trim(line), first, path);
-      line.clear();
-    }
+      {
+        ++number;
+        if (number == 1 && physical.compare(0, 3, "\xEF\xBB\xBF") == 0)
+          physical.erase(0, 3); // the mark with which some editors begin UTF-8
+        if (line.empty())
+          first = number;
+        // A comment ends where its line ends, also if that line is continued.
+        physical           = trim(physical.substr(0, physical.find('#')));
+        const bool goes_on = !physical.empty() && physical.back() == '\\';
+        if (goes_on)
+          physical.pop_back();
+        line += physical;
+        if (goes_on)
+          continue;
+        read_line(trim(line), first, path);
+        line.clear();
+      }
     if (!line.empty())
       read_line(trim(line), first, path);
     if (!path.empty())
-    {
-      const std::string section = join_path(path);
-      throw InputError(section,
-                       "",
-                       "",
-                       "the subsection that begins in " + place(all_sections.at(section)) +
-                         " is not closed",
-                       "write 'end' after its last entry");
-    }
+      {
+        const std::string section = join_path(path);
+        throw InputError(section,
+                         "",
+                         "",
+                         "the subsection that begins in " + place(all_sections.at(section)) +
+                           " is not closed",
+                         "write 'end' after its last entry");
+      }
   }
 
 
 
-  void SceneText::read_line(const std::string        &line,
-                            const unsigned int        number,
-                            std::vector<std::string> &path)
+  void
+  SceneText::read_line(const std::string        &line,
+                       const unsigned int        number,
+                       std::vector<std::string> &path)
   {
     std::string rest = line;
     if (rest.empty())
@@ -181,52 +194,52 @@ namespace Touchstone
 
     const std::string section = join_path(path);
     if (take_word(rest, "subsection"))
-    {
-      const std::string name = single_blanks(rest);
-      if (name.empty() || name.find('/') != std::string::npos)
-        throw InputError(section,
-                         "",
-                         line,
-                         "this is no name for a subsection (" + place(number) + ")",
-                         "write 'subsection NAME' with a NAME that has no '/'");
-      path.push_back(name);
-      note_section(join_path(path), number);
-    }
+      {
+        const std::string name = single_blanks(rest);
+        if (name.empty() || name.find('/') != std::string::npos)
+          throw InputError(section,
+                           "",
+                           line,
+                           "this is no name for a subsection (" + place(number) + ")",
+                           "write 'subsection NAME' with a NAME that has no '/'");
+        path.push_back(name);
+        note_section(join_path(path), number);
+      }
     else if (take_word(rest, "end"))
-    {
-      if (!rest.empty())
-        throw InputError(section,
-                         "",
-                         line,
-                         "something follows after 'end' (" + place(number) + ")",
-                         "write 'end' on a line of its own");
-      if (path.empty())
-        throw InputError("",
-                         "",
-                         line,
-                         "no subsection is open that this could close (" + place(number) + ")",
-                         "remove this 'end' or look for one too many before it");
-      path.pop_back();
-    }
+      {
+        if (!rest.empty())
+          throw InputError(section,
+                           "",
+                           line,
+                           "something follows after 'end' (" + place(number) + ")",
+                           "write 'end' on a line of its own");
+        if (path.empty())
+          throw InputError("",
+                           "",
+                           line,
+                           "no subsection is open that this could close (" + place(number) + ")",
+                           "remove this 'end' or look for one too many before it");
+        path.pop_back();
+      }
     else if (take_word(rest, "set"))
-    {
-      const std::size_t equals = rest.find('=');
-      const std::string key    = single_blanks(rest.substr(0, equals));
-      if (equals == std::string::npos || key.empty())
-        throw InputError(section,
-                         "",
-                         line,
-                         "this line cannot be read (" + place(number) + ")",
-                         "write 'set KEY = VALUE'");
-      if (const SceneEntry *other = find(section, key))
-        throw InputError(section,
-                         key,
-                         trim(rest.substr(equals + 1)),
-                         "this key is set twice, in " + place(other->line) + " and " +
-                           place(number),
-                         "keep one of them");
-      all_entries.push_back({section, key, trim(rest.substr(equals + 1)), number});
-    }
+      {
+        const std::size_t equals = rest.find('=');
+        const std::string key    = single_blanks(rest.substr(0, equals));
+        if (equals == std::string::npos || key.empty())
+          throw InputError(section,
+                           "",
+                           line,
+                           "this line cannot be read (" + place(number) + ")",
+                           "write 'set KEY = VALUE'");
+        if (const SceneEntry *other = find(section, key))
+          throw InputError(section,
+                           key,
+                           trim(rest.substr(equals + 1)),
+                           "this key is set twice, in " + place(other->line) + " and " +
+                             place(number),
+                           "keep one of them");
+        all_entries.push_back({section, key, trim(rest.substr(equals + 1)), number});
+      }
     else if (take_word(rest, "include"))
       throw InputError(section,
                        "",
@@ -244,16 +257,17 @@ namespace Touchstone
 
 
 
-  void SceneText::read_override(const std::string &text)
+  void
+  SceneText::read_override(const std::string &text)
   {
     const std::size_t        equals = text.find('=');
     std::vector<std::string> path   = split_path(text.substr(0, equals));
     bool is_bad = equals == std::string::npos || path.empty() || text[equals - 1] == '/';
     for (std::string &part : path)
-    {
-      part   = single_blanks(part);
-      is_bad = is_bad || part.empty();
-    }
+      {
+        part   = single_blanks(part);
+        is_bad = is_bad || part.empty();
+      }
     if (is_bad)
       throw InputError("command line",
                        "--set",

@@ -12,10 +12,11 @@ namespace Touchstone
 
   namespace
   {
-    void check_positive(const std::string &section,
-                        const std::string &key,
-                        const double       value,
-                        const std::string &remedy)
+    void
+    check_positive(const std::string &section,
+                   const std::string &key,
+                   const double       value,
+                   const std::string &remedy)
     {
       if (value <= 0.)
         throw InputError(
@@ -25,7 +26,8 @@ namespace Touchstone
 
 
 
-  void DiscretisationParameters::declare(ParameterHandler &prm)
+  void
+  DiscretisationParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Degree",
                       degree,
@@ -41,7 +43,8 @@ namespace Touchstone
 
 
 
-  void DiscretisationParameters::check(const std::string &section) const
+  void
+  DiscretisationParameters::check(const std::string &section) const
   {
     check_positive(section,
                    "Refinement factor",
@@ -51,7 +54,8 @@ namespace Touchstone
 
 
 
-  void LoadSteppingParameters::declare(ParameterHandler &prm)
+  void
+  LoadSteppingParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("End time",
                       end_time,
@@ -70,14 +74,16 @@ namespace Touchstone
 
 
 
-  void LoadSteppingParameters::check(const std::string &section) const
+  void
+  LoadSteppingParameters::check(const std::string &section) const
   {
     check_positive(section, "End time", end_time, "1 is as good as any other");
   }
 
 
 
-  void NewtonParameters::declare(ParameterHandler &prm)
+  void
+  NewtonParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Residual tolerance",
                       residual_tolerance,
@@ -97,7 +103,8 @@ namespace Touchstone
 
 
 
-  void NewtonParameters::check(const std::string &section) const
+  void
+  NewtonParameters::check(const std::string &section) const
   {
     const std::string remedy = "round-off ends at about 1e-12, 1e-9 is usual";
     check_positive(section, "Residual tolerance", residual_tolerance, remedy);
@@ -106,7 +113,8 @@ namespace Touchstone
 
 
 
-  void LinearSolverParameters::declare(ParameterHandler &prm)
+  void
+  LinearSolverParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Type",
                       type,
@@ -127,14 +135,19 @@ namespace Touchstone
 
 
 
-  void LinearSolverParameters::check(const std::string &section) const
+  void
+  LinearSolverParameters::check(const std::string &section) const
   {
-    check_positive(section, "Tolerance", tolerance, "two to four digits a Newton iteration are usual: 1e-3");
+    check_positive(section,
+                   "Tolerance",
+                   tolerance,
+                   "two to four digits a Newton iteration are usual: 1e-3");
   }
 
 
 
-  void OutputParameters::declare(ParameterHandler &prm)
+  void
+  OutputParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Directory",
                       directory,
@@ -150,12 +163,15 @@ namespace Touchstone
 
 
 
-  void OutputParameters::check(const std::string &) const
-  {}
+  void
+  OutputParameters::check(const std::string &) const
+  {
+  }
 
 
 
-  void ReferenceParameters::declare(ParameterHandler &prm)
+  void
+  ReferenceParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Type",
                       type,
@@ -175,36 +191,39 @@ namespace Touchstone
 
 
 
-  std::map<std::string, double> ReferenceParameters::numbers(const std::string &section) const
+  std::map<std::string, double>
+  ReferenceParameters::numbers(const std::string &section) const
   {
     std::map<std::string, double> result;
     for (const std::string &item : dealii::Utilities::split_string_list(values, ','))
-    {
-      const std::size_t colon = item.find(':');
-      const std::string name  = dealii::Utilities::trim(item.substr(0, colon));
-      double            value = std::nan("");
-      if (colon != std::string::npos)
-        try
-        {
-          value = dealii::Utilities::string_to_double(item.substr(colon + 1));
-        }
-        catch (const std::exception &)
-        {}
-      if (name.empty() || !std::isfinite(value) || !result.emplace(name, value).second)
-        throw InputError(section,
-                         "Values",
-                         item,
-                         result.count(name) > 0 ? "this name is given twice"
-                                                : "this is not a name with a number",
-                         "write 'name: number' with commas between them, for "
-                         "example 'radius: 10, pressure: 5'");
-    }
+      {
+        const std::size_t colon = item.find(':');
+        const std::string name  = dealii::Utilities::trim(item.substr(0, colon));
+        double            value = std::nan("");
+        if (colon != std::string::npos)
+          try
+            {
+              value = dealii::Utilities::string_to_double(item.substr(colon + 1));
+            }
+          catch (const std::exception &)
+            {
+            }
+        if (name.empty() || !std::isfinite(value) || !result.emplace(name, value).second)
+          throw InputError(section,
+                           "Values",
+                           item,
+                           result.count(name) > 0 ? "this name is given twice"
+                                                  : "this is not a name with a number",
+                           "write 'name: number' with commas between them, for "
+                           "example 'radius: 10, pressure: 5'");
+      }
     return result;
   }
 
 
 
-  void ReferenceParameters::check(const std::string &section) const
+  void
+  ReferenceParameters::check(const std::string &section) const
   {
     numbers(section);
   }

@@ -35,7 +35,9 @@ namespace Touchstone
 
 
 
-  BoundaryConditions::BoundaryConditions(const Scene &scene, const Forest &forest, const Solid &solid)
+  BoundaryConditions::BoundaryConditions(const Scene  &scene,
+                                         const Forest &forest,
+                                         const Solid  &solid)
     : solid(solid)
   {
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
@@ -58,7 +60,7 @@ namespace Touchstone
         for (const std::string &name : body.conditions)
           {
             const auto id = forest.boundary_id(b, name, section, "Boundary conditions");
-            const BoundaryParameters &condition = body.boundaries.at(name);
+            const BoundaryParameters       &condition    = body.boundaries.at(name);
             const std::array<Function, dim> displacement = {{parse(condition.displacement_x),
                                                              parse(condition.displacement_y),
                                                              parse(condition.displacement_z)}};
@@ -85,13 +87,13 @@ namespace Touchstone
                                    const std::string       &section,
                                    const std::string       &name) const
   {
-    const FE_Q<dim>        scalar_fe(1);
-    FEFaceValues<dim>      values(solid.mapping,
+    const FE_Q<dim>   scalar_fe(1);
+    FEFaceValues<dim> values(solid.mapping,
                              scalar_fe,
                              QGauss<dim - 1>(2),
                              update_normal_vectors | update_JxW_values);
-    Tensor<1, dim>         sum;
-    double                 area = 0.;
+    Tensor<1, dim>    sum;
+    double            area = 0.;
     for (const auto &cell : solid.dof_handler.get_triangulation().active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int f : cell->face_indices())
@@ -129,9 +131,9 @@ namespace Touchstone
                                    const unsigned int       body,
                                    const unsigned int       support)
   {
-    const auto                          &fe = solid.fe;
-    std::set<Index>                      seen;
-    std::vector<Index>                   dofs(fe.n_dofs_per_cell());
+    const auto        &fe = solid.fe;
+    std::set<Index>    seen;
+    std::vector<Index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
@@ -188,7 +190,7 @@ namespace Touchstone
     force = 0.;
     if (loads.empty())
       return;
-    FEFaceValues<dim> values(solid.mapping,
+    FEFaceValues<dim>  values(solid.mapping,
                              solid.fe,
                              QGauss<dim - 1>(solid.fe.degree + 2),
                              update_values | update_normal_vectors | update_JxW_values |
@@ -210,8 +212,8 @@ namespace Touchstone
                 cell->get_dof_indices(dofs);
                 for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                   {
-                    const Point<dim> x        = values.quadrature_point(q);
-                    Tensor<1, dim>   traction = -evaluate(load.pressure, x) * values.normal_vector(q);
+                    const Point<dim> x      = values.quadrature_point(q);
+                    Tensor<1, dim> traction = -evaluate(load.pressure, x) * values.normal_vector(q);
                     for (unsigned int d = 0; d < dim; ++d)
                       traction[d] += evaluate(load.traction[d], x);
                     for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -232,7 +234,7 @@ namespace Touchstone
     // Each prescribed direction takes its share of the unbalanced force of the
     // node, in the order of precedence and without what earlier directions have
     // taken: so the shares add up to the whole.
-    std::vector<Reaction>                          result = supports;
+    std::vector<Reaction>                        result = supports;
     std::map<Index, std::vector<Tensor<1, dim>>> taken;
     for (const Prescribed &p : prescribed)
       {

@@ -34,7 +34,7 @@ namespace Touchstone
   {
     for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
       {
-        const auto [component, node] = fe.system_to_component_index(i);
+        const auto [component, node]     = fe.system_to_component_index(i);
         node_dof[dim * node + component] = i;
       }
   }

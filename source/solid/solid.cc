@@ -6,7 +6,6 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <Epetra_CrsMatrix.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -185,11 +184,10 @@ namespace Touchstone
 
 
   void
-  Solid::for_each_stress(const Vector &u,
-                         const std::function<void(unsigned int,
-                                                  const Point<dim> &,
-                                                  const SymmetricTensor<2, dim> &,
-                                                  double)> &visit) const
+  Solid::for_each_stress(
+    const Vector &u,
+    const std::function<
+      void(unsigned int, const Point<dim> &, const SymmetricTensor<2, dim> &, double)> &visit) const
   {
     std::vector<std::unique_ptr<ElementKernel>> kernels;
     for (const BodyParameters &body : scene.bodies)
@@ -229,7 +227,9 @@ namespace Touchstone
                     [&](const unsigned int,
                         const Point<dim> &,
                         const SymmetricTensor<2, dim> &stress,
-                        const double) { result[cells[counter++ / n_points]] += stress / n_points; });
+                        const double) {
+                      result[cells[counter++ / n_points]] += stress / n_points;
+                    });
     return result;
   }
 } // namespace Touchstone

@@ -27,7 +27,8 @@ namespace Touchstone
   public:
     explicit LinearSolver(const LinearSolverParameters &parameters)
       : parameters(parameters)
-    {}
+    {
+    }
 
     virtual ~LinearSolver() = default;
 
@@ -41,9 +42,7 @@ namespace Touchstone
      *         SingularSystem if the matrix turns out singular.
      */
     void
-    solve(const CondensedSystem    &system,
-          const Epetra_MultiVector &modes,
-          Epetra_Vector            &solution);
+    solve(const CondensedSystem &system, const Epetra_MultiVector &modes, Epetra_Vector &solution);
 
     const LinearSolverCounts &
     counts() const

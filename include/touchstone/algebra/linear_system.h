@@ -9,7 +9,6 @@
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
-
 #include <memory>
 #include <vector>
 

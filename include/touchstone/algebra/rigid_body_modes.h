@@ -7,7 +7,6 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <Epetra_MultiVector.h>
-
 #include <set>
 #include <string>
 #include <vector>

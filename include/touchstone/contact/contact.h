@@ -93,7 +93,7 @@ namespace Touchstone
       unsigned int                 slave_body = 0, master_body = 0;
       /** Stiffness scale: Young's modulus of the slave body. */
       double modulus = 1.;
-      bool   tied = false;
+      bool   tied    = false;
       /** Pairing of the reference state, kept for small sliding and tied. */
       bool                    small = false;
       std::vector<ContactRow> reference;
@@ -104,7 +104,7 @@ namespace Touchstone
     std::vector<Pair>                    pairs;
     std::vector<std::vector<ContactRow>> committed;
     /** Displacement with the ghosts that the surfaces need. */
-    Vector       ghosted;
+    Vector ghosted;
     /** The same for the stencils of reference pairings. */
     Vector       stencil_values;
     unsigned int searches = 0;

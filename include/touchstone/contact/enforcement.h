@@ -46,7 +46,8 @@ namespace Touchstone
      * before convergence is judged by the gaps. */
     virtual void
     balanced(Contact &)
-    {}
+    {
+    }
 
     /** @brief Force that the round-off of positions of magnitude @p length leads
      * to: the residual cannot fall below it. Of this rank's rows, squared. */

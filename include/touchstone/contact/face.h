@@ -80,9 +80,7 @@ namespace Touchstone
    * Without, it is sum N_m (X_m + u_m).
    */
   FacePoint
-  evaluate(const Face                  &face,
-           const AnalyticSurface       *exact,
-           const std::array<double, 2> &xi);
+  evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi);
 
   /** @brief Result of a closest-point projection. */
   struct Projection

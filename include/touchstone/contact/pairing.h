@@ -32,7 +32,8 @@ namespace Touchstone
   public:
     explicit Pairing(const PairingInput &input)
       : input(input)
-    {}
+    {
+    }
 
     virtual ~Pairing() = default;
 

@@ -22,9 +22,9 @@ namespace Touchstone
     dealii::Tensor<1, dim> normal;
     double                 gap;
     /** Tributary area. */
-    double                 area;
+    double area;
     /** Normal force divided by tributary area. */
-    double                 pressure;
+    double pressure;
     /** Contact force divided by tributary area. */
     dealii::Tensor<1, dim> traction;
     /** Accumulated tangential slip, length. */
@@ -49,7 +49,7 @@ namespace Touchstone
     /** Moment of that force about the origin of the reference frame. */
     dealii::Tensor<1, dim> moment;
     /** Tributary area of the nodes in contact. */
-    double area = 0.;
+    double area         = 0.;
     double max_pressure = 0.;
     /** Largest penetration, >= 0, length. */
     double       max_penetration = 0.;

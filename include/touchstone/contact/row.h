@@ -78,7 +78,7 @@ namespace Touchstone
     /** Contact force on the slave node, force: lambda_n n + t_T. */
     dealii::Tensor<1, dim> force;
     /** Normal contact force, >= 0 in compression. */
-    double lambda = 0.;
+    double        lambda = 0.;
     ContactStatus status = ContactStatus::no_partner;
 
     bool

@@ -77,7 +77,8 @@ namespace Touchstone
 
     explicit Newton(const NewtonParameters &parameters)
       : parameters(parameters)
-    {}
+    {
+    }
 
     /** @return the number of linear solves.
      * @throws NewtonFailure, ActiveSetCycle, and what the problem throws. */

@@ -48,19 +48,19 @@ namespace Touchstone
     }
 
   private:
-    const Scene         &scene;
-    const MPI_Comm       communicator;
-    dealii::Timer        wall;
-    dealii::TimerOutput  timer;
-    OutputFolder         folder;
-    Log                  log;
-    Forest               forest;
-    Solid                solid;
-    StaticProblem        problem;
-    Progress             progress;
-    Statistics           statistics;
-    VolumeOutput         volume_output;
-    ContactOutput        contact_output;
+    const Scene                       &scene;
+    const MPI_Comm                     communicator;
+    dealii::Timer                      wall;
+    dealii::TimerOutput                timer;
+    OutputFolder                       folder;
+    Log                                log;
+    Forest                             forest;
+    Solid                              solid;
+    StaticProblem                      problem;
+    Progress                           progress;
+    Statistics                         statistics;
+    VolumeOutput                       volume_output;
+    ContactOutput                      contact_output;
     std::shared_ptr<ReferenceSolution> reference;
     RunSummary                         summary;
     std::vector<std::string>           comparison_lines;
@@ -70,7 +70,11 @@ namespace Touchstone
     unsigned int
     solve_step(double time);
     void
-    record_step(unsigned int step, double time, double size, unsigned int newton, unsigned int cuts);
+    record_step(unsigned int step,
+                double       time,
+                double       size,
+                unsigned int newton,
+                unsigned int cuts);
     void
     write_pictures(unsigned int step, double time);
     void

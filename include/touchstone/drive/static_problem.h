@@ -20,7 +20,10 @@ namespace Touchstone
   class StaticProblem : public NonlinearProblem
   {
   public:
-    StaticProblem(const Scene &scene, const Forest &forest, Solid &solid, dealii::TimerOutput &timer);
+    StaticProblem(const Scene         &scene,
+                  const Forest        &forest,
+                  Solid               &solid,
+                  dealii::TimerOutput &timer);
 
     /** @brief Look at the bodies as they are placed. @return lines on gaps and
      * overlaps of the contact pairs. */
@@ -92,9 +95,9 @@ namespace Touchstone
     std::string
     suspicion() const
     {
-      return stabilised.empty() ?
-               "" :
-               "; held by contact alone, perhaps against no resistance: " + stabilised;
+      return stabilised.empty()
+               ? ""
+               : "; held by contact alone, perhaps against no resistance: " + stabilised;
     }
 
     /** @brief What happened in the present step that the user should know: rows
@@ -103,14 +106,14 @@ namespace Touchstone
     remarks() const;
 
   private:
-    const Scene                  &scene;
-    Solid                        &solid;
-    dealii::TimerOutput          &timer;
-    BoundaryConditions            boundary_conditions;
-    Contact                       contact;
-    std::shared_ptr<Enforcement>  enforcement;
-    std::shared_ptr<LinearSolver> solver;
-    std::unique_ptr<RigidBodyModes> modes;
+    const Scene                      &scene;
+    Solid                            &solid;
+    dealii::TimerOutput              &timer;
+    BoundaryConditions                boundary_conditions;
+    Contact                           contact;
+    std::shared_ptr<Enforcement>      enforcement;
+    std::shared_ptr<LinearSolver>     solver;
+    std::unique_ptr<RigidBodyModes>   modes;
     dealii::AffineConstraints<double> hanging;
 
     double                           time = 0.;

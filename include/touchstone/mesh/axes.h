@@ -20,14 +20,17 @@ namespace Touchstone
     Axes(const std::string &name, const dealii::Point<3> &origin);
 
     /** @brief The direction of the axis. */
-    dealii::Tensor<1, 3> direction() const;
+    dealii::Tensor<1, 3>
+    direction() const;
 
     /** @brief The point with these coordinates in the system. */
-    dealii::Point<3> point(double first, double second, double along) const;
+    dealii::Point<3>
+    point(double first, double second, double along) const;
 
     /** @brief The same in cylindrical coordinates; the angle in degrees. Exactly
      * on the coordinate planes for multiples of 90 degrees. */
-    dealii::Point<3> polar(double radius, double angle, double along) const;
+    dealii::Point<3>
+    polar(double radius, double angle, double along) const;
 
   private:
     const unsigned int     axis;

@@ -16,14 +16,16 @@
 namespace Touchstone
 {
   /** @brief Number of cells @p n times @p factor, rounded, at least one. */
-  unsigned int scaled_cells(unsigned int n, double factor);
+  unsigned int
+  scaled_cells(unsigned int n, double factor);
 
   /**
    * @brief The @p n + 1 positions from @p lower to @p upper whose intervals form
    * a geometric sequence.
    * @param ratio Length of the last interval over that of the first.
    */
-  std::vector<double> graded_positions(double lower, double upper, unsigned int n, double ratio);
+  std::vector<double>
+  graded_positions(double lower, double upper, unsigned int n, double ratio);
 
   /**
    * @brief A block of cells in rows, columns and layers.
@@ -34,7 +36,8 @@ namespace Touchstone
    * @param position Position of vertex i, j, k.
    * @param ids      Boundary ids of the lower and upper side of each direction.
    */
-  BodyMesh make_block(
+  BodyMesh
+  make_block(
     const std::array<unsigned int, 3>                                               &n,
     bool                                                                             closed,
     const std::function<dealii::Point<3>(unsigned int, unsigned int, unsigned int)> &position,
@@ -47,13 +50,15 @@ namespace Touchstone
    * @brief The faces that belong to one cell only.
    * @throws std::runtime_error if a face belongs to more than two cells.
    */
-  std::vector<FaceVertices> boundary_faces(const std::vector<dealii::CellData<3>> &cells);
+  std::vector<FaceVertices>
+  boundary_faces(const std::vector<dealii::CellData<3>> &cells);
 
   /**
    * @brief Append the boundary faces to mesh.subcells.
    * @param classify Boundary id and manifold id of the face with these vertices.
    */
-  void add_boundary_faces(
+  void
+  add_boundary_faces(
     BodyMesh                 &mesh,
     const std::function<std::pair<dealii::types::boundary_id, dealii::types::manifold_id>(
       const FaceVertices &)> &classify);
@@ -68,11 +73,13 @@ namespace Touchstone
   };
 
   /** @brief Count the cells that are not positive at each corner. */
-  Orientation orientation(const BodyMesh &mesh);
+  Orientation
+  orientation(const BodyMesh &mesh);
 
   /** @brief Give @p triangulation the mesh with its boundary ids and manifolds,
    * which it also passes on to the edges. */
-  void create_triangulation(const BodyMesh &mesh, dealii::Triangulation<3> &triangulation);
+  void
+  create_triangulation(const BodyMesh &mesh, dealii::Triangulation<3> &triangulation);
 } // namespace Touchstone
 
 #endif

@@ -29,7 +29,8 @@ namespace Touchstone
    * @return Surfaces by the name before the colon.
    * @throws std::runtime_error with a sentence that says what is wrong.
    */
-  std::map<std::string, ExactSurface> parse_exact_surfaces(const std::string &text);
+  std::map<std::string, ExactSurface>
+  parse_exact_surfaces(const std::string &text);
 } // namespace Touchstone
 
 #endif

@@ -44,9 +44,8 @@ namespace Touchstone
 
   private:
     /** Boundary names of each body, with ids that are unique in the forest. */
-    std::vector<std::map<std::string, dealii::types::boundary_id>> names;
-    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>>
-      surfaces;
+    std::vector<std::map<std::string, dealii::types::boundary_id>>               names;
+    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
   };
 } // namespace Touchstone
 

@@ -28,11 +28,9 @@ namespace Touchstone
     /** Names of boundary ids; a boundary can also be called by its number. */
     std::map<std::string, dealii::types::boundary_id> boundary_names;
     /** Manifolds of cells and faces for refinement and curved mappings. */
-    std::map<dealii::types::manifold_id, std::shared_ptr<dealii::Manifold<3>>>
-      manifolds;
+    std::map<dealii::types::manifold_id, std::shared_ptr<dealii::Manifold<3>>> manifolds;
     /** Exact shape of curved boundaries, for contact. */
-    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>>
-      surfaces;
+    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
   };
 
   /**

@@ -38,23 +38,28 @@ namespace Touchstone
 
     /** @brief Add a hexahedron with its vertices in the order of Gmsh, Abaqus
      * and VTK: around the bottom, then around the top. */
-    void add_cell(const std::vector<unsigned int> &vertices);
+    void
+    add_cell(const std::vector<unsigned int> &vertices);
 
     /** @brief The group with this number, or a new one. */
-    static Group &group(std::vector<Group> &groups, unsigned int number);
+    static Group &
+    group(std::vector<Group> &groups, unsigned int number);
   };
 
   /** @brief Read Gmsh .msh, version 2.x or 4.1, ASCII.
    * @throws std::runtime_error with a sentence that says what is wrong. */
-  MeshFile read_gmsh(std::istream &in);
+  MeshFile
+  read_gmsh(std::istream &in);
 
   /** @brief Read an Abaqus .inp with C3D8 elements, ELSETs and SURFACEs.
    * @throws std::runtime_error */
-  MeshFile read_abaqus(std::istream &in);
+  MeshFile
+  read_abaqus(std::istream &in);
 
   /** @brief Read a legacy VTK file, ASCII, with an unstructured grid.
    * @throws std::runtime_error */
-  MeshFile read_vtk(std::istream &in);
+  MeshFile
+  read_vtk(std::istream &in);
 } // namespace Touchstone
 
 #endif

@@ -20,8 +20,10 @@ namespace Touchstone
     /** Poisson's ratio, -1 < nu < 0.5. */
     double poisson_ratio = 0.3;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /**
@@ -38,9 +40,11 @@ namespace Touchstone
     /** Pressure against the outward normal, force per reference area. */
     std::string pressure;
 
-    void declare(dealii::ParameterHandler &prm);
+    void
+    declare(dealii::ParameterHandler &prm);
     /** Every expression parses; a component is not both moved and loaded. */
-    void check(const std::string &section) const;
+    void
+    check(const std::string &section) const;
   };
 
   /** @brief How the cells of a body interpolate strain. */
@@ -73,17 +77,21 @@ namespace Touchstone
     std::map<std::string, BoundaryParameters> boundaries;
 
     /** @brief "Body NAME". */
-    std::string section() const;
-    ElementType element() const;
+    std::string
+    section() const;
+    ElementType
+    element() const;
 
     /**
      * @brief Declare all entries, those of the geometry included; @p conditions
      * must be known before, for it names subsections.
      * @param geometry_type Name under which the geometry is registered.
      */
-    void declare(dealii::ParameterHandler &prm, const std::string &geometry_type);
+    void
+    declare(dealii::ParameterHandler &prm, const std::string &geometry_type);
     /** @param degree Polynomial degree of the discretisation. */
-    void check(unsigned int degree) const;
+    void
+    check(unsigned int degree) const;
   };
 } // namespace Touchstone
 

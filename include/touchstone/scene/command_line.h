@@ -25,15 +25,18 @@ namespace Touchstone
      * @throws InputError for options that are unknown or lack their value, and
      * if there is not exactly one scene file (none with help or version).
      */
-    static CommandLine parse(int argc, const char *const *argv);
+    static CommandLine
+    parse(int argc, const char *const *argv);
 
     /** @brief The text of --help. */
-    static std::string usage();
+    static std::string
+    usage();
   };
 
   /** @brief The contents of a scene file.
    * @throws InputError if it cannot be read, is empty or is not text. */
-  std::string read_scene_file(const std::string &name);
+  std::string
+  read_scene_file(const std::string &name);
 } // namespace Touchstone
 
 #endif

@@ -27,10 +27,13 @@ namespace Touchstone
     std::string motion_x = "0", motion_y = "0", motion_z = "0";
 
     /** @brief "Obstacle NAME". */
-    std::string section() const;
+    std::string
+    section() const;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /** @brief Section "Contact pair NAME". */
@@ -61,10 +64,13 @@ namespace Touchstone
     double edge_tolerance = 0.01;
 
     /** @brief "Contact pair NAME". */
-    std::string section() const;
+    std::string
+    section() const;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /** @brief Section "Contact": how all pairs of the scene are enforced. */
@@ -81,8 +87,10 @@ namespace Touchstone
     std::string augmentation = "merged";
 
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 } // namespace Touchstone
 

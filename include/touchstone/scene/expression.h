@@ -11,10 +11,11 @@ namespace Touchstone
    * @param variables "x,y,z,t" or a part of it; the constant pi is also known.
    * @throws InputError in the name of @p section and @p key.
    */
-  void check_expression(const std::string &section,
-                        const std::string &key,
-                        const std::string &expression,
-                        const std::string &variables = "x,y,z,t");
+  void
+  check_expression(const std::string &section,
+                   const std::string &key,
+                   const std::string &expression,
+                   const std::string &variables = "x,y,z,t");
 } // namespace Touchstone
 
 #endif

@@ -47,28 +47,36 @@ namespace Touchstone
           const std::string              &file_name,
           const std::vector<std::string> &overrides);
 
-    Scene(const Scene &)            = delete;
-    Scene &operator=(const Scene &) = delete;
+    Scene(const Scene &) = delete;
+    Scene &
+    operator=(const Scene &) = delete;
 
     /** @brief All parameters with their defaults and documentation, in a form
      * that can be read back. */
-    void print(std::ostream &out) const;
+    void
+    print(std::ostream &out) const;
 
     /** @brief Number of the body called @p name. */
-    unsigned int body_index(const std::string &name) const;
+    unsigned int
+    body_index(const std::string &name) const;
 
   private:
     dealii::ParameterHandler prm;
 
     /** Make the bodies, obstacles and pairs that the lists name. */
-    void read_lists(const SceneText &text);
+    void
+    read_lists(const SceneText &text);
     /** Bind every entry to its member. */
-    void declare(const SceneText &text);
+    void
+    declare(const SceneText &text);
     /** Replace what stands for an automatic choice. */
-    void resolve(const SceneText &text, const std::string &file_name);
+    void
+    resolve(const SceneText &text, const std::string &file_name);
     /** Each section, then the rules across sections. */
-    void check() const;
-    void check_pair(const ContactPairParameters &pair) const;
+    void
+    check() const;
+    void
+    check_pair(const ContactPairParameters &pair) const;
   };
 } // namespace Touchstone
 

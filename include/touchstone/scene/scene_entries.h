@@ -15,7 +15,8 @@ namespace Touchstone
    * nearest that is), for a value that its pattern refuses, and for a required
    * key that is not set.
    */
-  void set_entries(const SceneText &text, dealii::ParameterHandler &prm);
+  void
+  set_entries(const SceneText &text, dealii::ParameterHandler &prm);
 } // namespace Touchstone
 
 #endif

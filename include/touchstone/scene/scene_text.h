@@ -36,39 +36,50 @@ namespace Touchstone
               const std::vector<std::string> &overrides = {});
 
     /** @brief In the order of the file, then the overrides. */
-    const std::vector<SceneEntry> &entries() const;
+    const std::vector<SceneEntry> &
+    entries() const;
 
     /** @brief The subsections that occur, each with its (first) line. */
-    const std::map<std::string, unsigned int> &sections() const;
+    const std::map<std::string, unsigned int> &
+    sections() const;
 
     /** @brief The value that counts, or @p otherwise where nothing is set. */
     std::string
     value(const std::string &section, const std::string &key, const std::string &otherwise) const;
 
     /** @brief Whether a value is given in the file or on the command line. */
-    bool is_set(const std::string &section, const std::string &key) const;
+    bool
+    is_set(const std::string &section, const std::string &key) const;
 
     /** @brief "line 12 of x.prm" or "command line". */
-    std::string place(unsigned int line) const;
+    std::string
+    place(unsigned int line) const;
 
   private:
     const std::string                   file_name;
     std::vector<SceneEntry>             all_entries;
     std::map<std::string, unsigned int> all_sections;
 
-    void read_file(const std::string &text);
-    void read_line(const std::string &line, unsigned int number, std::vector<std::string> &path);
-    void read_override(const std::string &text);
+    void
+    read_file(const std::string &text);
+    void
+    read_line(const std::string &line, unsigned int number, std::vector<std::string> &path);
+    void
+    read_override(const std::string &text);
     /** Also the subsections around it occur. */
-    void              note_section(const std::string &section, unsigned int line);
-    const SceneEntry *find(const std::string &section, const std::string &key) const;
+    void
+    note_section(const std::string &section, unsigned int line);
+    const SceneEntry *
+    find(const std::string &section, const std::string &key) const;
   };
 
   /** @brief "A/B" from its parts. */
-  std::string join_path(const std::vector<std::string> &parts);
+  std::string
+  join_path(const std::vector<std::string> &parts);
 
   /** @brief The parts of "A/B". */
-  std::vector<std::string> split_path(const std::string &section);
+  std::vector<std::string>
+  split_path(const std::string &section);
 } // namespace Touchstone
 
 #endif

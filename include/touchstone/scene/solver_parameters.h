@@ -19,8 +19,10 @@ namespace Touchstone
      * files accept powers of two only. */
     double refinement_factor = 1.;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /** @brief Section "Load stepping". */
@@ -32,8 +34,10 @@ namespace Touchstone
     /** A step that does not converge is halved at most this many times. */
     unsigned int maximum_cuts = 8;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /** @brief Section "Newton": the semismooth Newton method of a step. */
@@ -45,8 +49,10 @@ namespace Touchstone
     double       gap_tolerance      = 1e-8;
     unsigned int maximum_iterations = 40;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /** @brief Section "Linear solver". */
@@ -59,8 +65,10 @@ namespace Touchstone
     double       tolerance          = 1e-3;
     unsigned int maximum_iterations = 2000;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /** @brief Section "Output". */
@@ -71,8 +79,10 @@ namespace Touchstone
     /** Write solution and contact VTU files every so many steps; 0: never. */
     unsigned int vtu_interval = 1;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 
   /**
@@ -90,10 +100,13 @@ namespace Touchstone
     std::string values;
 
     /** @brief The named numbers. @throws InputError in the name of @p section. */
-    std::map<std::string, double> numbers(const std::string &section) const;
+    std::map<std::string, double>
+    numbers(const std::string &section) const;
 
-    void declare(dealii::ParameterHandler &prm);
-    void check(const std::string &section) const;
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
   };
 } // namespace Touchstone
 

@@ -8,13 +8,16 @@ namespace Touchstone
 {
   /** @brief The candidate that @p word was probably meant to be, by the number
    * of letters to change; empty if none is near. Case does not count. */
-  std::string closest(const std::string &word, const std::vector<std::string> &candidates);
+  std::string
+  closest(const std::string &word, const std::vector<std::string> &candidates);
 
   /** @brief ", did you mean 'X'?" for the closest candidate, or nothing. */
-  std::string did_you_mean(const std::string &word, const std::vector<std::string> &candidates);
+  std::string
+  did_you_mean(const std::string &word, const std::vector<std::string> &candidates);
 
   /** @brief The names in quotation marks and with commas: "'a', 'b', 'c'". */
-  std::string quoted_list(const std::vector<std::string> &names);
+  std::string
+  quoted_list(const std::vector<std::string> &names);
 } // namespace Touchstone
 
 #endif

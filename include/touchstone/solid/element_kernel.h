@@ -4,8 +4,8 @@
 #include <touchstone/scene/body_parameters.h>
 #include <touchstone/types.h>
 
-#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
@@ -97,11 +97,11 @@ namespace Touchstone
     const double        lambda, mu;
     dealii::QGauss<dim> quadrature;
     /** A scalar copy of the element: all components have the same shapes. */
-    const dealii::FE_Q<dim>                scalar_fe;
-    dealii::FEValues<dim>                  values;
-    dealii::FEValues<dim>                  centre;
-    std::vector<unsigned int>              node_dof;
-    const unsigned int                     n_nodes, n_modes, n_points;
+    const dealii::FE_Q<dim>   scalar_fe;
+    dealii::FEValues<dim>     values;
+    dealii::FEValues<dim>     centre;
+    std::vector<unsigned int> node_dof;
+    const unsigned int        n_nodes, n_modes, n_points;
     /** Gradients of shapes and incompatible modes, [point][shape]. */
     std::vector<std::vector<dealii::Tensor<1, dim>>> gradients;
     std::vector<dealii::Tensor<1, dim>>              mean_gradients;

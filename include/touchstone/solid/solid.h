@@ -25,13 +25,13 @@ namespace Touchstone
   public:
     Solid(const Scene &scene, const Forest &forest, MPI_Comm communicator);
 
-    const dealii::FESystem<dim>  fe;
-    const dealii::MappingQ<dim>  mapping;
-    dealii::DoFHandler<dim>      dof_handler;
-    dealii::IndexSet             owned;
+    const dealii::FESystem<dim> fe;
+    const dealii::MappingQ<dim> mapping;
+    dealii::DoFHandler<dim>     dof_handler;
+    dealii::IndexSet            owned;
     /** Owned unknowns and those of ghost cells. */
-    dealii::IndexSet             relevant;
-    const MPI_Comm               communicator;
+    dealii::IndexSet relevant;
+    const MPI_Comm   communicator;
 
     /** @brief Assemble the stiffness of all bodies; linear bodies need it once. */
     void
@@ -56,12 +56,11 @@ namespace Touchstone
     /** @brief Visit the quadrature points of the owned cells with body number,
      * reference position, stress and volume. @p u has ghosts. */
     void
-    for_each_stress(
-      const Vector &u,
-      const std::function<void(unsigned int                             body,
-                               const dealii::Point<dim>                &x,
-                               const dealii::SymmetricTensor<2, dim>   &stress,
-                               double volume)> &visit) const;
+    for_each_stress(const Vector                             &u,
+                    const std::function<void(unsigned int                           body,
+                                             const dealii::Point<dim>              &x,
+                                             const dealii::SymmetricTensor<2, dim> &stress,
+                                             double volume)> &visit) const;
 
     /** @brief Stress averaged per owned cell (in the order of active cell
      * indices, zero elsewhere), force per area. @p u has ghosts. */
