@@ -171,6 +171,8 @@ namespace Touchstone
   std::optional<ContactPartner>
   Search::find(const Point<dim> &x, const Tensor<1, dim> &slave_normal, const bool in_contact) const
   {
+    if (faces.empty())
+      return {};
     double      best_distance = reach * reach;
     const Face *best          = nullptr;
     Projection  best_projection;
