@@ -14,7 +14,6 @@ namespace Touchstone
     ++count.solves;
     double rhs_norm = 0.;
     system.rhs->Norm2(&rhs_norm);
-    residual = 0.;
     solution.PutScalar(0.);
     if (rhs_norm == 0.)
       return;
@@ -25,6 +24,7 @@ namespace Touchstone
     Epetra_Vector rest(system.rhs->Map());
     system.matrix->Apply(solution, rest);
     rest.Update(1., *system.rhs, -1.);
+    double residual = 0.;
     rest.Norm2(&residual);
     residual /= rhs_norm;
     // A direct solver cannot do better than round-off allows, an iterative one

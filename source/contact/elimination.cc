@@ -19,12 +19,6 @@ namespace Touchstone
       {
       }
 
-      bool
-      has_multipliers() const override
-      {
-        return false;
-      }
-
       void
       recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override
       {

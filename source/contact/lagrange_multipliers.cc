@@ -17,12 +17,6 @@ namespace Touchstone
       {
       }
 
-      bool
-      has_multipliers() const override
-      {
-        return true;
-      }
-
       void
       recover(Contact &contact, const Vector &, const ConstraintGraph &) override
       {

@@ -25,12 +25,6 @@ namespace Touchstone
       {
       }
 
-      bool
-      has_multipliers() const override
-      {
-        return false;
-      }
-
       void
       recover(Contact &contact, const Vector &, const ConstraintGraph &) override
       {

@@ -50,13 +50,6 @@ namespace Touchstone
       return count;
     }
 
-    /** @brief True relative residual of the last solve. */
-    double
-    last_residual() const
-    {
-      return residual;
-    }
-
   protected:
     const LinearSolverParameters parameters;
     LinearSolverCounts           count;
@@ -65,9 +58,6 @@ namespace Touchstone
     do_solve(const CondensedSystem    &system,
              const Epetra_MultiVector &modes,
              Epetra_Vector            &solution) = 0;
-
-  private:
-    double residual = 0.;
   };
 
   using LinearSolverRegistry = Registry<LinearSolver, const LinearSolverParameters &>;

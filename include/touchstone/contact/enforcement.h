@@ -23,10 +23,6 @@ namespace Touchstone
   public:
     virtual ~Enforcement() = default;
 
-    /** @brief Whether the system becomes indefinite by multipliers. */
-    virtual bool
-    has_multipliers() const = 0;
-
     /**
      * @brief Bring the contact forces of the rows up to date before they are
      * judged.

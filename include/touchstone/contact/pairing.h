@@ -48,6 +48,18 @@ namespace Touchstone
     virtual void
     update(const Vector &u, double time, std::vector<ContactRow> &rows) = 0;
 
+    /**
+     * @brief Set the derivative of the active rows, for the consistent
+     * linearisation. Called after update() with the same arguments, on all ranks.
+     *
+     * A pairing that does not implement it keeps normals and stencils constant
+     * within a Newton iteration.
+     */
+    virtual void
+    differentiate(const Vector & /*u*/, double /*time*/, std::vector<ContactRow> & /*rows*/)
+    {
+    }
+
   protected:
     const PairingInput input;
   };

@@ -6,6 +6,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <memory>
 #include <vector>
 
 namespace Touchstone
@@ -34,6 +35,23 @@ namespace Touchstone
   };
 
   /**
+   * @brief How a row changes with the positions x_a of the nodes that its geometry
+   * depends on: the slave node, its master nodes, and those that their normals
+   * and averages come from.
+   */
+  struct RowDerivative
+  {
+    /** The nodes a, each once; may be owned by any rank. */
+    std::vector<Index> nodes;
+    /** d normal / d x_a: entry [i][j] is d n_i / d x_aj, per length. */
+    std::vector<dealii::Tensor<2, dim>> normal;
+    /** d gap_vector / d x_a, no unit. */
+    std::vector<dealii::Tensor<2, dim>> gap_vector;
+    /** weights[m][a] = d w_m / d x_a, in the order of the stencil, per length. */
+    std::vector<std::vector<dealii::Tensor<1, dim>>> weights;
+  };
+
+  /**
    * @brief One slave node must not move through a weighted combination of
    * master nodes: the only thing that enforcement knows of contact.
    *
@@ -49,6 +67,9 @@ namespace Touchstone
     /** Master nodes and their weights, which sum to one; may be owned by any
      * rank. */
     std::vector<StencilEntry> stencil;
+    /** Set by Pairing::differentiate(), null while normal and stencil are taken
+     * as constant. */
+    std::shared_ptr<const RowDerivative> derivative;
     /** Unit outward normal of the master surface at the contact point. */
     dealii::Tensor<1, dim> normal;
     /** Gap vector x_s - x_contact, length. */
