@@ -27,6 +27,12 @@ namespace Touchstone
       {
       }
 
+      bool
+      symmetric_only() const override
+      {
+        return true;
+      }
+
     private:
       /** The matrix that the multigrid was made from; ML keeps a reference. */
       std::shared_ptr<Epetra_CrsMatrix>                    preconditioned_matrix;
