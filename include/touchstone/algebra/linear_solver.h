@@ -44,6 +44,13 @@ namespace Touchstone
     void
     solve(const CondensedSystem &system, const Epetra_MultiVector &modes, Epetra_Vector &solution);
 
+    /** @brief Whether it takes symmetric systems only. */
+    virtual bool
+    symmetric_only() const
+    {
+      return false;
+    }
+
     const LinearSolverCounts &
     counts() const
     {
