@@ -52,6 +52,15 @@ main()
                  cap + "set Radius = 10\nset Contact side = top\nset Part = whole");
   print_geometry("flat cap: 36", "cap", cap + "set Radius = 0\nset Contact side = top");
 
+  const std::string slice = cap + "set Shape = cylinder\nset Depth = 0.5\n";
+  print_geometry("half of a cylindrical cap: 5.77186, face 1.523463",
+                 "cap",
+                 slice + "set Radius = 10\nset Apex = 1, 2, 3\nset Part = half");
+  print_geometry("cylindrical cap, facing up: 11.543721, face 3.046927",
+                 "cap",
+                 slice + "set Radius = 10\nset Contact side = top\nset Part = whole\n" +
+                   "set Depth cells = 2");
+
   for (const auto &[type, text] : std::vector<std::pair<std::string, std::string>>{
          {"box", "set Upper corner = 1, 0, 1"},
          {"tube", "set End = -1"},
@@ -65,6 +74,10 @@ main()
          {"cap", "set Contact width = 1"},
          {"cap", "set Radius = 1"},
          {"cap", "set Radius = 1.5\nset Height = 0.3"},
+         {"cap", "set Part = half"},
+         {"cap", "set Shape = cylinder"},
+         {"cap", "set Shape = cylinder\nset Part = whole\nset Depth = 0"},
+         {"cap", "set Shape = cylinder\nset Part = whole\nset Radius = 1"},
          {"file", ""},
          {"file", "set File = x.stl"},
          {"file", "set File = x.msh\nset Exact surfaces = a: torus radius 1"},

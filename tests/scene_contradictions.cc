@@ -64,6 +64,8 @@ main()
 
   try_override("multipliers and CG",
                {"Contact/Enforcement=lagrange multipliers", "Linear solver/Type=Belos CG"});
+  try_override("multipliers and GMRES",
+               {"Contact/Enforcement=lagrange multipliers", "Linear solver/Type=Belos GMRES"});
   try_override("no refinement", {"Discretisation/Refinement factor=0"});
   try_override("no time", {"Load stepping/End time=0"});
   try_override("exact", {"Newton/Residual tolerance=0"});

@@ -4,6 +4,7 @@
 #include <BelosBlockCGSolMgr.hpp>
 #include <BelosEpetraAdapter.hpp>
 #include <BelosLinearProblem.hpp>
+#include <BelosPseudoBlockGmresSolMgr.hpp>
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_RCP.hpp>
 #include <memory>
@@ -13,24 +14,21 @@ namespace Touchstone
 {
   namespace
   {
+    using Problem = Belos::LinearProblem<double, Epetra_MultiVector, Epetra_Operator>;
+    using Manager = Belos::SolverManager<double, Epetra_MultiVector, Epetra_Operator>;
+
     /**
-     * Conjugate gradients from Belos with smoothed aggregation from ML. The
+     * A Krylov method from Belos with smoothed aggregation from ML. The
      * near-null space are the rigid-body modes of the bodies, set to zero at
      * constrained unknowns.
      * Vanek, Mandel and Brezina (1996), Computing 56.
      */
-    class BelosCg : public LinearSolver
+    class BelosSolver : public LinearSolver
     {
     public:
-      explicit BelosCg(const LinearSolverParameters &parameters)
+      explicit BelosSolver(const LinearSolverParameters &parameters)
         : LinearSolver(parameters)
       {
-      }
-
-      bool
-      symmetric_only() const override
-      {
-        return true;
       }
 
     private:
@@ -46,7 +44,7 @@ namespace Touchstone
       void
       set_up(const CondensedSystem &system, const Epetra_MultiVector &modes);
 
-      /** One run of conjugate gradients. @return iterations, -1 if it failed. */
+      /** One run of the method. @return iterations, -1 if it failed. */
       int
       iterate(const CondensedSystem &system, Epetra_Vector &solution);
 
@@ -54,17 +52,83 @@ namespace Touchstone
       do_solve(const CondensedSystem    &system,
                const Epetra_MultiVector &modes,
                Epetra_Vector            &solution) override;
+
+      /** Make the method for @p problem, with @p preconditioner where it
+       * belongs. */
+      virtual std::unique_ptr<Manager>
+      method(const Teuchos::RCP<Problem>                &problem,
+             const Teuchos::RCP<Teuchos::ParameterList> &list,
+             const Teuchos::RCP<Epetra_Operator>        &multigrid) const = 0;
+    };
+
+
+
+    /** Conjugate gradients. */
+    class BelosCg : public BelosSolver
+    {
+    public:
+      using BelosSolver::BelosSolver;
+
+      bool
+      symmetric_only() const override
+      {
+        return true;
+      }
+
+    private:
+      std::unique_ptr<Manager>
+      method(const Teuchos::RCP<Problem>                &problem,
+             const Teuchos::RCP<Teuchos::ParameterList> &list,
+             const Teuchos::RCP<Epetra_Operator>        &multigrid) const override
+      {
+        problem->setLeftPrec(multigrid);
+        problem->setProblem();
+        return std::make_unique<Belos::BlockCGSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(
+          problem, list);
+      }
+    };
+
+    /**
+     * Restarted GMRES, preconditioned from the right, so that the residual that
+     * it minimises is the true one.
+     * Saad and Schultz (1986), SIAM J. Sci. Stat. Comput. 7.
+     */
+    class BelosGmres : public BelosSolver
+    {
+    public:
+      using BelosSolver::BelosSolver;
+
+    private:
+      std::unique_ptr<Manager>
+      method(const Teuchos::RCP<Problem>                &problem,
+             const Teuchos::RCP<Teuchos::ParameterList> &list,
+             const Teuchos::RCP<Epetra_Operator>        &multigrid) const override
+      {
+        problem->setRightPrec(multigrid);
+        problem->setProblem();
+        const int basis = std::min(parameters.restart, parameters.maximum_iterations);
+        list->set("Num Blocks", basis);
+        list->set("Maximum Restarts", static_cast<int>(parameters.maximum_iterations) / basis);
+        return std::make_unique<
+          Belos::PseudoBlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(problem,
+                                                                                      list);
+      }
     };
 
     const LinearSolverRegistry::Entry<BelosCg>
-      entry("Belos CG",
-            "conjugate gradients with algebraic multigrid (ML), for symmetric "
-            "positive definite systems");
+      cg("Belos CG",
+         "conjugate gradients with algebraic multigrid (ML), for symmetric "
+         "positive definite systems");
+
+    const LinearSolverRegistry::Entry<BelosGmres>
+      gmres("Belos GMRES",
+            "restarted GMRES with algebraic multigrid (ML), for unsymmetric systems "
+            "without multipliers");
 
 
 
     void
-    BelosCg::set_up(const CondensedSystem &system, const Epetra_MultiVector &modes)
+    BelosSolver::set_up(const CondensedSystem &system, const Epetra_MultiVector &modes)
     {
       preconditioner.reset();
       constrained           = system.constrained;
@@ -100,45 +164,45 @@ namespace Touchstone
 
 
     int
-    BelosCg::iterate(const CondensedSystem &system, Epetra_Vector &solution)
+    BelosSolver::iterate(const CondensedSystem &system, Epetra_Vector &solution)
     {
-      using Problem = Belos::LinearProblem<double, Epetra_MultiVector, Epetra_Operator>;
       const auto problem =
         Teuchos::rcp(new Problem(Teuchos::rcpFromRef<Epetra_Operator>(*system.matrix),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(solution),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(*system.rhs)));
-      problem->setLeftPrec(Teuchos::rcp(
-        new Belos::EpetraPrecOp(Teuchos::rcpFromRef<Epetra_Operator>(*preconditioner))));
-      problem->setProblem();
+      const Teuchos::RCP<Epetra_Operator> multigrid = Teuchos::rcp(
+        new Belos::EpetraPrecOp(Teuchos::rcpFromRef<Epetra_Operator>(*preconditioner)));
       const auto list = Teuchos::rcp(new Teuchos::ParameterList());
       list->set("Maximum Iterations", static_cast<int>(parameters.maximum_iterations));
       list->set("Convergence Tolerance", system.tolerance);
       list->set("Verbosity", static_cast<int>(Belos::Errors));
-      Belos::BlockCGSolMgr<double, Epetra_MultiVector, Epetra_Operator> solver(problem, list);
-      bool                                                              converged = false;
+      const std::unique_ptr<Manager> solver    = method(problem, list, multigrid);
+      bool                           converged = false;
       try
         {
-          converged = solver.solve() == Belos::Converged;
+          converged = solver->solve() == Belos::Converged;
         }
       // An indefinite matrix or preconditioner shows as a failed factorisation of
       // a 1 x 1 block; Belos derives its exceptions from logic_error.
       catch (const std::logic_error &error)
         {
-          throw LinearSolverFailure(std::string("Belos CG broke down: ") + error.what());
+          throw LinearSolverFailure(parameters.type + " broke down: " + error.what());
         }
-      count.iterations += solver.getNumIters();
-      return converged ? solver.getNumIters() : -1;
+      count.iterations += solver->getNumIters();
+      return converged ? solver->getNumIters() : -1;
     }
 
 
 
     void
-    BelosCg::do_solve(const CondensedSystem    &system,
-                      const Epetra_MultiVector &modes,
-                      Epetra_Vector            &solution)
+    BelosSolver::do_solve(const CondensedSystem    &system,
+                          const Epetra_MultiVector &modes,
+                          Epetra_Vector            &solution)
     {
-      if (!system.definite || !system.symmetric)
-        throw LinearSolverFailure("Belos CG needs a symmetric positive definite system");
+      if (symmetric_only() && (!system.definite || !system.symmetric))
+        throw LinearSolverFailure(parameters.type + " needs a symmetric positive definite system");
+      if (modes.Map().NumGlobalElements() != system.matrix->NumGlobalRows())
+        throw LinearSolverFailure(parameters.type + " cannot solve a system with multipliers");
       // The preconditioner serves until the active set changes (other unknowns are
       // condensed then, and one of an earlier set cost up to six times the
       // iterations), or until it costs half as many iterations again; a set-up
@@ -156,7 +220,7 @@ namespace Touchstone
           iterations = iterate(system, solution);
         }
       if (iterations < 0)
-        throw LinearSolverFailure("Belos CG did not converge in " +
+        throw LinearSolverFailure(parameters.type + " did not converge in " +
                                   std::to_string(parameters.maximum_iterations) + " iterations");
       if (fresh_iterations == 0)
         fresh_iterations = std::max(iterations, 1);

@@ -11,19 +11,21 @@ namespace Touchstone
   {
     /**
      * @brief Coordinates of the cap: plan position and the fraction of the depth
-     * between the spherical contact face (0) and the flat far face (1).
+     * between the curved contact face (0) and the flat far face (1).
      *
-     * Averages of these keep refined and quadratic cells on the sphere and in
-     * the pattern of the graded mesh.
+     * Averages of these keep refined and quadratic cells on the sphere or cylinder
+     * and in the pattern of the graded mesh.
      */
     class CapManifold : public ChartManifold<3>
     {
     public:
       CapManifold(const Point<3> &apex,
+                  const bool      cylinder,
                   const double    radius,
                   const double    height,
                   const double    direction)
         : apex(apex)
+        , curved(cylinder ? 1 : 2)
         , radius(radius)
         , height(height)
         , direction(direction)
@@ -33,15 +35,15 @@ namespace Touchstone
       std::unique_ptr<Manifold<3>>
       clone() const override
       {
-        return std::make_unique<CapManifold>(apex, radius, height, direction);
+        return std::make_unique<CapManifold>(apex, curved == 1, radius, height, direction);
       }
 
-      /** Depth of the sphere below the apex's tangent plane. */
+      /** Depth of the contact face below the apex's tangent plane. */
       double
       sag(const double x, const double y) const
       {
         // The same as R - sqrt(R^2 - d), without its cancellation.
-        const double d = x * x + y * y;
+        const double d = curved == 1 ? x * x : x * x + y * y;
         return radius > 0. ? d / (radius + std::sqrt(radius * radius - d)) : 0.;
       }
 
@@ -68,7 +70,7 @@ namespace Touchstone
         for (unsigned int d = 0; d < 2; ++d)
           {
             gradient[d][d] = 1.;
-            if (radius > 0.)
+            if (radius > 0. && d < curved)
               gradient[2][d] = direction * (1. - chart[2]) * chart[d] / (radius - s);
           }
         gradient[2][2] = direction * (height - s);
@@ -77,13 +79,15 @@ namespace Touchstone
 
     private:
       const Point<3> apex;
-      const double   radius, height, direction;
+      /** Directions in which the face is curved: x, or x and y. */
+      const unsigned int curved;
+      const double       radius, height, direction;
     };
 
 
 
-    /** @brief A block with a spherical contact face and a mesh that is fine where
-     * the contact is. */
+    /** @brief A block with a spherical or cylindrical contact face and a mesh that
+     * is fine where the contact is. */
     class Cap : public Geometry
     {
     public:
@@ -106,11 +110,18 @@ namespace Touchstone
       };
 
       Point<3>    apex;
-      double      radius = 0., width = 1., height = 1.;
-      std::string side = "bottom", part = "quarter";
+      double      radius = 0., width = 1., height = 1., depth = 1.;
+      std::string shape = "sphere", side = "bottom", part = "quarter";
       double      fine = 0.25;
 
-      unsigned int fine_cells = 4, outer_cells = 4, fine_layers = 4, outer_layers = 4;
+      unsigned int fine_cells = 4, outer_cells = 4, fine_layers = 4, outer_layers = 4,
+                   depth_cells = 1;
+
+      bool
+      is_cylinder() const
+      {
+        return shape == "cylinder";
+      }
     };
 
 
@@ -119,9 +130,15 @@ namespace Touchstone
     Cap::declare(ParameterHandler &prm)
     {
       prm.add_parameter("Apex", apex, "Point of first contact, x, y, z; length.");
+      prm.add_parameter("Shape",
+                        shape,
+                        "The contact face is part of a sphere, or of a cylinder with its axis "
+                        "along y: then the body is a slice, which 'Symmetry = y cut, y side' "
+                        "puts into plane strain.",
+                        Patterns::Selection("sphere|cylinder"));
       prm.add_parameter("Radius",
                         radius,
-                        "Radius of the contact face, a sphere; length; 0 makes it flat.",
+                        "Radius of the contact face; length; 0 makes it flat.",
                         Patterns::Double(0.));
       prm.add_parameter("Contact side",
                         side,
@@ -130,13 +147,21 @@ namespace Touchstone
                         Patterns::Selection("bottom|top"));
       prm.add_parameter("Part",
                         part,
-                        "The quarter where x and y are not less than at the apex, or the "
-                        "whole block.",
-                        Patterns::Selection("quarter|whole"));
+                        "The quarter where x and y are not less than at the apex, for a "
+                        "cylinder the half where x is not less, or the whole block.",
+                        Patterns::Selection("quarter|half|whole"));
       prm.add_parameter("Width",
                         width,
-                        "Extent in x and y from the apex; length.",
+                        "Extent in x and y from the apex, for a cylinder in x; length.",
                         Patterns::Double(0.));
+      prm.add_parameter("Depth",
+                        depth,
+                        "Extent of a cylinder in y from the apex; length.",
+                        Patterns::Double(0.));
+      prm.add_parameter("Depth cells",
+                        depth_cells,
+                        "Cells of equal size over the depth of a cylinder.",
+                        Patterns::Integer(1));
       prm.add_parameter("Height",
                         height,
                         "Extent in z from the apex to the flat far face; length.",
@@ -175,20 +200,34 @@ namespace Touchstone
                          text(fine),
                          "it does not lie between 0 and the smaller of 'Width' and 'Height'",
                          "take about two radii of the contact area that you expect");
-      if (radius > 0. && 2. * width * width >= 0.99 * radius * radius)
+      if (part == (is_cylinder() ? "quarter" : "half"))
+        throw InputError(section,
+                         "Part",
+                         part,
+                         "a block with 'Shape = " + shape + "' has no such part",
+                         is_cylinder() ? "take half or whole" : "take quarter or whole");
+      if (is_cylinder() && !(depth > 0.))
+        throw InputError(section,
+                         "Depth",
+                         text(depth),
+                         "a cylinder needs a positive depth",
+                         "give its extent in y as a length");
+      // Of the corner of a sphere's block, or the edge of a cylinder's.
+      const double squared = (is_cylinder() ? 1. : 2.) * width * width;
+      if (radius > 0. && squared >= 0.99 * radius * radius)
         throw InputError(section,
                          "Width",
                          text(width),
-                         "the block's corner reaches beyond the sphere's equator",
-                         "take at most 0.7 times 'Radius' (" + text(radius) + ")");
-      const double sag =
-        radius > 0. ? radius - std::sqrt(radius * radius - 2. * width * width) : 0.;
+                         "the block's corner reaches beyond the equator of the contact face",
+                         std::string("take at most ") + (is_cylinder() ? "0.99" : "0.7") +
+                           " times 'Radius' (" + text(radius) + ")");
+      const double sag = radius > 0. ? radius - std::sqrt(radius * radius - squared) : 0.;
       if (height <= 1.01 * sag)
         throw InputError(section,
                          "Height",
                          text(height),
-                         "the sphere cuts the far face: at the block's corner it is " + text(sag) +
-                           " away from the apex",
+                         "the contact face cuts the far face: at the block's corner it is " +
+                           text(sag) + " away from the apex",
                          "make 'Height' larger or 'Width' smaller");
     }
 
@@ -231,15 +270,18 @@ namespace Touchstone
     BodyMesh
     Cap::create(const double factor, const std::string &, const std::string &) const
     {
-      std::vector<double> plan  = fine_then_growing(fine,
+      std::vector<double> plan = fine_then_growing(fine,
                                                    scaled_cells(fine_cells, factor),
                                                    width,
                                                    scaled_cells(outer_cells, factor));
-      std::vector<double> depth = fine_then_growing(fine,
-                                                    scaled_cells(fine_layers, factor),
-                                                    height,
-                                                    scaled_cells(outer_layers, factor));
+      std::vector<double> down = fine_then_growing(fine,
+                                                   scaled_cells(fine_layers, factor),
+                                                   height,
+                                                   scaled_cells(outer_layers, factor));
 
+      std::vector<double> across;
+      if (is_cylinder())
+        across = graded_positions(0., depth, scaled_cells(depth_cells, factor), 1.);
       const bool whole = part == "whole";
       if (whole)
         {
@@ -248,21 +290,24 @@ namespace Touchstone
             mirrored.push_back(-plan[i]);
           plan.insert(plan.begin(), mirrored.begin(), mirrored.end());
         }
+      if (!is_cylinder())
+        across = plan;
 
-      const bool top       = side == "top";
-      const auto manifold  = std::make_shared<CapManifold>(apex, radius, height, top ? -1. : 1.);
-      const unsigned int n = plan.size() - 1, layers = depth.size() - 1;
+      const bool top = side == "top";
+      const auto manifold =
+        std::make_shared<CapManifold>(apex, is_cylinder(), radius, height, top ? -1. : 1.);
+      const unsigned int n = plan.size() - 1, m = across.size() - 1, layers = down.size() - 1;
 
       BodyMesh mesh =
-        make_block({{n, n, layers}},
+        make_block({{n, m, layers}},
                    false,
                    [&](const unsigned int i, const unsigned int j, const unsigned int k) {
                      return manifold->push_forward(
-                       Point<3>(plan[i], plan[j], depth[top ? layers - k : k] / height));
+                       Point<3>(plan[i], across[j], down[top ? layers - k : k] / height));
                    },
                    {{whole ? x_side : x_cut,
                      x_side,
-                     whole ? y_side : y_cut,
+                     whole && !is_cylinder() ? y_side : y_cut,
                      y_side,
                      top ? far : contact,
                      top ? contact : far}});
@@ -272,26 +317,27 @@ namespace Touchstone
                              {"x side", x_side},
                              {"y side", y_side}};
       if (!whole)
-        {
-          mesh.boundary_names["x cut"] = x_cut;
-          mesh.boundary_names["y cut"] = y_cut;
-        }
+        mesh.boundary_names["x cut"] = x_cut;
+      if (!whole || is_cylinder())
+        mesh.boundary_names["y cut"] = y_cut;
 
       if (radius > 0.)
         {
           mesh.manifolds[0] = manifold;
           for (CellData<3> &cell : mesh.cells)
             cell.manifold_id = 0;
+          const Point<3> centre = apex + Tensor<1, 3>({0., 0., top ? -radius : radius});
           mesh.surfaces[contact] =
-            make_sphere(apex + Tensor<1, 3>({0., 0., top ? -radius : radius}), radius, true);
+            is_cylinder() ? make_cone(centre, Tensor<1, 3>({0., 1., 0.}), radius, 0., true)
+                          : make_sphere(centre, radius, true);
         }
       return mesh;
     }
 
     const GeometryRegistry::Entry<Cap>
       entry("cap",
-            "A block with a spherical or flat contact face, meshed finely around the point of "
-            "first contact, with the boundaries contact, far (opposite), x side, y side, and for "
-            "the quarter x cut, y cut.");
+            "A block with a spherical, cylindrical or flat contact face, meshed finely around the "
+            "point or line of first contact, with the boundaries contact, far (opposite), x side, "
+            "y side, and where it is cut x cut, y cut; a cylinder lies between y cut and y side.");
   } // namespace
 } // namespace Touchstone

@@ -1,3 +1,4 @@
+#include <touchstone/output/edge_fit.h>
 #include <touchstone/output/hertz.h>
 
 #include <deal.II/base/mpi.h>
@@ -105,50 +106,26 @@ namespace Touchstone
     const double a     = contact_radius(force);
     const double peak  = peak_pressure(force);
 
-    // The nodes resolve the edge of the contact no better than their distance,
-    // but p^2 falls linearly with r^2 and so tells where it vanishes: moments of
-    // the least-squares line, the profile error, and the area as a fallback.
-    enum Sum
-    {
-      weight,
-      r2,
-      r4,
-      p2,
-      r2p2,
-      error2,
-      exact2,
-      active_area,
-      n_sums
-    };
-    std::vector<double> sums(n_sums, 0.);
+    EdgeFit fit;
+    double  error2 = 0., exact2 = 0., active_area = 0.;
     for (const ContactPoint &point : points)
       {
         const double r     = distance(point, axis);
         const double p     = point.pressure;
         const double exact = r < a ? peak * std::sqrt(1. - (r / a) * (r / a)) : 0.;
-        sums[error2] += point.area * (p - exact) * (p - exact);
-        sums[exact2] += point.area * exact * exact;
+        error2 += point.area * (p - exact) * (p - exact);
+        exact2 += point.area * exact * exact;
         if (point.status < ContactStatus::slip)
           continue;
-        sums[active_area] += point.area;
+        active_area += point.area;
         if (r < 0.98 * a)
-          {
-            sums[weight] += point.area;
-            sums[r2] += point.area * r * r;
-            sums[r4] += point.area * r * r * r * r;
-            sums[p2] += point.area * p * p;
-            sums[r2p2] += point.area * r * r * p * p;
-          }
+          fit.add(point.area, r, p);
       }
-    dealii::Utilities::MPI::sum(sums, input.communicator, sums);
-
-    double fitted_radius     = std::sqrt(symmetry_factor * sums[active_area] / dealii::numbers::PI);
-    const double determinant = sums[weight] * sums[r4] - sums[r2] * sums[r2];
-    const double slope       = sums[weight] * sums[r2p2] - sums[r2] * sums[p2];
-    const double constant    = sums[r4] * sums[p2] - sums[r2] * sums[r2p2];
-    // With a single ring of nodes there is no line to be fitted.
-    if (determinant > 1e-12 * sums[weight] * sums[r4] && slope < 0. && constant > 0.)
-      fitted_radius = std::sqrt(-constant / slope);
+    error2      = dealii::Utilities::MPI::sum(error2, input.communicator);
+    exact2      = dealii::Utilities::MPI::sum(exact2, input.communicator);
+    active_area = dealii::Utilities::MPI::sum(active_area, input.communicator);
+    const double fitted_radius =
+      fit.edge(input.communicator, std::sqrt(symmetry_factor * active_area / dealii::numbers::PI));
 
     ReferenceComparison result;
     char                text[96];
@@ -158,7 +135,7 @@ namespace Touchstone
     result.add("contact_radius", "contact radius", fitted_radius, a);
     result.add("pressure_l2",
                "pressure profile",
-               sums[exact2] > 0. ? std::sqrt(sums[error2] / sums[exact2]) : std::nan(""));
+               exact2 > 0. ? std::sqrt(error2 / exact2) : std::nan(""));
     return result;
   }
 } // namespace Touchstone

@@ -56,12 +56,12 @@ namespace Touchstone
     output.check("Output");
     reference.check("Reference solution");
 
-    if (contact.enforcement == "lagrange multipliers" && linear_solver.type == "Belos CG")
+    if (contact.enforcement == "lagrange multipliers" && linear_solver.type.rfind("Belos", 0) == 0)
       throw InputError("Contact",
                        "Enforcement",
                        contact.enforcement,
-                       "multipliers make the system indefinite, which 'Belos CG' "
-                       "cannot solve",
+                       "multipliers make the system indefinite, which '" + linear_solver.type +
+                         "' cannot solve",
                        "set 'Contact/Enforcement = elimination' or "
                        "'Linear solver/Type = MUMPS'");
     if (contact.linearisation == "consistent" && linear_solver.type == "Belos CG")

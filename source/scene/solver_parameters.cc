@@ -118,9 +118,10 @@ namespace Touchstone
   {
     prm.add_parameter("Type",
                       type,
-                      "'MUMPS' factorises; 'Belos CG' iterates with ML multigrid, "
-                      "for large models with contact by elimination.",
-                      Patterns::Selection("MUMPS|Belos CG"));
+                      "'MUMPS' factorises; 'Belos CG' and 'Belos GMRES' iterate with ML "
+                      "multigrid, for large models without multipliers: CG takes "
+                      "symmetric systems, GMRES also unsymmetric ones.",
+                      Patterns::Selection("MUMPS|Belos CG|Belos GMRES"));
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Relative residual to which an iterative solver takes the linear "
@@ -129,7 +130,12 @@ namespace Touchstone
                       Patterns::Double(0., 1.));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
-                      "Of Belos CG in one solve.",
+                      "Of Belos CG or GMRES in one solve.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Restart",
+                      restart,
+                      "GMRES starts anew after this many iterations. It keeps one vector "
+                      "for each of them.",
                       Patterns::Integer(1));
   }
 

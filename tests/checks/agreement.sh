@@ -1,7 +1,7 @@
 #!/bin/sh
 # agreement.sh PROGRAM PROJECT FOLDER: what must be the same is the same: one rank
-# and two, elimination and multipliers (1e-8), MUMPS and Belos CG (1e-6), one load
-# step and ten, and the same scene in other units.
+# and two, elimination and multipliers (1e-8), MUMPS and Belos CG or GMRES (1e-6), one
+# load step and ten, and the same scene in other units.
 set -eu
 . "$(dirname -- "$0")/common.sh"
 tests=$source/tests
@@ -30,6 +30,12 @@ all_ways two_tubes "$source/prm/two_tubes.prm" --set "Load stepping/Steps=1" --s
 all_ways hertz "$tests/hertz_sphere.prm" --set "$sharp"
 all_ways tied "$tests/tied_non_matching.prm"
 all_ways sphere "$tests/sphere_obstacle.prm" --set "$sharp"
+
+gmres="Linear solver/Type=Belos GMRES"
+run non_matching-gmres 1 "$tests/press_fit_fine_slave.prm" --set "$sharp" --set "$gmres"
+same non_matching non_matching-gmres 1e-6
+run tied-gmres-2 2 "$tests/tied_non_matching.prm" --set "$gmres"
+same tied tied-gmres-2 1e-6
 
 # Without friction the way to the load does not count.
 run one_step 1 "$tests/sphere_obstacle.prm" --set "$sharp" --set "Load stepping/Steps=1"

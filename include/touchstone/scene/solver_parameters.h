@@ -58,12 +58,14 @@ namespace Touchstone
   /** @brief Section "Linear solver". */
   struct LinearSolverParameters
   {
-    /** "MUMPS" or "Belos CG". */
+    /** "MUMPS", "Belos CG" or "Belos GMRES". */
     std::string type = "MUMPS";
     /** Relative residual to which an iterative solver takes the system of a
      * Newton iteration (inexact Newton); no unit. */
     double       tolerance          = 1e-3;
     unsigned int maximum_iterations = 2000;
+    /** Iterations of GMRES after which it starts anew, to save memory. */
+    unsigned int restart = 100;
 
     void
     declare(dealii::ParameterHandler &prm);

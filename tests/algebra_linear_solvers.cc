@@ -1,0 +1,180 @@
+// Iterative solvers against MUMPS, on a small elastic-like system without and with
+// an unsymmetric part as friction makes it; conjugate gradients must refuse the
+// latter, and multigrid extra unknowns.
+
+#include <touchstone/algebra/linear_solver.h>
+#include <touchstone/algebra/non_convergence.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <Epetra_Map.h>
+#include <cmath>
+#include <iostream>
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  /** Nodes of a cube with three unknowns each. */
+  constexpr unsigned int side = 10, n_nodes = side * side * side, n = 3 * n_nodes;
+
+  /** Neighbours of a node, and whether they differ in the direction d. */
+  void
+  for_neighbours(const unsigned int                                            node,
+                 const std::function<void(unsigned int node, unsigned int d)> &action)
+  {
+    unsigned int stride = 1;
+    for (unsigned int d = 0; d < 3; ++d, stride *= side)
+      {
+        const unsigned int i = node / stride % side;
+        if (i > 0)
+          action(node - stride, d);
+        if (i + 1 < side)
+          action(node + stride, d);
+      }
+  }
+
+  /** A net of springs, with its lowest layer held and an upper corner coupled to
+   * its neighbours by @p friction in one triangle of the matrix only. */
+  struct System
+  {
+    Matrix                              stiffness;
+    std::unique_ptr<CondensedSystem>    condensed;
+    std::unique_ptr<Epetra_MultiVector> modes;
+
+    System(const double friction, const bool multiplier)
+    {
+      const MPI_Comm     communicator = MPI_COMM_WORLD;
+      const unsigned int rank         = Utilities::MPI::this_mpi_process(communicator);
+      const unsigned int n_ranks      = Utilities::MPI::n_mpi_processes(communicator);
+      const unsigned int begin        = n_nodes * rank / n_ranks;
+      const unsigned int end          = n_nodes * (rank + 1) / n_ranks;
+      IndexSet           owned(n);
+      owned.add_range(3 * begin, 3 * end);
+
+      DynamicSparsityPattern pattern(n, n, owned);
+      const auto             entries = [&](const auto &set) {
+        for (unsigned int node = begin; node < end; ++node)
+          for (unsigned int c = 0; c < 3; ++c)
+            {
+              set(3 * node + c, 3 * node + c, 1e-6);
+              for_neighbours(node, [&](const unsigned int other, const unsigned int d) {
+                const double k = d == c ? 3. : 1.;
+                set(3 * node + c, 3 * node + c, k);
+                set(3 * node + c, 3 * other + c, -k);
+              });
+            }
+      };
+      entries([&](const Index i, const Index j, double) { pattern.add(i, j); });
+      stiffness.reinit(owned, owned, pattern, communicator);
+      entries([&](const Index i, const Index j, const double k) { stiffness.add(i, j, k); });
+      stiffness.compress(VectorOperation::add);
+
+      LinearSystem system;
+      system.stiffness = &stiffness;
+      system.tolerance = 1e-10;
+      system.rhs.reinit(owned, communicator);
+      for (unsigned int i = 3 * begin; i < 3 * end; ++i)
+        system.rhs[i] = std::sin(1. + i);
+      system.rhs.compress(VectorOperation::insert);
+      AffineConstraints<double> constraints(complete_index_set(n));
+      for (unsigned int i = 0; i < 3 * side * side; ++i)
+        constraints.add_line(i);
+      constraints.close();
+      system.constraints.copy_from(constraints);
+      // As the tangential force mu lambda of sliding nodes: from normal to
+      // tangential unknowns and not back.
+      if (friction != 0.)
+        {
+          system.symmetric = false;
+          if (rank == 0)
+            for (unsigned int node = n_nodes - side * side; node < n_nodes; ++node)
+              for_neighbours(node, [&](const unsigned int other, unsigned int) {
+                system.terms.push_back({3 * node, 3 * other + 2, friction});
+              });
+        }
+      system.first_extra = n;
+      if (multiplier)
+        {
+          system.definite = false;
+          if (rank == 0)
+            {
+              system.n_extra   = 1;
+              system.extra_rhs = {1.};
+              system.terms.push_back({n, n - 1, 1.});
+              system.terms.push_back({n - 1, n, 1.});
+            }
+          else
+            ++system.first_extra;
+        }
+      condensed = std::make_unique<CondensedSystem>(system);
+
+      const Epetra_Map &map = static_cast<const Epetra_Map &>(stiffness.trilinos_matrix().RowMap());
+      modes                 = std::make_unique<Epetra_MultiVector>(map, 3);
+      for (int i = 0; i < modes->MyLength(); ++i)
+        (*modes)[i % 3][i] = 1.;
+    }
+  };
+
+
+
+  std::unique_ptr<Epetra_Vector>
+  solve(const std::string &type, System &system, const unsigned int restart = 100)
+  {
+    LinearSolverParameters parameters;
+    parameters.type    = type;
+    parameters.restart = restart;
+    const auto solver  = LinearSolverRegistry::make(type, parameters);
+    auto       result  = std::make_unique<Epetra_Vector>(system.condensed->matrix->RowMap());
+    solver->solve(*system.condensed, *system.modes, *result);
+    return result;
+  }
+
+
+
+  void
+  compare(const std::string &title, System &system, const std::string &type, const unsigned int m)
+  {
+    const bool root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    try
+      {
+        const auto exact = solve("MUMPS", system), result = solve(type, system, m);
+        double     size = 0., error = 0.;
+        exact->Norm2(&size);
+        result->Update(-1., *exact, 1.);
+        result->Norm2(&error);
+        if (root)
+          std::cout << title << ", " << type << ", restart " << m << ": "
+                    << (error <= 1e-7 * size ? "as MUMPS" : "differs FAILED") << std::endl;
+      }
+    catch (const LinearSolverFailure &failure)
+      {
+        if (root)
+          std::cout << title << ": " << failure.what() << std::endl;
+      }
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool                       root = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  for (const std::string type : {"MUMPS", "Belos CG", "Belos GMRES"})
+    if (root)
+      std::cout << type
+                << (LinearSolverRegistry::make(type, LinearSolverParameters())->symmetric_only()
+                      ? ": symmetric only"
+                      : ": any symmetry")
+                << std::endl;
+
+  System symmetric(0., false), unsymmetric(0.8, false), extra(0., true);
+  compare("symmetric", symmetric, "Belos CG", 100);
+  compare("symmetric", symmetric, "Belos GMRES", 100);
+  compare("unsymmetric", unsymmetric, "Belos GMRES", 100);
+  compare("unsymmetric", unsymmetric, "Belos GMRES", 4);
+  compare("unsymmetric", unsymmetric, "Belos CG", 100);
+  compare("multiplier", extra, "Belos GMRES", 100);
+}
