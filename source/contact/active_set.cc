@@ -28,9 +28,11 @@ namespace Touchstone
     {
       if (row.tied || row.status == ContactStatus::no_partner)
         return {};
+      // A new contact slips, without a force yet: held at once where it happens to
+      // be after one linear step, it would drag the body along.
       if (!row.active())
         return {-row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.,
-                row.friction ? ContactStatus::stick : ContactStatus::slip};
+                ContactStatus::slip};
       const double scale = row.stiffness * row.size;
       const double trial = row.lambda / scale - row.gap / row.size;
       if (trial < -gap_tolerance)
@@ -42,7 +44,11 @@ namespace Touchstone
       const double tolerance = on_the_cone * f.limit + 1e-4 * gap_tolerance * scale;
       if (row.status == ContactStatus::stick)
         return {f.excess > tolerance ? f.excess / scale : 0., ContactStatus::slip};
-      return {f.excess < -tolerance ? -f.excess / scale : 0., ContactStatus::stick};
+      // Slip that turns round within an iteration has come to rest on the way: left
+      // to slip, the node would go back and forth for ever.
+      const bool turned = f.direction * f.last_direction < 0.;
+      return {turned ? f.limit / scale : f.excess < -tolerance ? -f.excess / scale : 0.,
+              ContactStatus::stick};
     }
 
 
