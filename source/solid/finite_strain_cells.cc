@@ -29,10 +29,10 @@ namespace Touchstone
     if (!any_body)
       return;
 
-    const Epetra_Map  &row_map = stiffness.trilinos_matrix().RowMap();
-    const Epetra_Map  &col_map = stiffness.trilinos_matrix().ColMap();
-    std::vector<Index> cell_dofs(fe.n_dofs_per_cell());
-    const auto        &unit_points = FE_Q<dim>(fe.degree).get_unit_support_points();
+    const Epetra_Map             &row_map = stiffness.trilinos_matrix().RowMap();
+    const Epetra_Map             &col_map = stiffness.trilinos_matrix().ColMap();
+    std::vector<Index>            cell_dofs(fe.n_dofs_per_cell());
+    const std::vector<Point<dim>> unit_points = FE_Q<dim>(fe.degree).get_unit_support_points();
     size.assign(row_map.NumMyElements(), 0.);
     number.assign(dof_handler.get_triangulation().n_active_cells(), -1);
     for (const auto &cell : dof_handler.active_cell_iterators())

@@ -45,13 +45,16 @@ namespace Touchstone
         Tensor<4, dim>       A;
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            for (unsigned int k = 0; k < dim; ++k)
-              {
+            {
+              for (unsigned int k = 0; k < dim; ++k)
                 for (unsigned int l = 0; l < dim; ++l)
                   A[i][j][k][l] = lambda * F[i][j] * F[k][l] + mu * F[i][l] * F[k][j];
-                A[i][j][k][j] += mu * b[i][k];
-                A[i][j][i][k] += S[j][k];
-              }
+              for (unsigned int k = 0; k < dim; ++k)
+                {
+                  A[i][j][k][j] += mu * b[i][k];
+                  A[i][j][i][k] += S[j][k];
+                }
+            }
         return A;
       }
 
