@@ -11,6 +11,33 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Add w A : (grad N_a, grad N_b) of a quadrature point to the blocks
+     * [a][i][k][b], a <= b. The number of nodes is known to the compiler: this loop
+     * takes most of the time of an assembly. */
+    template <unsigned int n>
+    void
+    add_point(const double *gradient, const double weight, const Tensor<4, dim> &A, double *blocks)
+    {
+      const double *g[dim] = {gradient, gradient + n, gradient + 2 * n};
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              double left[dim];
+              for (unsigned int l = 0; l < dim; ++l)
+                left[l] = weight * (g[0][a] * A[i][0][k][l] + g[1][a] * A[i][1][k][l] +
+                                    g[2][a] * A[i][2][k][l]);
+              double *block = blocks + ((a * dim + i) * dim + k) * n;
+              for (unsigned int b = a; b < n; ++b)
+                block[b] += left[0] * g[0][b] + left[1] * g[1][b] + left[2] * g[2][b];
+            }
+    }
+  } // namespace
+
+
+
   FiniteStrainKernel::FiniteStrainKernel(const unsigned int        degree,
                                          const ElementType         type,
                                          const MaterialParameters &material)
@@ -159,28 +186,6 @@ namespace Touchstone
 
 
 
-  void
-  FiniteStrainKernel::add_point(const double         *gradient,
-                                const double          weight,
-                                const Tensor<4, dim> &A)
-  {
-    const double *g[dim] = {gradient, gradient + n_nodes, gradient + 2 * n_nodes};
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            double left[dim];
-            for (unsigned int l = 0; l < dim; ++l)
-              left[l] = weight * (g[0][a] * A[i][0][k][l] + g[1][a] * A[i][1][k][l] +
-                                  g[2][a] * A[i][2][k][l]);
-            double *block = &blocks[((a * dim + i) * dim + k) * n_nodes];
-            for (unsigned int b = a; b < n_nodes; ++b)
-              block[b] += left[0] * g[0][b] + left[1] * g[1][b] + left[2] * g[2][b];
-          }
-  }
-
-
-
   double
   FiniteStrainKernel::modify_tangent(const unsigned int q, const double pressure, Tensor<4, dim> &A)
   {
@@ -190,16 +195,15 @@ namespace Touchstone
     //   Ft: alpha/3 S - (S : Fbar)/9 H,    tt: (S : Fbar)/9,
     // where X_iJkL = H_iL H_kJ. To FF comes the share of the second derivative of t
     // itself, as a function of the displacements: J/(Jbar V) (H x H - X) - dt dt.
-    const PointData     &point  = points[q];
-    const Tensor<2, dim> stress = law->stress(point.F_bar);
-    Tensor<2, dim>       S      = stress;
+    const PointData &point = points[q];
+    Tensor<2, dim>   S     = point.P;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         S[i][j] += scalar_product(A[i][j], point.F_bar);
     const double second   = scalar_product(S, point.F_bar) / 9.;
     const double dilation = pressure * point.J / (mean_J * cell_volume);
     const double product  = second + dilation;
-    const double exchange = scalar_product(stress, point.F_bar) / 3. - dilation;
+    const double exchange = scalar_product(point.P, point.F_bar) / 3. - dilation;
     const double square   = point.alpha * point.alpha;
     S *= point.alpha / 3.;
     const Tensor<2, dim> &H = point.H;
@@ -230,15 +234,19 @@ namespace Touchstone
       {
         set_mean_gradient();
         std::fill(mixed.begin(), mixed.end(), 0.);
-        for (const PointData &point : points)
-          pressure += point.weight * scalar_product(law->stress(point.F_bar), point.F_bar) / 3.;
+        for (PointData &point : points)
+          {
+            point.P = law->stress(point.F_bar);
+            pressure += point.weight * scalar_product(point.P, point.F_bar) / 3.;
+          }
       }
     for (unsigned int q = 0; q < n_points; ++q)
       {
         Tensor<4, dim> A = law->tangent(points[q].F_bar);
         if (f_bar)
           second += modify_tangent(q, pressure, A);
-        add_point(gradient(q), points[q].weight, A);
+        (n_nodes == 8 ? add_point<8>
+                      : add_point<27>)(gradient(q), points[q].weight, A, blocks.data());
       }
     const unsigned int n = n_dofs();
     for (unsigned int a = 0; a < n_nodes; ++a)

@@ -109,6 +109,8 @@ namespace Touchstone
       /** (Jbar/J)^{1/3} and the gradient that the law sees; 1 and F if full. */
       double                 alpha;
       dealii::Tensor<2, dim> F_bar;
+      /** P(Fbar), for modify_tangent(). */
+      dealii::Tensor<2, dim> P;
     };
 
     const bool                             f_bar;
@@ -135,10 +137,6 @@ namespace Touchstone
 
     void
     set_mean_gradient();
-
-    /** Add w A : (grad N_a, grad N_b) of a point to the blocks of nodes a <= b. */
-    void
-    add_point(const double *gradient, double weight, const dealii::Tensor<4, dim> &A);
 
     /** Turn A = dP/dF at Fbar of point @p q into the second derivative by F with Jbar
      * held, add the terms of ln Jbar to @p mixed, and return the second derivative
