@@ -16,25 +16,39 @@ namespace Touchstone
      * go what is within 0.06 degrees of being determined already. */
     constexpr double dependent = 1e-3;
 
-    /** row <- row - factor * other */
-    template <class Reduced>
+    /** side <- side - factor * other */
+    template <class Side>
     void
-    subtract(Reduced &row, const double factor, const Reduced &other)
+    subtract(Side &side, const double factor, const Side &other)
     {
-      row.direction -= factor * other.direction;
+      if (factor == 0.)
+        return;
+      side.direction -= factor * other.direction;
       for (const auto &[unknown, coefficient] : other.others)
-        row.others[unknown] -= factor * coefficient;
-      row.value -= factor * other.value;
+        side.others[unknown] -= factor * coefficient;
+      side.value -= factor * other.value;
     }
 
-    template <class Reduced>
+    /** Take the component @p pivot out of @p side by means of @p other, in which it
+     * has the coefficient one. */
+    template <class Side>
     void
-    scale(Reduced &row, const double factor)
+    substitute(Side &side, const unsigned int pivot, const Side &other)
     {
-      row.direction *= factor;
-      for (auto &entry : row.others)
+      subtract(side, side.direction[pivot], other);
+      side.direction[pivot] = 0.;
+    }
+
+    template <class Side>
+    void
+    normalise(Side &side, const unsigned int pivot)
+    {
+      const double factor = 1. / side.direction[pivot];
+      side.direction *= factor;
+      for (auto &entry : side.others)
         entry.second *= factor;
-      row.value *= factor;
+      side.value *= factor;
+      side.direction[pivot] = 1.;
     }
   } // namespace
 
@@ -58,8 +72,8 @@ namespace Touchstone
     // In the order of acceptance: each does not contain the pivots of those before.
     for (const ReducedCondition &earlier : found->second)
       {
-        subtract(reduced, reduced.direction[earlier.pivot], earlier);
-        reduced.direction[earlier.pivot] = 0.;
+        substitute(reduced.motion, earlier.pivot, earlier.motion);
+        substitute(reduced.force, earlier.pivot, earlier.force);
       }
   }
 
@@ -77,7 +91,7 @@ namespace Touchstone
     std::vector<Tensor<1, dim>> basis;
     for (const ReducedCondition &condition : found->second)
       {
-        Tensor<1, dim> direction = condition.direction;
+        Tensor<1, dim> direction = condition.motion.direction;
         for (const Tensor<1, dim> &earlier : basis)
           direction -= (direction * earlier) * earlier;
         basis.push_back(direction / direction.norm());
@@ -91,21 +105,52 @@ namespace Touchstone
   bool
   ConstraintGraph::accept(const Condition &condition, const Treatment treatment)
   {
-    ReducedCondition reduced{treatment, 0, condition.direction, {}, condition.value};
+    ReducedCondition reduced;
+    reduced.treatment       = treatment;
+    reduced.symmetric       = condition.symmetric();
+    reduced.force.direction = condition.force_direction.norm_square() > 0.
+                                ? condition.force_direction
+                                : condition.direction;
     for (const StencilEntry &entry : condition.stencil)
       for (unsigned int d = 0; d < dim; ++d)
-        if (condition.direction[d] != 0. && entry.weight != 0.)
-          reduced.others[dim * entry.node + d] -= entry.weight * condition.direction[d];
+        if (reduced.force.direction[d] != 0. && entry.weight != 0.)
+          reduced.force.others[dim * entry.node + d] -= entry.weight * reduced.force.direction[d];
+    if (condition.gradient.empty())
+      {
+        reduced.motion.direction = condition.direction;
+        for (const StencilEntry &entry : condition.stencil)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (condition.direction[d] != 0. && entry.weight != 0.)
+              reduced.motion.others[dim * entry.node + d] -= entry.weight * condition.direction[d];
+      }
+    else
+      for (const auto &[node, coefficients] : condition.gradient)
+        if (node == condition.node)
+          reduced.motion.direction += coefficients;
+        else
+          for (unsigned int d = 0; d < dim; ++d)
+            if (coefficients[d] != 0.)
+              reduced.motion.others[dim * node + d] += coefficients[d];
+    reduced.motion.value = condition.value;
     reduce(condition.node, reduced);
 
-    for (unsigned int d = 1; d < dim; ++d)
-      if (std::abs(reduced.direction[d]) > std::abs(reduced.direction[reduced.pivot]))
-        reduced.pivot = d;
-    if (std::abs(reduced.direction[reduced.pivot]) < dependent)
+    // The pivot must do for both sides.
+    double best = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double size =
+          std::min(std::abs(reduced.motion.direction[d]), std::abs(reduced.force.direction[d]));
+        if (size > best)
+          {
+            best          = size;
+            reduced.pivot = d;
+          }
+      }
+    if (best < dependent)
       return false;
 
-    scale(reduced, 1. / reduced.direction[reduced.pivot]);
-    reduced.direction[reduced.pivot]   = 1.;
+    normalise(reduced.motion, reduced.pivot);
+    normalise(reduced.force, reduced.pivot);
     std::vector<ReducedCondition> &all = nodes[condition.node];
     // What is eliminated must not refer to another pivot of its own node, or the
     // lines would depend on each other in a circle.
@@ -114,8 +159,9 @@ namespace Touchstone
         {
           if (earlier.treatment == Treatment::multiplier)
             continue;
-          subtract(earlier, earlier.direction[reduced.pivot], reduced);
-          earlier.direction[reduced.pivot] = 0.;
+          substitute(earlier.motion, reduced.pivot, reduced.motion);
+          substitute(earlier.force, reduced.pivot, reduced.force);
+          earlier.symmetric = earlier.symmetric && reduced.symmetric;
         }
     all.push_back(reduced);
     conditions.push_back(condition);
@@ -124,11 +170,24 @@ namespace Touchstone
 
 
 
+  bool
+  ConstraintGraph::symmetric() const
+  {
+    for (const auto &[node, reduced] : nodes)
+      for (const ReducedCondition &condition : reduced)
+        if (condition.treatment == Treatment::eliminate && !condition.symmetric)
+          return false;
+    return true;
+  }
+
+
+
   AffineConstraints<double>
-  ConstraintGraph::constraints(const AffineConstraints<double> &hanging,
-                               const IndexSet                  &owned,
-                               const IndexSet                  &relevant,
-                               const MPI_Comm                   communicator) const
+  ConstraintGraph::make_constraints(Side ReducedCondition::         *side,
+                                    const AffineConstraints<double> &hanging,
+                                    const IndexSet                  &owned,
+                                    const IndexSet                  &relevant,
+                                    const MPI_Comm                   communicator) const
   {
     // Owned lines, with what they refer to.
     std::vector<typename AffineConstraints<double>::ConstraintLine> lines;
@@ -144,14 +203,15 @@ namespace Touchstone
           if (hanging.is_constrained(index))
             continue; // a hanging node follows its neighbours
           lines.emplace_back(index);
-          auto &entries = lines.back().entries;
+          auto       &entries = lines.back().entries;
+          const Side &known   = condition.*side;
           for (unsigned int d = 0; d < dim; ++d)
-            if (d != condition.pivot && condition.direction[d] != 0.)
-              entries.emplace_back(dim * node + d, -condition.direction[d]);
-          for (const auto &[unknown, coefficient] : condition.others)
+            if (d != condition.pivot && known.direction[d] != 0.)
+              entries.emplace_back(dim * node + d, -known.direction[d]);
+          for (const auto &[unknown, coefficient] : known.others)
             if (coefficient != 0.)
               entries.emplace_back(unknown, -coefficient);
-          lines.back().inhomogeneity = condition.value;
+          lines.back().inhomogeneity = known.value;
         }
 
     // A rank needs the lines of the unknowns in its matrix rows, of those that
@@ -160,7 +220,7 @@ namespace Touchstone
     IndexSet needed = relevant;
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
-        for (const auto &[unknown, coefficient] : condition.others)
+        for (const auto &[unknown, coefficient] : (condition.*side).others)
           needed.add_index(unknown);
     while (true)
       {

@@ -57,6 +57,7 @@ namespace Touchstone
       Condensation(const LinearSystem &system)
         : system(system)
         , constraints(system.constraints)
+        , test_constraints(system.test_constraints ? *system.test_constraints : system.constraints)
         , owned(system.rhs.locally_owned_elements())
       {
       }
@@ -94,7 +95,7 @@ namespace Touchstone
       scatter(const Index i, const Row &row, const double value)
       {
         if (is_constrained(i))
-          for (const auto &entry : *constraints.get_constraint_entries(i))
+          for (const auto &entry : *test_constraints.get_constraint_entries(i))
             add(entry.first, entry.second, row, value);
         else
           add(i, 1., row, value);
@@ -102,7 +103,7 @@ namespace Touchstone
 
     private:
       const LinearSystem              &system;
-      const AffineConstraints<double> &constraints;
+      const AffineConstraints<double> &constraints, &test_constraints;
       const IndexSet                   owned;
 
       bool

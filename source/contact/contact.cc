@@ -2,6 +2,7 @@
 #include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <algorithm>
 #include <cmath>
@@ -26,7 +27,9 @@ namespace Touchstone
     : solid(solid)
     , scene(scene)
     , ghosted(solid.owned, solid.relevant, solid.communicator)
+    , end_time(scene.load_stepping.end_time)
   {
+    bool with_friction = false;
     for (const ContactPairParameters &parameters : scene.pairs)
       {
         const std::string section = "Contact pair " + parameters.name;
@@ -81,13 +84,29 @@ namespace Touchstone
             row.master_body = pair.master_body;
             row.stiffness   = pair.modulus * node.area / node.size;
             row.tied        = pair.tied;
+            if (parameters.friction)
+              {
+                row.friction.emplace();
+                row.friction->law   = parameters.friction.get();
+                row.friction->exact = (scene.contact.friction == "exact");
+                row.friction->alpha = 10. * scene.contact.tangential_factor * row.stiffness;
+              }
             pair_rows.push_back(row);
           }
+        pair.overlap.assign(pair_rows.size(), 0.);
+        if (parameters.friction)
+          pair.tangents = pair.slave->tangents();
+        with_friction = with_friction || parameters.friction;
         rows.push_back(pair_rows);
         pairs.push_back(std::move(pair));
       }
     check_roles();
     committed = rows;
+    if (with_friction)
+      {
+        reference_positions.reinit(solid.owned, solid.communicator);
+        VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);
+      }
   }
 
 
@@ -182,8 +201,9 @@ namespace Touchstone
 
 
   void
-  Contact::update(const Vector &u, const double time)
+  Contact::update(const Vector &u, const double t)
   {
+    time    = t;
     ghosted = u;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
@@ -209,128 +229,32 @@ namespace Touchstone
     for (auto &pair_rows : rows)
       for (unsigned int k = 0; k < pair_rows.size(); ++k)
         {
-          ContactRow &row = pair_rows[k];
+          ContactRow &row  = pair_rows[k];
+          Pair       &pair = pairs[row.pair];
           for (unsigned int d = 0; d < dim; ++d)
             row.position[d] = ghosted(dim * row.slave + d);
-          row.position += pairs[row.pair].slave->owned_nodes()[k].reference;
+          row.position += pair.slave->owned_nodes()[k].reference;
           if (!started && row.status == ContactStatus::open)
             {
               if (row.tied)
                 row.status = ContactStatus::tied;
               else if (row.gap < touching * row.size)
-                row.status = ContactStatus::slip;
+                row.status = row.friction ? ContactStatus::stick : ContactStatus::slip;
+              if (pair.parameters->initial_overlap != "interference")
+                pair.overlap[k] = std::min(row.gap, 0.);
+            }
+          if (pair.overlap[k] < 0. && row.status != ContactStatus::no_partner)
+            {
+              const double part = pair.parameters->initial_overlap == "ramp"
+                                    ? std::max(0., 1. - time / end_time)
+                                    : 1.;
+              row.gap -= part * pair.overlap[k];
+              row.gap_vector -= part * pair.overlap[k] * row.normal;
             }
         }
     started = true;
-  }
-
-
-
-  std::vector<double>
-  Contact::order(const ContactRow &row) const
-  {
-    // Numbers of nodes depend on the partition, places do not.
-    const auto      &nodes = pairs[row.pair].slave->owned_nodes();
-    const auto       found = std::lower_bound(nodes.begin(),
-                                        nodes.end(),
-                                        row.slave,
-                                        [](const SurfaceNode &node, const Index index) {
-                                          return node.node < index;
-                                        });
-    const Point<dim> x     = found->reference;
-    return {static_cast<double>(row.pair), x[0], x[1], x[2]};
-  }
-
-
-
-  std::vector<double>
-  Contact::first_in_order(const std::function<double(const ContactRow &)> &demand) const
-  {
-    std::vector<double> first;
-    for (const auto &pair_rows : rows)
-      for (const ContactRow &row : pair_rows)
-        if (demand(row) > 0. && (first.empty() || order(row) < first))
-          first = order(row);
-    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, first))
-      if (!other.empty() && (first.empty() || other < first))
-        first = other;
-    return first;
-  }
-
-
-
-  Contact::ActiveSetUpdate
-  Contact::update_active_set(const double gap_tolerance, const unsigned int caution)
-  {
-    // How strongly a row asks to change its state, as a nondimensional gap; 0 if
-    // it does not. The tolerance keeps rows that are neither open nor loaded
-    // from chattering.
-    const auto demand = [&](const ContactRow &row) {
-      if (row.tied || row.status == ContactStatus::no_partner)
-        return 0.;
-      const double trial = row.lambda / (row.stiffness * row.size) - row.gap / row.size;
-      if (row.active())
-        return trial < -gap_tolerance ? -trial : 0.;
-      return -row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.;
-    };
-
-    // With caution only the rows that ask more than half as strongly as the
-    // strongest change, then only the first row that asks at all: that rule ends
-    // for every linear problem with a unique solution.
-    // Murty (1974), Math. Programming 7.
-    double              threshold = 0.;
-    std::vector<double> only;
-    if (caution == 1)
-      {
-        for (const auto &pair_rows : rows)
-          for (const ContactRow &row : pair_rows)
-            threshold = std::max(threshold, demand(row));
-        threshold = 0.5 * Utilities::MPI::max(threshold, solid.communicator);
-      }
-    else if (caution > 1)
-      only = first_in_order(demand);
-
-    ActiveSetUpdate result;
-    for (auto &pair_rows : rows)
-      for (ContactRow &row : pair_rows)
-        {
-          if (row.status == ContactStatus::no_partner)
-            {
-              if (row.lambda != 0. || row.force.norm() != 0.)
-                ++result.changes;
-              row.lambda = 0.;
-              row.force = row.augmented = Tensor<1, dim>();
-              continue;
-            }
-          if (row.refused == 0 && (row.active() || row.gap < 0.))
-            result.gap =
-              std::max(result.gap,
-                       (row.tied ? row.gap_vector.norm() - row.granted_gap
-                                 : std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
-                         row.size);
-          const double strength = demand(row);
-          if (strength > 0. && strength >= threshold && (only.empty() || only == order(row)))
-            {
-              row.status = row.active() ? ContactStatus::open : ContactStatus::slip;
-              row.lambda = 0.;
-              row.force = row.augmented = Tensor<1, dim>();
-              ++result.changes;
-            }
-          if (row.active())
-            {
-              ++result.active;
-              // A sum of well-mixed numbers does not depend on the partition.
-              std::uint64_t h = (row.slave + 1) * 0x9E3779B97F4A7C15ull + row.pair;
-              h ^= h >> 31;
-              h *= 0xBF58476D1CE4E5B9ull;
-              result.signature += h ^ (h >> 27);
-            }
-        }
-    result.gap       = Utilities::MPI::max(result.gap, solid.communicator);
-    result.active    = Utilities::MPI::sum(result.active, solid.communicator);
-    result.changes   = Utilities::MPI::sum(result.changes, solid.communicator);
-    result.signature = Utilities::MPI::sum(result.signature, solid.communicator);
-    return result;
+    if (reference_positions.size() > 0)
+      update_slip(u);
   }
 
 
@@ -363,6 +287,10 @@ namespace Touchstone
   void
   Contact::commit()
   {
+    for (auto &pair_rows : rows)
+      for (ContactRow &row : pair_rows)
+        if (row.friction)
+          commit_friction(row);
     committed = rows;
   }
 
@@ -396,6 +324,12 @@ namespace Touchstone
           point.pressure = row.lambda / row.area;
           point.traction = row.force / row.area;
           point.status   = row.status;
+          if (row.friction)
+            {
+              point.slip          = row.friction->slip;
+              point.slip_length   = row.friction->slip_length;
+              point.friction_work = row.friction->work;
+            }
           result.push_back(point);
         }
     return result;
@@ -422,6 +356,7 @@ namespace Touchstone
     for (const ContactPoint &point : points(u))
       {
         PairResult &result = all[point.pair];
+        result.friction_work += point.friction_work;
         if (point.status != ContactStatus::no_partner && point.status != ContactStatus::tied)
           result.max_penetration = std::max(result.max_penetration, -point.gap);
         if (point.status < ContactStatus::slip)
@@ -443,6 +378,7 @@ namespace Touchstone
         result.max_penetration = Utilities::MPI::max(result.max_penetration, solid.communicator);
         result.active          = Utilities::MPI::sum(result.active, solid.communicator);
         result.slip            = Utilities::MPI::sum(result.slip, solid.communicator);
+        result.friction_work   = Utilities::MPI::sum(result.friction_work, solid.communicator);
         result.stick           = Utilities::MPI::sum(result.stick, solid.communicator);
       }
     return all;

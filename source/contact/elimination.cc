@@ -1,4 +1,5 @@
 #include <touchstone/contact/enforcement.h>
+#include <touchstone/contact/row_terms.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -22,6 +23,11 @@ namespace Touchstone
       void
       recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override
       {
+        for (auto &pair_rows : contact.rows)
+          for (ContactRow &row : pair_rows)
+            if (row.friction)
+              choose_friction(row);
+
         // The contact force balances the slave node in the directions that no
         // prescribed displacement balances. One sweep does it, unless slave nodes
         // are master nodes of other rows, or belong to two pairs.
@@ -39,23 +45,28 @@ namespace Touchstone
                   Tensor<1, dim> rest = corrections[row.slave];
                   for (unsigned int d = 0; d < dim; ++d)
                     rest[d] += force(dim * row.slave + d);
-                  Tensor<1, dim> correction;
-                  if (row.status == ContactStatus::slip)
+                  const Tensor<1, dim> before = row.force;
+                  if (row.held())
+                    {
+                      row.force -= graph.free_part(row.slave, rest);
+                      row.lambda = row.force * row.normal;
+                      if (row.friction)
+                        row.friction->base = row.force - row.lambda * row.normal;
+                      respond(row);
+                    }
+                  else
                     {
                       const Tensor<1, dim> normal = graph.free_part(row.slave, row.normal);
                       const double         square = normal.norm_square();
                       // The force follows the present normal.
-                      const double next =
-                        square > 1e-6 ? ((row.force - rest) * normal) / square : 0.;
-                      correction = next * row.normal - row.force;
-                      row.lambda = next;
+                      Tensor<1, dim> friction;
+                      if (row.friction)
+                        friction = before - (before * row.normal) * row.normal;
+                      row.lambda =
+                        square > 1e-6 ? ((before - friction - rest) * normal) / square : 0.;
+                      respond(row);
                     }
-                  else
-                    {
-                      correction = -graph.free_part(row.slave, rest);
-                      row.lambda = (row.force + correction) * row.normal;
-                    }
-                  row.force += correction;
+                  const Tensor<1, dim> correction = row.force - before;
                   corrections[row.slave] += correction;
                   change  = std::max(change, correction.norm());
                   largest = std::max(largest, row.force.norm());
@@ -67,12 +78,12 @@ namespace Touchstone
       }
 
       void
-      enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &) override
+      enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
       {
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
             {
-              for (const Condition &condition : start_row(row))
+              for (const Condition &condition : start_row(row, system.keep_symmetric))
                 row.take(graph.accept(condition));
             }
       }

@@ -1,4 +1,5 @@
 #include <touchstone/contact/enforcement.h>
+#include <touchstone/contact/row_terms.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -23,8 +24,12 @@ namespace Touchstone
         // The force follows the present normal.
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
-            if (row.status == ContactStatus::slip)
-              row.force = row.lambda * row.normal;
+            if (row.active() && !row.tied)
+              {
+                if (row.friction)
+                  choose_friction(row);
+                respond(row);
+              }
       }
 
       void
@@ -34,7 +39,7 @@ namespace Touchstone
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
             {
-              for (const Condition &condition : start_row(row))
+              for (const Condition &condition : start_row(row, system.keep_symmetric))
                 {
                   const bool accepted =
                     graph.accept(condition, ConstraintGraph::Treatment::multiplier);
@@ -60,18 +65,22 @@ namespace Touchstone
             // Scaled to the size of the stiffness, so that neither block is lost
             // in the other's round-off.
             const double scale = multipliers[k].scale;
-            const auto   add   = [&](const Index unknown, const double value) {
-              if (value == 0.)
-                return;
-              system.terms.push_back({unknown, extra, scale * value});
-              system.terms.push_back({extra, unknown, scale * value});
-            };
-            for (unsigned int d = 0; d < dim; ++d)
+            for (const auto &[node, coefficients] : gradient(condition))
+              for (unsigned int d = 0; d < dim; ++d)
+                if (coefficients[d] != 0.)
+                  system.terms.push_back({extra, dim * node + d, scale * coefficients[d]});
+            Condition force = condition;
+            if (!condition.symmetric())
               {
-                add(dim * condition.node + d, condition.direction[d]);
-                for (const StencilEntry &entry : condition.stencil)
-                  add(dim * entry.node + d, -entry.weight * condition.direction[d]);
+                system.symmetric = false;
+                force.gradient.clear();
+                if (force.force_direction.norm_square() > 0.)
+                  force.direction = force.force_direction;
               }
+            for (const auto &[node, coefficients] : gradient(force))
+              for (unsigned int d = 0; d < dim; ++d)
+                if (coefficients[d] != 0.)
+                  system.terms.push_back({dim * node + d, extra, scale * coefficients[d]});
             system.extra_rhs.push_back(scale * condition.value);
           }
       }
@@ -85,7 +94,12 @@ namespace Touchstone
           multipliers[k].row->force -=
             multipliers[k].scale * extra[k] * multipliers[k].condition.direction;
         for (const Multiplier &multiplier : multipliers)
-          multiplier.row->lambda = multiplier.row->force * multiplier.row->normal;
+          {
+            ContactRow &row = *multiplier.row;
+            row.lambda      = row.force * row.normal;
+            if (row.friction && row.held())
+              row.friction->base = row.force - row.lambda * row.normal;
+          }
       }
 
     private:

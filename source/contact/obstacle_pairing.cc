@@ -47,6 +47,7 @@ namespace Touchstone
             const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
             ContactRow      &row = rows[k];
             row.stencil.clear();
+            row.shift      = shift;
             row.normal     = surface->normal(x);
             row.gap_vector = x - surface->project(x);
             row.gap        = row.gap_vector * row.normal;

@@ -1,4 +1,5 @@
 #include <touchstone/contact/enforcement.h>
+#include <touchstone/contact/row_terms.h>
 
 #include <cmath>
 #include <limits>
@@ -33,17 +34,7 @@ namespace Touchstone
             {
               if (!row.active() || row.dropped())
                 continue;
-              const double epsilon = factor * row.stiffness;
-              if (row.status == ContactStatus::slip)
-                {
-                  row.lambda = row.augmented * row.normal - epsilon * row.gap;
-                  row.force  = row.lambda * row.normal;
-                }
-              else
-                {
-                  row.force  = row.augmented - epsilon * row.gap_vector;
-                  row.lambda = row.force * row.normal;
-                }
+              evaluate(row);
               grant(row, solved);
             }
         solved = false;
@@ -52,25 +43,43 @@ namespace Touchstone
       void
       enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
       {
-        std::vector<Index>  unknowns;
-        std::vector<double> forces;
+        // The system starts from the forces after augmentation, the residual has
+        // been judged with those before.
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
-            for (const Condition &condition : start_row(row))
+            if (row.active() && row.friction)
+              {
+                const Tensor<1, dim> force  = row.force;
+                const double         lambda = row.lambda;
+                evaluate(row);
+                row.force  = force;
+                row.lambda = lambda;
+              }
+
+        RowTerms terms(system);
+        for (auto &pair_rows : contact.rows)
+          for (ContactRow &row : pair_rows)
+            for (const Condition &condition : start_row(row, system.keep_symmetric))
               {
                 const bool accepted =
                   graph.accept(condition, ConstraintGraph::Treatment::multiplier);
                 row.take(accepted);
-                if (accepted)
-                  add_spring(condition,
-                             factor * row.stiffness,
-                             row.augmented * condition.direction,
-                             system,
-                             unknowns,
-                             forces);
+                if (!accepted)
+                  continue;
+                if (!condition.symmetric())
+                  system.symmetric = false;
+                // The force after the iteration is lambda_k - epsilon (g + dg),
+                // and the condition's value is -g.
+                const double         epsilon   = factor * row.stiffness;
+                const Tensor<1, dim> direction = condition.force_direction.norm_square() > 0.
+                                                   ? condition.force_direction
+                                                   : condition.direction;
+                const double         augmented =
+                  row.tied ? row.augmented * direction : row.augmented_lambda;
+                terms.add_load(row, (augmented + epsilon * condition.value) * direction);
+                terms.add_stiffness(row, epsilon * direction, gradient(condition));
               }
-        system.rhs.add(unknowns, forces);
-        system.rhs.compress(VectorOperation::add);
+        terms.finish();
       }
 
       void
@@ -99,35 +108,30 @@ namespace Touchstone
       virtual void
       grant(ContactRow &row, bool solved) const = 0;
 
+      /** Decide what the friction of the row starts from; @p epsilon is the
+       * stiffness of the normal spring. */
+      virtual void
+      choose_friction(ContactRow &row, double epsilon) const = 0;
+
     private:
       const double factor;
       bool         solved = false;
 
-      /** The force after the iteration is lambda_k - epsilon (g + B du), where
-       * the condition's value is -g. */
-      static void
-      add_spring(const Condition     &condition,
-                 const double         epsilon,
-                 const double         augmented,
-                 LinearSystem        &system,
-                 std::vector<Index>  &unknowns,
-                 std::vector<double> &forces)
+      /** Forces of an active row from its gap and slip. */
+      void
+      evaluate(ContactRow &row) const
       {
-        std::vector<std::pair<Index, double>> row;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (condition.direction[d] != 0.)
-            {
-              row.emplace_back(dim * condition.node + d, condition.direction[d]);
-              for (const StencilEntry &entry : condition.stencil)
-                row.emplace_back(dim * entry.node + d, -entry.weight * condition.direction[d]);
-            }
-        for (const auto &[i, bi] : row)
+        const double epsilon = factor * row.stiffness;
+        if (row.tied)
           {
-            unknowns.push_back(i);
-            forces.push_back(bi * (augmented + epsilon * condition.value));
-            for (const auto &[j, bj] : row)
-              system.terms.push_back({i, j, epsilon * bi * bj});
+            row.force  = row.augmented - epsilon * row.gap_vector;
+            row.lambda = row.force * row.normal;
+            return;
           }
+        row.lambda = row.augmented_lambda - epsilon * row.gap;
+        if (row.friction)
+          choose_friction(row, epsilon);
+        respond(row);
       }
     };
 
@@ -147,6 +151,12 @@ namespace Touchstone
       {
         row.granted_gap = row.tied ? row.gap_vector.norm() : row.gap;
       }
+
+      void
+      choose_friction(ContactRow &row, double) const override
+      {
+        row.friction->regularise();
+      }
     };
 
     class AugmentedLagrange : public SpringEnforcement
@@ -163,7 +173,7 @@ namespace Touchstone
       {
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
-            row.augmented = row.force;
+            augment(row);
       }
 
     private:
@@ -174,7 +184,28 @@ namespace Touchstone
       {
         row.granted_gap = 0.;
         if (merged && solved)
-          row.augmented = row.force;
+          augment(row);
+      }
+
+      void
+      choose_friction(ContactRow &row, const double epsilon) const override
+      {
+        FrictionState &f = *row.friction;
+        if (!f.exact)
+          {
+            f.regularise();
+            return;
+          }
+        f.hold = f.carried = false;
+        f.c                = epsilon;
+        f.base             = row.augmented;
+      }
+
+      static void
+      augment(ContactRow &row)
+      {
+        row.augmented        = row.tied ? row.force : row.force - row.lambda * row.normal;
+        row.augmented_lambda = row.lambda;
       }
     };
 

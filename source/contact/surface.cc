@@ -167,6 +167,37 @@ namespace Touchstone
 
 
 
+  std::vector<Stencil>
+  Surface::tangents() const
+  {
+    // Of the face with the smallest key, so that every partition takes the same.
+    std::unordered_map<Index, std::pair<const Face *, unsigned int>> first;
+    for (const auto *list : {&faces, &ghost_faces})
+      for (const Face &face : *list)
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          {
+            auto &[known, corner] = first[face.nodes[m]];
+            if (known == nullptr || face.key < known->key)
+              {
+                known  = &face;
+                corner = m;
+              }
+          }
+    std::vector<Stencil> result;
+    for (const SurfaceNode &node : nodes)
+      {
+        const auto &[face, corner] = first.at(node.node);
+        const FaceShapes shapes(face->degree, node_coordinates(*face, corner));
+        result.emplace_back();
+        for (unsigned int m = 0; m < face->n_nodes(); ++m)
+          if (shapes.gradient[m][0] != 0.)
+            result.back().push_back({face->nodes[m], shapes.gradient[m][0]});
+      }
+    return result;
+  }
+
+
+
   Point<dim>
   Surface::position(const SurfaceNode &node, const Vector &u) const
   {

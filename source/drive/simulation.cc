@@ -127,6 +127,9 @@ namespace Touchstone
         summary.reactions[reaction.body][reaction.boundary]       = reaction.force;
       }
     record.energies["strain"] = problem.strain_energy();
+    for (const ContactPairParameters &pair : scene.pairs)
+      if (pair.friction)
+        record.energies["friction"] += summary.contact[pair.name].friction_work;
     {
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);

@@ -1,4 +1,5 @@
 #include <touchstone/algebra/non_convergence.h>
+#include <touchstone/contact/row_terms.h>
 #include <touchstone/drive/static_problem.h>
 #include <touchstone/scene/input_error.h>
 
@@ -169,13 +170,31 @@ namespace Touchstone
     system->rhs.reinit(solid.owned, solid.communicator);
     system->rhs = external;
     system->rhs -= internal;
-    system->first_extra = system->rhs.size();
-    system->tolerance   = linear_tolerance;
+    system->first_extra    = system->rhs.size();
+    system->tolerance      = linear_tolerance;
+    system->keep_symmetric = solver->symmetric_only();
+    if (!system->keep_symmetric && scene.contact.linearisation != "frozen")
+      contact.differentiate();
     enforcement->enforce(contact, graph, *system);
+    RowTerms terms(*system);
+    for (auto &rows : contact.rows)
+      for (ContactRow &row : rows)
+        terms.add_row(row);
+    terms.finish();
     check_supports();
     system->constraints =
       graph.constraints(hanging, solid.owned, solid.relevant, solid.communicator);
-    condensed = std::make_unique<CondensedSystem>(*system);
+    const auto everywhere = [&](const bool here) {
+      return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
+    };
+    if (!everywhere(graph.symmetric()))
+      {
+        system->test_constraints =
+          graph.test_constraints(hanging, solid.owned, solid.relevant, solid.communicator);
+        system->symmetric = false;
+      }
+    system->symmetric = everywhere(system->symmetric);
+    condensed         = std::make_unique<CondensedSystem>(*system);
   }
 
 

@@ -1,3 +1,4 @@
+#include <touchstone/contact/friction_law.h>
 #include <touchstone/scene/contact_parameters.h>
 #include <touchstone/scene/expression.h>
 #include <touchstone/scene/input_error.h>
@@ -83,7 +84,7 @@ namespace Touchstone
 
 
   void
-  ContactPairParameters::declare(ParameterHandler &prm)
+  ContactPairParameters::declare(ParameterHandler &prm, const std::string &behaviour_name)
   {
     prm.add_parameter("Slave body",
                       slave_body,
@@ -117,9 +118,25 @@ namespace Touchstone
                       Patterns::Selection("averaged|pointwise"));
     prm.add_parameter("Behaviour",
                       behaviour,
-                      "'frictionless' contact, or 'tied' once and for all where "
-                      "the surfaces face each other.",
-                      Patterns::Selection("frictionless|tied"));
+                      "'frictionless' contact; 'tied' once and for all where the surfaces "
+                      "face each other; or a friction law, whose own keys stand in the "
+                      "subsection 'Friction': " +
+                        FrictionLawRegistry::documentation(),
+                      Patterns::Selection("frictionless|tied|" + FrictionLawRegistry::selection()));
+    if (FrictionLawRegistry::records().count(behaviour_name) > 0)
+      {
+        friction = FrictionLawRegistry::make(behaviour_name);
+        prm.enter_subsection("Friction");
+        friction->declare(prm);
+        prm.leave_subsection();
+      }
+    prm.add_parameter("Initial overlap",
+                      initial_overlap,
+                      "An overlap of the bodies as they are placed is an 'interference' that "
+                      "presses them apart, or a fault of the mesh to 'adjust': gaps count from "
+                      "it, and it leads to no stress. 'ramp' is an interference that grows "
+                      "with time until the end of the run. Tied pairs are always adjusted.",
+                      Patterns::Selection("interference|adjust|ramp"));
     prm.add_parameter("Sliding",
                       sliding,
                       "'finite' searches the partners in each iteration, 'small' "
@@ -174,6 +191,8 @@ namespace Touchstone
                        "",
                        "the list is empty",
                        "name the boundaries of '" + master_body + "' that come into contact");
+    if (friction)
+      friction->check(section + "/Friction");
     if (!obstacle.empty() && !master_boundaries.empty())
       throw InputError(section,
                        "Master boundaries",
@@ -231,6 +250,24 @@ namespace Touchstone
                       "Forces of 'augmented lagrange' grow in each Newton iteration "
                       "('merged'), or each time that Newton has found a balance ('outer').",
                       Patterns::Selection("merged|outer"));
+    prm.add_parameter("Friction",
+                      friction,
+                      "Nodes that stick are held without any slip ('exact'), or slip "
+                      "elastically on springs ('regularised'), as they always do with "
+                      "'penalty'.",
+                      Patterns::Selection("exact|regularised"));
+    prm.add_parameter("Tangential factor",
+                      tangential_factor,
+                      "Multiplies the automatic stiffness of these springs, which is ten times "
+                      "Young's modulus times tributary area over face size. [no unit]",
+                      Patterns::Double());
+    prm.add_parameter("Linearisation",
+                      linearisation,
+                      "Within a Newton iteration, normals, contact points and slip directions "
+                      "change with the bodies ('consistent', quadratic convergence), or not "
+                      "('frozen', symmetric but for slip). 'automatic' is consistent where the "
+                      "linear solver takes unsymmetric systems.",
+                      Patterns::Selection("automatic|consistent|frozen"));
   }
 
 
@@ -242,6 +279,12 @@ namespace Touchstone
       throw InputError(section,
                        "Penalty factor",
                        std::to_string(penalty_factor),
+                       "must be positive",
+                       "1 is the automatic choice.");
+    if (!(tangential_factor > 0.) || !std::isfinite(tangential_factor))
+      throw InputError(section,
+                       "Tangential factor",
+                       std::to_string(tangential_factor),
                        "must be positive",
                        "1 is the automatic choice.");
   }

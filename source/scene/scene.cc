@@ -156,7 +156,12 @@ namespace Touchstone
     for (ObstacleParameters &obstacle : obstacles)
       declare_in(obstacle.section(), obstacle);
     for (ContactPairParameters &pair : pairs)
-      declare_in(pair.section(), pair);
+      {
+        const std::string behaviour = text.value(pair.section(), "Behaviour", pair.behaviour);
+        prm.enter_subsection(pair.section());
+        pair.declare(prm, behaviour);
+        prm.leave_subsection();
+      }
     declare_in("Contact", contact);
     declare_in("Discretisation", discretisation);
     declare_in("Load stepping", load_stepping);

@@ -64,6 +64,13 @@ namespace Touchstone
                          "' cannot solve",
                        "set 'Contact/Enforcement = elimination' or "
                        "'Linear solver/Type = MUMPS'");
+    if (contact.linearisation == "consistent" && linear_solver.type == "Belos CG")
+      throw InputError("Contact",
+                       "Linearisation",
+                       contact.linearisation,
+                       "makes the system unsymmetric, which 'Belos CG' cannot solve",
+                       "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
+                       "'Belos GMRES'");
     if (!reference.pair.empty())
       check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
   }
@@ -80,6 +87,12 @@ namespace Touchstone
     if (!pair.obstacle.empty())
       check_name(section, "Obstacle", pair.obstacle, "Obstacles", names(obstacles));
     pair.check(section);
+    if (pair.behaviour == "tied" && pair.initial_overlap != "interference")
+      throw InputError(section,
+                       "Initial overlap",
+                       pair.initial_overlap,
+                       "a tied pair holds the bodies as they are placed",
+                       "remove the key");
     if (pair.behaviour == "tied" && pair.sliding == "finite")
       throw InputError(section,
                        "Sliding",

@@ -1,7 +1,7 @@
 #ifndef touchstone_algebra_constraint_graph_h
 #define touchstone_algebra_constraint_graph_h
 
-#include <touchstone/contact/row.h>
+#include <touchstone/contact/stencil.h>
 #include <touchstone/types.h>
 
 #include <deal.II/base/index_set.h>
@@ -17,7 +17,12 @@ namespace Touchstone
   /**
    * @brief One linear condition on the displacement increment of a node,
    *
-   *   d . (du_s - sum_m w_m du_m) = value.
+   *   d . (du_s - sum_m w_m du_m) = value,
+   *
+   * and the force that meets it: along d on the node and -w_m d on the others,
+   * which makes the system symmetric. Where the two are not the same, the force
+   * acts along another direction (friction), or the condition has coefficients of
+   * its own (change of normals and stencils); the system is then unsymmetric.
    *
    * Prescribed displacements and symmetry are conditions without a stencil,
    * contact rows have one.
@@ -27,11 +32,22 @@ namespace Touchstone
     /** Node whose displacement the condition determines; owned by this rank. */
     Index node = invalid_index;
     /** Unit direction d. */
-    dealii::Tensor<1, dim>    direction;
-    std::vector<StencilEntry> stencil;
-    double                    value = 0.;
+    dealii::Tensor<1, dim> direction;
+    Stencil                stencil;
+    double                 value = 0.;
+    /** Direction of the force; zero: d. */
+    dealii::Tensor<1, dim> force_direction;
+    /** All coefficients of the condition by node; empty: those of d and stencil. */
+    std::vector<std::pair<Index, dealii::Tensor<1, dim>>> gradient;
     /** Body of the node, and of the stencil. */
     unsigned int body = 0, master_body = 0;
+    /** @brief The force meets the condition along its own coefficients. */
+    bool
+    symmetric() const
+    {
+      return force_direction.norm_square() == 0. && gradient.empty();
+    }
+
     /** Position of the node and of the stencil's point, for rigid-body modes. */
     dealii::Tensor<1, dim> position, master_position;
   };
@@ -91,18 +107,53 @@ namespace Touchstone
     constraints(const dealii::AffineConstraints<double> &hanging,
                 const dealii::IndexSet                  &owned,
                 const dealii::IndexSet                  &relevant,
-                MPI_Comm                                 communicator) const;
+                MPI_Comm                                 communicator) const
+    {
+      return make_constraints(&ReducedCondition::motion, hanging, owned, relevant, communicator);
+    }
+
+    /**
+     * @brief The same lines for the test functions, which do no work against the
+     * forces of the conditions; without values.
+     */
+    dealii::AffineConstraints<double>
+    test_constraints(const dealii::AffineConstraints<double> &hanging,
+                     const dealii::IndexSet                  &owned,
+                     const dealii::IndexSet                  &relevant,
+                     MPI_Comm                                 communicator) const
+    {
+      return make_constraints(&ReducedCondition::force, hanging, owned, relevant, communicator);
+    }
+
+    /** @brief Whether all conditions to be eliminated are symmetric: then both
+     * kinds of constraints are the same. Of this rank only. */
+    bool
+    symmetric() const;
 
   private:
+    /** Coefficients of the node, of other unknowns, and the right-hand side. */
+    struct Side
+    {
+      dealii::Tensor<1, dim>  direction;
+      std::map<Index, double> others;
+      double                  value = 0.;
+    };
+
     struct ReducedCondition
     {
-      Treatment              treatment;
-      unsigned int           pivot;
-      dealii::Tensor<1, dim> direction;
-      /** Coefficients of master unknowns. */
-      std::map<Index, double> others;
-      double                  value;
+      Treatment    treatment;
+      unsigned int pivot;
+      /** The condition, and the force that meets it. */
+      Side motion, force;
+      bool symmetric;
     };
+
+    dealii::AffineConstraints<double>
+    make_constraints(Side ReducedCondition::                 *side,
+                     const dealii::AffineConstraints<double> &hanging,
+                     const dealii::IndexSet                  &owned,
+                     const dealii::IndexSet                  &relevant,
+                     MPI_Comm                                 communicator) const;
 
     std::vector<Condition>                         conditions;
     std::map<Index, std::vector<ReducedCondition>> nodes;

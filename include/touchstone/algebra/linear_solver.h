@@ -44,7 +44,7 @@ namespace Touchstone
     void
     solve(const CondensedSystem &system, const Epetra_MultiVector &modes, Epetra_Vector &solution);
 
-    /** @brief Whether it takes symmetric systems only. */
+    /** @brief Whether it takes symmetric positive definite systems only. */
     virtual bool
     symmetric_only() const
     {

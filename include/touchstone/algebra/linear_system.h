@@ -10,6 +10,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Touchstone
@@ -40,12 +41,16 @@ namespace Touchstone
     std::vector<MatrixTerm> terms;
     /** Number of extra unknowns of this rank, and number of the first. */
     Index n_extra = 0, first_extra = 0;
-    /** Conditions on the displacement increment. */
-    dealii::AffineConstraints<double> constraints;
+    /** Conditions on the displacement increment; and on the test functions, where
+     * they are not the same. */
+    dealii::AffineConstraints<double>                constraints;
+    std::optional<dealii::AffineConstraints<double>> test_constraints;
     /** Out-of-balance forces, and right-hand side of the extra unknowns. */
     Vector              rhs;
     std::vector<double> extra_rhs;
-    bool                symmetric = true;
+    /** The solver takes symmetric systems only: unsymmetric parts are lagged. */
+    bool keep_symmetric = false;
+    bool symmetric      = true;
     /** Positive definite: no multipliers. */
     bool definite = true;
     /** Relative residual that an iterative solution needs. */
@@ -53,9 +58,10 @@ namespace Touchstone
   };
 
   /**
-   * @brief A linear system with its constraints condensed out, T^T A T y = T^T
-   * (b - A g) for x = T y + g, as plain distributed rows that both back ends
-   * understand.
+   * @brief A linear system with its constraints condensed out, S^T A T y = S^T
+   * (b - A g) for x = T y + g and test functions S z, as plain distributed rows
+   * that all back ends understand. S = T where the test functions have the same
+   * constraints.
    *
    * Rows that no constraint and no contact term touches are copied, so the cost
    * beyond the copy is that of the constrained neighbourhood. Constrained

@@ -29,6 +29,11 @@ namespace Touchstone
     void
     update(const Vector &u, double time);
 
+    /** @brief Set the derivatives of the active rows in the displacement of the
+     * last update(), for the consistent linearisation. */
+    void
+    differentiate();
+
     /** @brief What an update of the active set did, over all ranks. */
     struct ActiveSetUpdate
     {
@@ -97,6 +102,11 @@ namespace Touchstone
       /** Pairing of the reference state, kept for small sliding and tied. */
       bool                    small = false;
       std::vector<ContactRow> reference;
+      /** Initial overlaps that do not count, or not yet; of each row. */
+      std::vector<double> overlap;
+      /** With friction: a tangent of each slave node that moves with the surface,
+       * as a stencil of positions. */
+      std::vector<Stencil> tangents;
     };
 
     const Solid                         &solid;
@@ -106,9 +116,15 @@ namespace Touchstone
     /** Displacement with the ghosts that the surfaces need. */
     Vector ghosted;
     /** The same for the stencils of reference pairings. */
-    Vector       stencil_values;
-    unsigned int searches = 0;
-    bool         started  = false;
+    Vector stencil_values;
+    /** With friction: positions of all nodes in the reference state (owned), and
+     * at present for those that stencils and anchors refer to. */
+    Vector           reference_positions, positions;
+    dealii::IndexSet positions_known;
+    unsigned int     searches = 0;
+    bool             started  = false;
+    double           time     = 0.;
+    const double     end_time;
 
     /** A place of a row in an order that does not depend on the partition. */
     std::vector<double>
@@ -120,6 +136,22 @@ namespace Touchstone
     make_reference(Pair &pair, std::vector<ContactRow> &pair_rows, double time);
     void
     update_small(Pair &pair, std::vector<ContactRow> &pair_rows, const Vector &u);
+    /** Slip of the rows with friction. */
+    void
+    update_slip(const Vector &u);
+    /** Position of a node that positions knows. */
+    dealii::Tensor<1, dim>
+    position(Index node) const;
+    /** What is known of the place of contact besides the stencil. */
+    dealii::Tensor<1, dim>
+    contact_place(const ContactRow &row) const;
+    /** The present place of contact is where slip counts from. */
+    void
+    set_anchor(ContactRow &row) const;
+    void
+    set_slip_gradient(ContactRow &row, const Stencil &tangent) const;
+    void
+    commit_friction(ContactRow &row) const;
     void
     check_roles() const;
   };

@@ -25,7 +25,7 @@ namespace Touchstone
 
     /**
      * @brief Bring the contact forces of the rows up to date before they are
-     * judged.
+     * judged, by respond() where there may be friction.
      * @param unbalanced External minus internal forces, without contact forces.
      * @param graph      Holds the prescribed displacements only.
      */
@@ -33,8 +33,8 @@ namespace Touchstone
     recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) = 0;
 
     /** @brief Offer the active rows to the graph and add terms and extra unknowns
-     * to the system, whose right-hand side holds no contact forces.
-     * Rows take note of what the graph refuses. */
+     * to the system, whose right-hand side holds no contact forces: RowTerms adds
+     * those of friction afterwards. Rows take note of what the graph refuses. */
     virtual void
     enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) = 0;
 
@@ -59,12 +59,6 @@ namespace Touchstone
   };
 
   using EnforcementRegistry = Registry<Enforcement, const ContactParameters &>;
-
-  /** @brief The conditions that a row puts on the displacement increment: none if
-   * it is open, along the normal if it is free to slide, in all directions if it
-   * is held. Resets its count of accepted and refused conditions. */
-  std::vector<Condition>
-  start_row(ContactRow &row);
 } // namespace Touchstone
 
 #endif

@@ -27,9 +27,12 @@ namespace Touchstone
     double pressure;
     /** Contact force divided by tributary area. */
     dealii::Tensor<1, dim> traction;
-    /** Accumulated tangential slip, length. */
+    /** Tangential slip of the last step, length. */
     dealii::Tensor<1, dim> slip;
-    ContactStatus          status;
+    /** Length of the slip path, and work done against friction, force times
+     * length. */
+    double        slip_length = 0., friction_work = 0.;
+    ContactStatus status;
   };
 
   /** @brief A slave face as polygon for pictures: nodes in lexicographic order,
@@ -56,6 +59,8 @@ namespace Touchstone
     unsigned int active          = 0;
     unsigned int stick           = 0;
     unsigned int slip            = 0;
+    /** Work done against friction since the start, force times length. */
+    double friction_work = 0.;
   };
 } // namespace Touchstone
 

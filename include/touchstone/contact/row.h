@@ -1,12 +1,15 @@
 #ifndef touchstone_contact_row_h
 #define touchstone_contact_row_h
 
+#include <touchstone/contact/friction.h>
+#include <touchstone/contact/stencil.h>
 #include <touchstone/types.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace Touchstone
@@ -24,14 +27,6 @@ namespace Touchstone
     stick = 2,
     /** All components constrained, compression and tension. */
     tied = 3
-  };
-
-  /** @brief One term of a stencil: weight @p weight on the node @p node (the
-   * unknowns of node k are 3k, 3k+1, 3k+2). */
-  struct StencilEntry
-  {
-    Index  node;
-    double weight;
   };
 
   /**
@@ -56,7 +51,8 @@ namespace Touchstone
    * master nodes: the only thing that enforcement knows of contact.
    *
    * With M = [I, -w_1 I, ...] the gap is g = n . (M x + offset) and the contact
-   * force f = lambda n acts as M^T f. An obstacle is a row with an empty stencil.
+   * force f = lambda_n n + t_T acts as M^T f. An obstacle is a row with an empty
+   * stencil.
    */
   struct ContactRow
   {
@@ -94,18 +90,42 @@ namespace Touchstone
     unsigned int accepted = 0, refused = 0;
     /** Gap that the enforcement grants for now: the penetration of a penalty. */
     double granted_gap = 0.;
-    /** Force at the last augmentation of an augmented Lagrangian. */
+    /** Normal and other force at the last augmentation of an augmented
+     * Lagrangian. */
+    double                 augmented_lambda = 0.;
     dealii::Tensor<1, dim> augmented;
     /** Contact force on the slave node, force: lambda_n n + t_T. */
     dealii::Tensor<1, dim> force;
     /** Normal contact force, >= 0 in compression. */
     double        lambda = 0.;
     ContactStatus status = ContactStatus::no_partner;
+    /** Motion of the obstacle since time 0, length; zero for a master body. */
+    dealii::Tensor<1, dim> shift;
+    /** Only where there is friction. */
+    std::optional<FrictionState> friction;
 
     bool
     active() const
     {
       return status >= ContactStatus::slip;
+    }
+
+    /** @brief No relative motion is left to the row: tied, or stick that is not
+     * left to springs. */
+    bool
+    held() const
+    {
+      return tied || (status == ContactStatus::stick && friction && friction->hold);
+    }
+
+    /** @brief No contact force of any kind. */
+    void
+    clear_force()
+    {
+      lambda = augmented_lambda = 0.;
+      force = augmented = dealii::Tensor<1, dim>();
+      if (friction)
+        friction->clear_force();
     }
 
     /** @brief Active, but all that it asks for is decided by others. */

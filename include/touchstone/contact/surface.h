@@ -76,6 +76,11 @@ namespace Touchstone
       return normals.at(node);
     }
 
+    /** @brief For each owned node weights of node positions whose sum is a tangent
+     * of the surface there; it moves with the body. In the order of owned_nodes(). */
+    std::vector<Stencil>
+    tangents() const;
+
     /** @brief Current position of an owned node. */
     dealii::Point<dim>
     position(const SurfaceNode &node, const Vector &u) const;

@@ -4,11 +4,14 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/tensor.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace Touchstone
 {
+  class FrictionLaw;
+
   /** @brief Section "Obstacle NAME": a rigid body given by one formula. */
   struct ObstacleParameters
   {
@@ -48,8 +51,16 @@ namespace Touchstone
     std::string              obstacle;
     /** Name under which the pairing is registered ("pointwise"). */
     std::string pairing = "pointwise";
-    /** "frictionless" or "tied". */
+    /** "frictionless", "tied", or the name under which a friction law is
+     * registered. */
     std::string behaviour = "frictionless";
+    /** The friction law with its own parameters read, subsection "Friction"; null
+     * without friction. */
+    std::shared_ptr<FrictionLaw> friction;
+    /** What becomes of an overlap of the bodies as they are placed: an
+     * "interference" that presses them apart, "adjust": no overlap, "ramp": an
+     * interference that grows over the time of the run. */
+    std::string initial_overlap = "interference";
     /** "finite" (search in each iteration) or "small" (reference pairing);
      * tied pairs are always "small". */
     std::string sliding = "finite";
@@ -67,8 +78,9 @@ namespace Touchstone
     std::string
     section() const;
 
+    /** @param behaviour_name The behaviour that the scene sets, for its own keys. */
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(dealii::ParameterHandler &prm, const std::string &behaviour_name);
     void
     check(const std::string &section) const;
   };
@@ -85,7 +97,13 @@ namespace Touchstone
     /** Augmented Lagrange: "merged" with Newton's iterations, or in an "outer"
      * loop around them (Uzawa). */
     std::string augmentation = "merged";
-
+    /** Stick: "exact" without any slip, or "regularised" by elastic slip. */
+    std::string friction = "exact";
+    /** Multiplies the automatic stiffness of regularised stick; no unit. */
+    double tangential_factor = 1.;
+    /** "consistent": with the change of normals, stencils and slip directions;
+     * "frozen": without; "automatic": as the linear solver allows. */
+    std::string linearisation = "automatic";
 
     void
     declare(dealii::ParameterHandler &prm);

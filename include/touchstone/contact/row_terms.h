@@ -1,0 +1,73 @@
+#ifndef touchstone_contact_row_terms_h
+#define touchstone_contact_row_terms_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/linear_system.h>
+#include <touchstone/contact/row.h>
+
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief A linear form of the displacements of some nodes. */
+  using NodalForm = std::vector<std::pair<Index, dealii::Tensor<1, dim>>>;
+
+  /**
+   * @brief The conditions that an active row puts on the displacement increment:
+   * along the normal if it is free to slide, in all directions if it is held; none
+   * if it is open. Resets its count of accepted and refused conditions.
+   *
+   * @param keep_symmetric Leave the force along the normal when it drags friction
+   *                       along with it.
+   */
+  std::vector<Condition>
+  start_row(ContactRow &row, bool keep_symmetric);
+
+  /** @brief Coefficients of a condition by node. */
+  NodalForm
+  gradient(const Condition &condition);
+
+  /** @brief Matrix terms and loads at nodes, which may belong to any rank. */
+  class RowTerms
+  {
+  public:
+    explicit RowTerms(LinearSystem &system)
+      : system(system)
+    {
+    }
+
+    /** @brief Add the load M^T @p force of a row. */
+    void
+    add_load(const ContactRow &row, const dealii::Tensor<1, dim> &force);
+
+    /** @brief Add the stiffness -d(M^T f) where f changes by -@p force times the
+     * form: M^T force form. */
+    void
+    add_stiffness(const ContactRow             &row,
+                  const dealii::Tensor<1, dim> &force,
+                  const NodalForm              &form);
+
+    /**
+     * @brief Add what friction and the change of normal and stencil contribute to
+     * the system, whatever the enforcement; takes note of the response that has
+     * been used.
+     */
+    void
+    add_row(ContactRow &row);
+
+    /** @brief Add the loads to the right-hand side. Collective. */
+    void
+    finish();
+
+  private:
+    LinearSystem       &system;
+    std::vector<Index>  unknowns;
+    std::vector<double> loads;
+
+    void
+    add_geometric(const ContactRow &row);
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,113 @@
+#include <touchstone/contact/friction.h>
+#include <touchstone/contact/row.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  FrictionState::clear_force()
+  {
+    base = direction = last_direction = rest = coupling = turn = Vec();
+    slope = last_slope = Mat();
+    limit = excess = 0.;
+  }
+
+
+
+  void
+  choose_friction(ContactRow &row)
+  {
+    FrictionState &f = *row.friction;
+    if (!f.exact)
+      {
+        f.regularise();
+        return;
+      }
+    f.hold    = true;
+    f.carried = false;
+    f.c       = row.stiffness;
+  }
+
+
+
+  namespace
+  {
+    /** Bound of the stiffness across the slip direction over that along the
+     * normal: it grows like 1 / |s| where slip begins. */
+    constexpr double stiffest = 1e2;
+  } // namespace
+
+
+
+  void
+  respond(ContactRow &row)
+  {
+    if (row.tied)
+      return;
+    if (!row.friction)
+      {
+        row.force = row.lambda * row.normal;
+        return;
+      }
+    using Vec              = FrictionState::Vec;
+    using Mat              = FrictionState::Mat;
+    FrictionState &f       = *row.friction;
+    const bool     slipped = row.status == ContactStatus::slip;
+    const Mat      tangential =
+      Mat(unit_symmetric_tensor<dim>()) - outer_product(row.normal, row.normal);
+    FrictionInput input;
+    input.normal_force        = std::max(row.lambda, 0.);
+    input.area                = row.area;
+    input.slip_length         = f.slip_length;
+    input.sliding             = slipped;
+    const FrictionLimit limit = f.law->limit(input);
+
+    // An exact slip force has no state of its own but its direction: that of the
+    // last linearisation, corrected by the slip across it.
+    Vec base = tangential * f.base;
+    if (!f.carried && slipped && f.last_direction.norm() > 0.)
+      base = tangential * (limit.force * f.last_direction - f.last_slope * f.slip);
+    const Vec    trial = base - f.c * f.slip;
+    const double size  = trial.norm();
+    f.limit            = limit.force;
+    f.excess           = size - limit.force;
+    Vec force;
+    f.direction = f.rest = f.coupling = f.turn = Vec();
+    f.slope                                    = Mat();
+    if (!slipped)
+      {
+        force = f.hold ? base : trial;
+        if (!f.hold)
+          {
+            f.rest  = trial;
+            f.slope = f.c * tangential;
+            if (f.carried)
+              f.turn = cross_product_3d(f.start, row.normal);
+          }
+      }
+    else if (size > 0.)
+      {
+        const Vec direction = trial / size;
+        force               = limit.force * direction;
+        f.direction         = direction;
+        f.coupling          = limit.slope * direction;
+        f.rest              = (limit.force - limit.slope * row.lambda) * direction;
+        const double room   = f.carried ? size : std::max(f.excess, 0.);
+        const double kappa  = limit.force < stiffest * row.stiffness / f.c * room
+                                ? limit.force * f.c / room
+                                : stiffest * row.stiffness;
+        const Mat    across = tangential - outer_product(direction, direction);
+        f.slope             = kappa * across;
+        if (!f.carried)
+          f.rest -= f.slope * f.slip;
+        else
+          f.turn = limit.force / size * (across * cross_product_3d(f.start, row.normal));
+      }
+    row.force = row.lambda * row.normal + force;
+  }
+} // namespace Touchstone

@@ -1,0 +1,209 @@
+#include <touchstone/contact/row_terms.h>
+
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Coefficients of a relative motion along @p direction. */
+    NodalForm
+    product_form(const Index slave, const Stencil &stencil, const Tensor<1, dim> &direction)
+    {
+      NodalForm form{{slave, direction}};
+      for (const StencilEntry &entry : stencil)
+        form.emplace_back(entry.node, -entry.weight * direction);
+      return form;
+    }
+
+    /** d gap / d x_a, where normal and stencil change. */
+    NodalForm
+    gap_gradient(const ContactRow &row)
+    {
+      NodalForm            form;
+      const RowDerivative &derivative = *row.derivative;
+      for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+        form.emplace_back(derivative.nodes[a],
+                          row.normal * derivative.gap_vector[a] +
+                            row.gap_vector * derivative.normal[a]);
+      return form;
+    }
+
+    /** A component of the slip. */
+    NodalForm
+    slip_form(const ContactRow &row, const Tensor<1, dim> &direction)
+    {
+      NodalForm form;
+      for (const auto &[node, matrix] : row.friction->slip_gradient)
+        form.emplace_back(node, direction * matrix);
+      return form;
+    }
+  } // namespace
+
+
+
+  std::vector<Condition>
+  start_row(ContactRow &row, const bool keep_symmetric)
+  {
+    row.accepted = row.refused = 0;
+    if (!row.active())
+      return {};
+    Condition condition;
+    condition.node            = row.slave;
+    condition.stencil         = row.stencil;
+    condition.body            = row.body;
+    condition.master_body     = row.master_body;
+    condition.position        = row.position;
+    condition.master_position = row.position - row.gap_vector;
+    std::vector<Condition> conditions;
+    if (row.tied)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            condition.direction    = Tensor<1, dim>();
+            condition.direction[d] = 1.;
+            condition.value        = -row.gap_vector[d];
+            conditions.push_back(condition);
+          }
+        return conditions;
+      }
+
+    condition.direction = row.normal;
+    condition.value     = -row.gap;
+    if (row.derivative && !keep_symmetric)
+      condition.gradient = gap_gradient(row);
+    if (row.friction && !keep_symmetric && row.friction->coupling.norm_square() > 0.)
+      condition.force_direction = row.normal + row.friction->coupling;
+    conditions.push_back(condition);
+    if (row.held())
+      for (const Tensor<1, dim> &tangent : row.friction->frame)
+        {
+          condition.direction       = tangent;
+          condition.force_direction = Tensor<1, dim>();
+          condition.value           = -(tangent * row.friction->slip);
+          condition.gradient.clear();
+          if (!row.friction->slip_gradient.empty() && !keep_symmetric)
+            condition.gradient = slip_form(row, tangent);
+          conditions.push_back(condition);
+        }
+    return conditions;
+  }
+
+
+
+  NodalForm
+  gradient(const Condition &condition)
+  {
+    return condition.gradient.empty()
+             ? product_form(condition.node, condition.stencil, condition.direction)
+             : condition.gradient;
+  }
+
+
+
+  void
+  RowTerms::add_load(const ContactRow &row, const Tensor<1, dim> &force)
+  {
+    for (const auto &[node, part] : product_form(row.slave, row.stencil, force))
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          unknowns.push_back(dim * node + d);
+          loads.push_back(part[d]);
+        }
+  }
+
+
+
+  void
+  RowTerms::add_stiffness(const ContactRow &row, const Tensor<1, dim> &force, const NodalForm &form)
+  {
+    for (const auto &[node, part] : product_form(row.slave, row.stencil, force))
+      for (unsigned int d = 0; d < dim; ++d)
+        if (part[d] != 0.)
+          for (const auto &[other, coefficients] : form)
+            for (unsigned int e = 0; e < dim; ++e)
+              if (coefficients[e] != 0.)
+                system.terms.push_back(
+                  {dim * node + d, dim * other + e, part[d] * coefficients[e]});
+  }
+
+
+
+  void
+  RowTerms::add_geometric(const ContactRow &row)
+  {
+    // f = lambda n + t with t turning with the normal: df = lambda dn - n (t . dn).
+    const RowDerivative &derivative = *row.derivative;
+    const Tensor<1, dim> tangential = row.force - row.lambda * row.normal;
+    Tensor<2, dim>       turn       = outer_product(row.normal, tangential);
+    for (unsigned int d = 0; d < dim; ++d)
+      turn[d][d] -= row.lambda;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        Tensor<1, dim> e;
+        e[d] = 1.;
+        NodalForm form;
+        for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+          form.emplace_back(derivative.nodes[a], turn[d] * derivative.normal[a]);
+        add_stiffness(row, e, form);
+      }
+    // Master nodes take -w_m f.
+    for (std::size_t m = 0; m < row.stencil.size(); ++m)
+      for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = 0; e < dim; ++e)
+            {
+              const double value = row.force[d] * derivative.weights[m][a][e];
+              if (value != 0.)
+                system.terms.push_back(
+                  {dim * row.stencil[m].node + d, dim * derivative.nodes[a] + e, value});
+            }
+  }
+
+
+
+  void
+  RowTerms::add_row(ContactRow &row)
+  {
+    if (!row.active() || row.dropped())
+      return;
+    if (row.derivative && !system.keep_symmetric)
+      {
+        add_geometric(row);
+        system.symmetric = false;
+      }
+    if (!row.friction)
+      return;
+    FrictionState &f = *row.friction;
+    f.last_direction = f.direction;
+    f.last_slope     = f.slope;
+    // Lagged, the friction of the present normal force stays.
+    add_load(row, system.keep_symmetric ? f.rest + row.lambda * f.coupling : f.rest);
+    if (f.slope.norm_square() > 0.)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Tensor<1, dim> e;
+          e[d] = 1.;
+          add_stiffness(row,
+                        e,
+                        f.slip_gradient.empty() || system.keep_symmetric
+                          ? product_form(row.slave, row.stencil, f.slope[d])
+                          : slip_form(row, f.slope[d]));
+        }
+    if (!f.spin_gradient.empty() && !system.keep_symmetric && f.turn.norm_square() > 0.)
+      add_stiffness(row, f.turn, f.spin_gradient);
+  }
+
+
+
+  void
+  RowTerms::finish()
+  {
+    system.rhs.add(unknowns, loads);
+    system.rhs.compress(VectorOperation::add);
+    unknowns.clear();
+    loads.clear();
+  }
+} // namespace Touchstone
