@@ -1,8 +1,10 @@
+#include <touchstone/contact/averaged_derivative.h>
 #include <touchstone/contact/overlap.h>
 #include <touchstone/contact/pairing.h>
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <list>
 #include <map>
 #include <unordered_map>
 
@@ -31,12 +33,16 @@ namespace Touchstone
                    ? input.parameters->search_distance
                    : std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
+                 master_normal(input.parameters->master_normal),
                  input.solid->communicator)
       {
       }
 
       void
       update(const Vector &u, double, std::vector<ContactRow> &rows) override;
+
+      void
+      differentiate(const Vector &, double, std::vector<ContactRow> &rows) override;
 
     private:
       /** Sums over the slave faces around a node. */
@@ -48,9 +54,14 @@ namespace Touchstone
       };
 
       Search search;
+      /** Of the last update: sums by owned node, and the slave faces around them. */
+      std::unordered_map<Index, Sums> sums;
+      std::vector<const Face *>       slave_faces;
 
       void
-      add_face(const Face &slave, std::unordered_map<Index, Sums> &sums) const;
+      for_each_master(const Face &slave, const std::function<void(const Face &)> &visit) const;
+      void
+      add_face(const Face &slave);
     };
 
     const PairingRegistry::Entry<AveragedPairing>
@@ -59,24 +70,38 @@ namespace Touchstone
 
 
     void
-    AveragedPairing::add_face(const Face &slave, std::unordered_map<Index, Sums> &sums) const
+    AveragedPairing::for_each_master(const Face                              &slave,
+                                     const std::function<void(const Face &)> &visit) const
     {
-      const unsigned int n     = slave.n_nodes();
-      Point<dim>         lower = slave.reference[0] + slave.displacement[0], upper = lower;
-      for (unsigned int m = 1; m < n; ++m)
+      Point<dim> lower = slave.reference[0] + slave.displacement[0], upper = lower;
+      for (unsigned int m = 1; m < slave.n_nodes(); ++m)
         for (unsigned int d = 0; d < dim; ++d)
           {
             const double x = slave.reference[m][d] + slave.displacement[m][d];
             lower[d]       = std::min(lower[d], x);
             upper[d]       = std::max(upper[d], x);
           }
-      std::vector<std::pair<const Face *, OverlapPoint>> points;
       search.for_each_near(BoundingBox<dim>({lower, upper}),
                            evaluate(slave, nullptr, {{0., 0.}}).normal(),
-                           [&](const Face &master) {
-                             for (const OverlapPoint &point : overlap(slave, master))
-                               points.emplace_back(&master, point);
-                           });
+                           visit);
+    }
+
+
+
+    void
+    AveragedPairing::add_face(const Face &slave)
+    {
+      const unsigned int                                         n = slave.n_nodes();
+      std::vector<std::pair<const FaceGeometry *, OverlapPoint>> points;
+      std::list<FaceGeometry>                                    geometries;
+      for_each_master(slave, [&](const Face &master) {
+        const auto common = overlap(slave, master);
+        if (common.empty())
+          return;
+        geometries.push_back(search.geometry(master));
+        for (const OverlapPoint &point : common)
+          points.emplace_back(&geometries.back(), point);
+      });
       if (points.empty())
         return;
 
@@ -106,11 +131,11 @@ namespace Touchstone
       for (const auto &[master, point] : points)
         {
           const FaceShapes     slave_shapes(slave.degree, point.slave);
-          const FaceShapes     master_shapes(master->degree, point.master);
+          const Face          &face = master->face();
+          const FaceShapes     master_shapes(face.degree, point.master);
           const Tensor<1, dim> gap =
-            evaluate(slave, slave_exact, point.slave).x -
-            evaluate(*master, input.master->exact_surface(*master), point.master).x;
-          const Tensor<1, dim> normal = search.normal(*master, point.master);
+            evaluate(slave, slave_exact, point.slave).x - master->evaluate(point.master).x;
+          const Tensor<1, dim> normal = master->normal(point.master);
           for (unsigned int i = 0; i < n; ++i)
             {
               double psi = 0.;
@@ -121,8 +146,8 @@ namespace Touchstone
               sum.area += psi;
               sum.gap += psi * gap;
               sum.normal += psi * normal;
-              for (unsigned int m = 0; m < master->n_nodes(); ++m)
-                sum.stencil[master->nodes[m]] += psi * master_shapes.value[m];
+              for (unsigned int m = 0; m < face.n_nodes(); ++m)
+                sum.stencil[face.nodes[m]] += psi * master_shapes.value[m];
             }
         }
     }
@@ -133,14 +158,14 @@ namespace Touchstone
     AveragedPairing::update(const Vector &, const double, std::vector<ContactRow> &rows)
     {
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
-      std::unordered_map<Index, Sums> sums;
+      sums.clear();
       for (const SurfaceNode &node : nodes)
         sums[node.node];
 
       // Faces of owned and of ghost cells that touch an owned node: their sums are
       // complete here without another rank.
-      std::vector<const Face *> faces;
-      std::vector<Point<dim>>   positions;
+      slave_faces.clear();
+      std::vector<Point<dim>> positions;
       for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
         for (const Face &face : *list)
           {
@@ -149,21 +174,22 @@ namespace Touchstone
               touches = touches || sums.count(face.nodes[m]) > 0;
             if (!touches)
               continue;
-            faces.push_back(&face);
+            slave_faces.push_back(&face);
             for (unsigned int m = 0; m < face.n_nodes(); ++m)
               positions.push_back(face.reference[m] + face.displacement[m]);
           }
-      std::sort(faces.begin(), faces.end(), [](const Face *a, const Face *b) {
+      std::sort(slave_faces.begin(), slave_faces.end(), [](const Face *a, const Face *b) {
         return a->key < b->key;
       });
       search.update(positions);
-      for (const Face *face : faces)
-        add_face(*face, sums);
+      // Nodes that are not owned here get a share, too, which is not used.
+      for (const Face *face : slave_faces)
+        add_face(*face);
 
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow &row = rows[k];
-          const Sums &sum = sums[nodes[k].node];
+          const Sums &sum = sums.at(nodes[k].node);
           row.stencil.clear();
           if (sum.area < 1e-6 * nodes[k].area || sum.normal.norm() == 0.)
             {
@@ -181,6 +207,30 @@ namespace Touchstone
           row.gap        = row.gap_vector * row.normal;
           row.area       = std::min(sum.area, nodes[k].area);
         }
+    }
+
+
+
+    void
+    AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
+    {
+      AveragedDerivative derivative(search);
+      for (const ContactRow &row : rows)
+        if (row.active())
+          {
+            const Sums &sum = sums.at(row.slave);
+            derivative.add_row(row, sum.area, sum.normal);
+          }
+      for (const Face *face : slave_faces)
+        if (derivative.wants(*face))
+          {
+            std::vector<const Face *> masters;
+            for_each_master(*face, [&](const Face &master) { masters.push_back(&master); });
+            derivative.add_face(*face, input.slave->exact_surface(*face), masters);
+          }
+      derivative.finish();
+      for (ContactRow &row : rows)
+        row.derivative = row.active() ? derivative.result(row.slave) : nullptr;
     }
   } // namespace
 } // namespace Touchstone

@@ -239,7 +239,7 @@ namespace Touchstone
               if (row.tied)
                 row.status = ContactStatus::tied;
               else if (row.gap < touching * row.size)
-                row.status = row.friction ? ContactStatus::stick : ContactStatus::slip;
+                row.status = ContactStatus::slip;
               if (pair.parameters->initial_overlap != "interference")
                 pair.overlap[k] = std::min(row.gap, 0.);
             }

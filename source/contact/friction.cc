@@ -40,6 +40,10 @@ namespace Touchstone
     /** Bound of the stiffness across the slip direction over that along the
      * normal: it grows like 1 / |s| where slip begins. */
     constexpr double stiffest = 1e2;
+
+    /** A trial force that is smaller, over the scale of contact forces, is what
+     * round-off makes of the slip: it has no direction. */
+    constexpr double nothing = 1e-12;
   } // namespace
 
 
@@ -90,7 +94,7 @@ namespace Touchstone
               f.turn = cross_product_3d(f.start, row.normal);
           }
       }
-    else if (size > 0.)
+    else if (size > nothing * row.stiffness * row.size)
       {
         const Vec direction = trial / size;
         force               = limit.force * direction;

@@ -1,6 +1,8 @@
 #include <touchstone/contact/pairing.h>
+#include <touchstone/contact/row_derivative.h>
 
 #include <deal.II/base/function_parser.h>
+#include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
 #include <memory>
@@ -38,9 +40,7 @@ namespace Touchstone
       void
       update(const Vector &u, const double time, std::vector<ContactRow> &rows) override
       {
-        Tensor<1, dim> shift;
-        for (unsigned int d = 0; d < dim; ++d)
-          shift[d] = motion[d]->value(Point<1>(time));
+        const Tensor<1, dim>            shift = motion_at(time);
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
@@ -56,7 +56,48 @@ namespace Touchstone
           }
       }
 
+      void
+      differentiate(const Vector &u, const double time, std::vector<ContactRow> &rows) override
+      {
+        const Tensor<1, dim>            shift = motion_at(time);
+        const Tensor<2, dim>            identity(unit_symmetric_tensor<dim>());
+        const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          {
+            ContactRow &row = rows[k];
+            row.derivative.reset();
+            if (!row.active())
+              continue;
+            const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
+            RowDerivativeBuilder builder(0);
+            builder.index(row.slave);
+            builder.result->gap_vector[0] = identity - surface->projection_gradient(x);
+            // Central differences: normals are given by formulas that are simple, and
+            // smooth over the size of a face.
+            const double step = 1e-4 * row.size;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                Tensor<1, dim> move;
+                move[d] = step;
+                const Tensor<1, dim> change =
+                  (surface->normal(x + move) - surface->normal(x - move)) / (2. * step);
+                for (unsigned int c = 0; c < dim; ++c)
+                  builder.result->normal[0][c][d] = change[c];
+              }
+            row.derivative = builder.result;
+          }
+      }
+
     private:
+      Tensor<1, dim>
+      motion_at(const double time) const
+      {
+        Tensor<1, dim> shift;
+        for (unsigned int d = 0; d < dim; ++d)
+          shift[d] = motion[d]->value(Point<1>(time));
+        return shift;
+      }
+
       std::shared_ptr<const AnalyticSurface>              surface;
       std::array<std::unique_ptr<FunctionParser<1>>, dim> motion;
     };

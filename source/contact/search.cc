@@ -14,13 +14,15 @@ namespace Touchstone
   namespace bg  = boost::geometry;
   namespace bgi = boost::geometry::index;
 
-  Search::Search(const Surface &master,
-                 const double   reach,
-                 const double   tolerance,
-                 const MPI_Comm communicator)
+  Search::Search(const Surface     &master,
+                 const double       reach,
+                 const double       tolerance,
+                 const MasterNormal kind,
+                 const MPI_Comm     communicator)
     : master(master)
     , reach(reach)
     , tolerance(tolerance)
+    , kind(kind)
     , communicator(communicator)
   {
   }
@@ -68,6 +70,8 @@ namespace Touchstone
         }
 
     faces.clear();
+    sent.clear();
+    received.clear();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     if (n_ranks == 1)
       faces = master.owned_faces();
@@ -77,9 +81,10 @@ namespace Touchstone
           Utilities::MPI::all_gather(communicator,
                                      std::vector<double>(capture.begin(), capture.end()));
         std::map<unsigned int, std::vector<char>> packages;
-        for (const Face &face : master.owned_faces())
+        for (std::size_t f = 0; f < master.owned_faces().size(); ++f)
           {
-            const Box box = bounding_box(face);
+            const Face &face = master.owned_faces()[f];
+            const Box   box  = bounding_box(face);
             for (unsigned int rank = 0; rank < n_ranks; ++rank)
               {
                 const auto &c     = captures[rank];
@@ -88,6 +93,7 @@ namespace Touchstone
                   meets = meets && box.lower_bound(d) <= c[dim + d] && box.upper_bound(d) >= c[d];
                 if (!meets)
                   continue;
+                sent[rank].push_back(f);
                 auto             &package = packages[rank];
                 const std::size_t size    = package.size();
                 package.resize(size + sizeof(Face));
@@ -97,6 +103,7 @@ namespace Touchstone
         for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
           {
             const std::size_t first = faces.size();
+            received[rank]          = first;
             faces.resize(first + package.size() / sizeof(Face));
             std::memcpy(static_cast<void *>(faces.data() + first), package.data(), package.size());
           }
@@ -149,21 +156,10 @@ namespace Touchstone
 
 
 
-  Tensor<1, dim>
-  Search::normal(const Face &face, const std::array<double, 2> &xi) const
+  FaceGeometry
+  Search::geometry(const Face &face) const
   {
-    const AnalyticSurface *exact = master.exact_surface(face);
-    const FaceShapes       shapes(face.degree, xi);
-    Tensor<1, dim>         result;
-    for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      result += shapes.value[m] * face.normals[m];
-    if (exact)
-      {
-        result += evaluate(face, exact, xi).normal();
-        for (unsigned int m = 0; m < face.n_nodes(); ++m)
-          result -= shapes.value[m] * evaluate(face, exact, node_coordinates(face, m)).normal();
-      }
-    return result / result.norm();
+    return FaceGeometry(face, master.exact_surface(face), kind);
   }
 
 
@@ -186,7 +182,7 @@ namespace Touchstone
         const AnalyticSurface *exact = master.exact_surface(face);
         if (looks_the_same_way(face, exact, slave_normal))
           continue;
-        const Projection projection = closest_point_projection(x, face, exact);
+        const Projection projection = closest_point_projection(x, geometry(face));
         // Points on a common edge are equally close up to round-off: the face
         // with the smaller key gets the node, on any number of ranks. But a node
         // that has just slid over the edge must not be called back to it.
@@ -202,23 +198,72 @@ namespace Touchstone
     if (best == nullptr || best_projection.beyond_outer > (in_contact ? 5. : 1.) * tolerance)
       return {};
 
-    const AnalyticSurface *exact = master.exact_surface(*best);
-    const FacePoint        point = evaluate(*best, exact, best_projection.xi);
-    ContactPartner partner{best, best_projection.xi, point.x, normal(*best, best_projection.xi)};
-    if (best_projection.beyond_inner > 1e-6)
+    const FaceGeometry shape = geometry(*best);
+    ContactPartner     partner{best,
+                           best_projection.xi,
+                           shape.evaluate(best_projection.xi).x,
+                           shape.normal(best_projection.xi)};
+    Tensor<1, dim>     edge;
+    if (best_projection.beyond_inner > 1e-6 && shape.sharp(partner.xi, edge))
       {
-        const FaceShapes shapes(best->degree, best_projection.xi);
-        Tensor<1, dim>   edge;
-        for (unsigned int m = 0; m < best->n_nodes(); ++m)
-          edge += shapes.value[m] * best->edge_normals[m];
-        if (partner.normal * edge < 0.999 * edge.norm())
-          {
-            // In the wedge over a sharp edge the shortest way leads to the edge.
-            const Tensor<1, dim> way = x - point.x;
-            partner.normal = way.norm() > 1e-8 * reach ? (way * edge < 0. ? -way : way) : edge;
-            partner.normal /= partner.normal.norm();
-          }
+        // In the wedge over a sharp edge the shortest way leads to the edge.
+        const Tensor<1, dim> way = x - partner.x;
+        if (way.norm() > 1e-8 * reach)
+          partner.wedge = (way * edge < 0. ? -1 : 1);
+        partner.normal = partner.wedge != 0 ? partner.wedge * way : edge;
+        partner.normal /= partner.normal.norm();
       }
     return partner;
+  }
+
+
+
+  std::unordered_map<const Face *, std::vector<NormalDerivative>>
+  Search::normal_derivatives(const std::vector<const Face *> &needed) const
+  {
+    std::unordered_map<const Face *, std::vector<NormalDerivative>> result;
+    if (kind == MasterNormal::face)
+      return result;
+    for (const Face *face : needed)
+      result[face];
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      {
+        for (auto &[face, derivative] : result)
+          derivative = master.normal_derivative(master.owned_faces()[face - faces.data()]);
+        return result;
+      }
+
+    // Asked for by their places in what was sent; answered as plain data.
+    using Answer = std::pair<std::size_t, NormalDerivative>;
+    std::map<unsigned int, std::vector<std::size_t>> questions;
+    for (const auto &[face, derivative] : result)
+      {
+        const std::size_t f    = face - faces.data();
+        auto              from = received.begin();
+        for (auto it = received.begin(); it != received.end(); ++it)
+          if (it->second <= f && it->second >= from->second)
+            from = it;
+        questions[from->first].push_back(f - from->second);
+      }
+    std::map<unsigned int, std::vector<char>> answers;
+    for (const auto &[rank, places] : Utilities::MPI::some_to_some(communicator, questions))
+      for (const std::size_t place : places)
+        for (const NormalDerivative &derivative :
+             master.normal_derivative(master.owned_faces()[sent.at(rank)[place]]))
+          {
+            const Answer      answer(place, derivative);
+            auto             &package = answers[rank];
+            const std::size_t size    = package.size();
+            package.resize(size + sizeof(Answer));
+            std::memcpy(package.data() + size, static_cast<const void *>(&answer), sizeof(Answer));
+          }
+    for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, answers))
+      for (std::size_t i = 0; i < package.size(); i += sizeof(Answer))
+        {
+          Answer answer;
+          std::memcpy(static_cast<void *>(&answer), package.data() + i, sizeof(Answer));
+          result[&faces[received.at(rank) + answer.first]].push_back(answer.second);
+        }
+    return result;
   }
 } // namespace Touchstone

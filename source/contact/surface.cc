@@ -43,8 +43,15 @@ namespace Touchstone
       return areas;
     }
 
-    /** Faces that meet at more than 50 degrees meet in an edge of the body. */
-    constexpr double cosine_of_sharp_edge = 0.64;
+    /** A face takes its share of the average only from faces that it meets in
+     * less than a sharp edge: those that meet at more than 50 degrees meet in an
+     * edge of the body. */
+    bool
+    averaged_with(const Tensor<1, dim> &part, const Tensor<1, dim> &own)
+    {
+      constexpr double cosine_of_sharp_edge = 0.64;
+      return part * own > cosine_of_sharp_edge * part.norm() * own.norm();
+    }
 
     /** The four edges of a face as pairs of corner nodes, in the order of the
      * bits of Face::outer_edges. */
@@ -238,18 +245,69 @@ namespace Touchstone
         if (normal.norm() > 0.)
           normal /= normal.norm();
       }
-    // A face takes its share of the average only from faces that it meets in
-    // less than a sharp edge.
     for (Face &face : faces)
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         {
           const Tensor<1, dim> own = face.normals[m];
           Tensor<1, dim>       sum;
           for (const Tensor<1, dim> &part : parts[face.nodes[m]])
-            if (part * own > cosine_of_sharp_edge * part.norm() * own.norm())
+            if (averaged_with(part, own))
               sum += part;
           face.edge_normals[m] = normals[face.nodes[m]];
           face.normals[m]      = sum.norm() > 0. ? sum / sum.norm() : face.edge_normals[m];
         }
+  }
+
+
+
+  std::vector<NormalDerivative>
+  Surface::normal_derivative(const Face &face) const
+  {
+    if (around.empty())
+      for (const auto *list : {&faces, &ghost_faces})
+        for (const Face &f : *list)
+          for (unsigned int m = 0; m < f.n_nodes(); ++m)
+            around[f.nodes[m]].emplace_back(&f, m);
+
+    const auto tangents = [this](const Face &f, const unsigned int m) {
+      return evaluate(f, exact_surface(f), node_coordinates(f, m)).tangents;
+    };
+    std::vector<NormalDerivative> result;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      {
+        const auto           t     = tangents(face, m);
+        const Tensor<1, dim> own   = cross_product_3d(t[0], t[1]);
+        const std::size_t    first = result.size();
+        Tensor<1, dim>       sum;
+        for (const auto &[f, k] : around.at(face.nodes[m]))
+          {
+            const auto           t    = tangents(*f, k);
+            const Tensor<1, dim> part = cross_product_3d(t[0], t[1]);
+            if (!averaged_with(part, own))
+              continue;
+            sum += part;
+            // d (t_0 x t_1), where the tangents are linear in the displacements.
+            const Tensor<2, dim> by_first  = -1. * cross_matrix(t[1]),
+                                 by_second = cross_matrix(t[0]);
+            const FaceShapes shapes(f->degree, node_coordinates(*f, k));
+            for (unsigned int l = 0; l < f->n_nodes(); ++l)
+              {
+                const auto &gradient = shapes.gradient[l];
+                if (gradient[0] == 0. && gradient[1] == 0.)
+                  continue;
+                auto entry =
+                  std::find_if(result.begin() + first,
+                               result.end(),
+                               [&](const NormalDerivative &d) { return d.node == f->nodes[l]; });
+                if (entry == result.end())
+                  entry = result.insert(entry, {m, f->nodes[l], Tensor<2, dim>()});
+                entry->value += gradient[0] * by_first + gradient[1] * by_second;
+              }
+          }
+        const Tensor<2, dim> direction = normalisation_derivative(sum);
+        for (auto entry = result.begin() + first; entry != result.end(); ++entry)
+          entry->value = direction * entry->value;
+      }
+    return result;
   }
 } // namespace Touchstone

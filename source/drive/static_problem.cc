@@ -165,6 +165,11 @@ namespace Touchstone
   StaticProblem::linearize()
   {
     TimerOutput::Scope scope(timer, "assembly");
+    if (!solid.linear())
+      {
+        solid.assemble(u);
+        ++assemblies;
+      }
     system            = std::make_unique<LinearSystem>();
     system->stiffness = &solid.stiffness();
     system->rhs.reinit(solid.owned, solid.communicator);
@@ -278,7 +283,20 @@ namespace Touchstone
   void
   StaticProblem::update()
   {
-    u += increment;
+    // What turns a cell inside out has no energy. The multipliers are those of the
+    // end of the increment and stay.
+    Vector trial(u);
+    trial += increment;
+    for (unsigned int halvings = 0; !solid.admissible(trial); ++halvings)
+      {
+        if (halvings == 6)
+          throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
+                              "increment");
+        increment *= 0.5;
+        trial = u;
+        trial += increment;
+      }
+    u = trial;
     enforcement->update(contact, extra);
   }
 

@@ -2,6 +2,7 @@
 #include <touchstone/scene/body_parameters.h>
 #include <touchstone/scene/expression.h>
 #include <touchstone/scene/input_error.h>
+#include <touchstone/solid/hyperelastic_law.h>
 
 namespace Touchstone
 {
@@ -11,6 +12,12 @@ namespace Touchstone
   void
   MaterialParameters::declare(ParameterHandler &prm)
   {
+    prm.add_parameter("Law",
+                      law,
+                      "The material law, always elastic and isotropic. 'linear elastic': small "
+                      "strain and small rotations. " +
+                        HyperelasticRegistry::documentation(),
+                      Patterns::Selection("linear elastic|" + HyperelasticRegistry::selection()));
     prm.add_parameter("Young modulus",
                       young_modulus,
                       "Young's modulus, greater than zero. Required. "
@@ -41,8 +48,8 @@ namespace Touchstone
                        "Poisson ratio",
                        Patterns::Tools::to_string(poisson_ratio),
                        "must be greater than -1 and less than 0.5",
-                       "for incompressible material take 0.4999 with the element "
-                       "'b-bar' or degree 2");
+                       std::string("for incompressible material take 0.4999 with the element '") +
+                         (finite_strain() ? "F-bar" : "b-bar") + "' or degree 2");
   }
 
 
@@ -119,7 +126,16 @@ namespace Touchstone
   {
     return element_name == "full"    ? ElementType::full
            : element_name == "b-bar" ? ElementType::b_bar
+           : element_name == "F-bar" ? ElementType::f_bar
                                      : ElementType::incompatible_modes;
+  }
+
+
+
+  std::string
+  BodyParameters::automatic_element(const unsigned int degree) const
+  {
+    return degree > 1 ? "full" : material.finite_strain() ? "F-bar" : "incompatible modes";
   }
 
 
@@ -131,10 +147,12 @@ namespace Touchstone
                       element_name,
                       "How cells interpolate strain: 'full' integration of the displacements' "
                       "gradient; 'b-bar' with a constant volume change per cell, for nearly "
-                      "incompressible material; 'incompatible modes' for bending. The latter two "
-                      "are for degree 1. 'automatic' takes incompatible modes for degree 1 and "
-                      "full for degree 2.",
-                      Patterns::Selection("automatic|full|b-bar|incompatible modes"));
+                      "incompressible material; 'incompatible modes' for bending; 'F-bar' is "
+                      "b-bar for finite strain. The latter three are for degree 1, b-bar and "
+                      "incompatible modes for the material law 'linear elastic', F-bar for the "
+                      "others. 'automatic' takes full for degree 2, and for degree 1 "
+                      "incompatible modes or, with a law for finite strain, F-bar.",
+                      Patterns::Selection("automatic|full|b-bar|incompatible modes|F-bar"));
     prm.add_parameter("Symmetry",
                       symmetry,
                       "Plane boundaries that keep their place in the normal "
@@ -174,10 +192,8 @@ namespace Touchstone
 
 
   void
-  BodyParameters::check(const unsigned int degree) const
+  BodyParameters::check_element(const unsigned int degree) const
   {
-    geometry->check(section() + "/Geometry");
-    material.check(section() + "/Material");
     if (degree > 1 && element() != ElementType::full)
       throw InputError(section(),
                        "Element",
@@ -185,6 +201,31 @@ namespace Touchstone
                        "is made for degree 1, but 'Discretisation/Degree' is " +
                          std::to_string(degree),
                        "take the element 'automatic' or 'full', or degree 1");
+    const ElementType type = element();
+    const bool small_only  = type == ElementType::b_bar || type == ElementType::incompatible_modes;
+    if (material.finite_strain() && small_only)
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "is for small strain, but 'Material/Law' is '" + material.law + "'",
+                       "take the element 'automatic', 'F-bar' or 'full', or the law "
+                       "'linear elastic'");
+    if (!material.finite_strain() && type == ElementType::f_bar)
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "is for finite strain, but 'Material/Law' is '" + material.law + "'",
+                       "take the element 'automatic', 'b-bar' or 'full', or another law");
+  }
+
+
+
+  void
+  BodyParameters::check(const unsigned int degree) const
+  {
+    geometry->check(section() + "/Geometry");
+    material.check(section() + "/Material");
+    check_element(degree);
 
     // Where nothing can move in some direction nothing can be pushed in it.
     std::map<std::string, std::string> held;

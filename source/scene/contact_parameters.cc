@@ -149,6 +149,14 @@ namespace Touchstone
                       "geometry knows them ('manifold'), or from the faces of the "
                       "mesh ('faceted').",
                       Patterns::Selection("manifold|faceted"));
+    prm.add_parameter("Master normal",
+                      master_normal,
+                      "The normal of the master surface: that of the 'face' at the contact "
+                      "point; interpolated from normals 'averaged' at the nodes, except "
+                      "across sharp edges; or 'smoothed': gap and normal of a smooth patch "
+                      "over each face of degree 1. Where the exact surface is known "
+                      "'smoothed' is the same as 'averaged'.",
+                      Patterns::Selection("face|averaged|smoothed"));
     prm.add_parameter("Search distance",
                       search_distance,
                       "Farthest distance at which a slave node looks for a "

@@ -178,7 +178,7 @@ namespace Touchstone
   {
     for (BodyParameters &body : bodies)
       if (body.element_name == "automatic")
-        body.element_name = discretisation.degree == 1 ? "incompatible modes" : "full";
+        body.element_name = body.automatic_element(discretisation.degree);
 
     for (ContactPairParameters &pair : pairs)
       if (pair.behaviour == "tied" && !text.is_set(pair.section(), "Sliding"))

@@ -5,7 +5,6 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
-#include <Epetra_CrsMatrix.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,68 +12,6 @@
 namespace Touchstone
 {
   using namespace dealii;
-
-  namespace
-  {
-    /** The stiffness rows of this rank as plain arrays, written to node by node:
-     * the three rows of a node have the same columns. */
-    class RowWriter
-    {
-    public:
-      explicit RowWriter(Matrix &matrix)
-        : matrix(const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix()))
-      {
-        this->matrix.OptimizeStorage();
-        const int error = this->matrix.ExtractCrsDataPointers(begin, columns, values);
-        AssertThrow(error == 0, ExcMessage("The stiffness matrix is not in compressed storage."));
-      }
-
-      /** Local row of a global unknown, or -1 if another rank owns it. */
-      int
-      row(const Index global) const
-      {
-        return matrix.RowMap().LID(static_cast<int>(global));
-      }
-
-      int
-      column(const Index global) const
-      {
-        return matrix.ColMap().LID(static_cast<int>(global));
-      }
-
-      /** Position, within each of the rows of a node, of a column. */
-      int
-      position(const int row, const int column) const
-      {
-        const int *first = columns + begin[row];
-        const int *last  = columns + begin[row + 1];
-        return std::lower_bound(first, last, column) - first;
-      }
-
-      double *
-      entry(const int row, const int position)
-      {
-        return values + begin[row] + position;
-      }
-
-      std::vector<double>
-      absolute_row_sums() const
-      {
-        std::vector<double> sums(matrix.NumMyRows(), 0.);
-        for (int i = 0; i < matrix.NumMyRows(); ++i)
-          for (int k = begin[i]; k < begin[i + 1]; ++k)
-            sums[i] += std::abs(values[k]);
-        return sums;
-      }
-
-    private:
-      Epetra_CrsMatrix &matrix;
-      int              *begin = nullptr, *columns = nullptr;
-      double           *values = nullptr;
-    };
-  } // namespace
-
-
 
   Solid::Solid(const Scene &scene, const Forest &forest, const MPI_Comm communicator)
     : fe(FE_Q<dim>(scene.discretisation.degree), dim)
@@ -110,6 +47,17 @@ namespace Touchstone
               pattern.add_entries(row, dofs.begin(), dofs.end(), true);
         }
     matrix.reinit(owned, owned, pattern, communicator);
+    finite = std::make_unique<FiniteStrainCells>(scene, fe, mapping, dof_handler, matrix);
+  }
+
+
+
+  Vector
+  Solid::ghosted(const Vector &u) const
+  {
+    Vector result(owned, relevant, communicator);
+    result = u;
+    return result;
   }
 
 
@@ -122,12 +70,14 @@ namespace Touchstone
     std::vector<std::unique_ptr<ElementKernel>> kernels;
     for (const BodyParameters &body : scene.bodies)
       kernels.push_back(
-        std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material));
+        body.material.finite_strain()
+          ? nullptr
+          : std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material));
 
     std::vector<Index> dofs(fe.n_dofs_per_cell());
     std::vector<int>   rows, columns;
     for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
+      if (!cell->is_artificial() && kernels[cell->material_id()])
         {
           ElementKernel     &kernel = *kernels[cell->material_id()];
           const unsigned int n      = kernel.nodes_per_cell();
@@ -144,21 +94,22 @@ namespace Touchstone
           if (!any)
             continue;
           kernel.reinit(cell);
-          const FullMatrix<double> &k = kernel.stiffness();
-          for (unsigned int a = 0; a < n; ++a)
-            if (rows[a] >= 0)
-              for (unsigned int b = 0; b < n; ++b)
-                {
-                  const int position = writer.position(rows[a], columns[b]);
-                  for (unsigned int i = 0; i < dim; ++i)
-                    {
-                      double *entry = writer.entry(rows[a] + i, position);
-                      for (unsigned int j = 0; j < dim; ++j)
-                        entry[j] += k(dim * a + i, dim * b + j);
-                    }
-                }
+          writer.add(n, rows.data(), columns.data(), &kernel.stiffness()(0, 0));
         }
-    row_sums = writer.absolute_row_sums();
+    assemble(Vector(owned, communicator));
+  }
+
+
+
+  void
+  Solid::assemble(const Vector &u)
+  {
+    RowWriter writer(matrix);
+    if (!linear())
+      finite->assemble(ghosted(u), writer);
+    row_sums.resize(owned.n_elements());
+    for (unsigned int i = 0; i < row_sums.size(); ++i)
+      row_sums[i] = writer.absolute_sum(i);
   }
 
 
@@ -167,6 +118,33 @@ namespace Touchstone
   Solid::internal_force(const Vector &u, Vector &force) const
   {
     matrix.vmult(force, u);
+    if (!linear())
+      finite->internal_force(ghosted(u), force);
+  }
+
+
+
+  double
+  Solid::strain_energy(const Vector &u) const
+  {
+    Vector force(u);
+    matrix.vmult(force, u);
+    if (linear())
+      return 0.5 * (force * u);
+    double sum = finite->energy(ghosted(u));
+    for (unsigned int i = 0; i < row_sums.size(); ++i)
+      if (finite->round_off_length()[i] == 0.)
+        sum += 0.5 * force.begin()[i] * u.begin()[i];
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  bool
+  Solid::admissible(const Vector &u) const
+  {
+    return linear() ||
+           Utilities::MPI::min(finite->smallest_determinant(ghosted(u)), communicator) > 0.;
   }
 
 
@@ -174,9 +152,14 @@ namespace Touchstone
   double
   Solid::round_off(const Vector &u) const
   {
+    // Of linear bodies K u, of the others also F = I + grad u, whose entries are
+    // known no better than those of I.
     double sum = 0.;
     for (std::size_t i = 0; i < row_sums.size(); ++i)
-      sum += std::pow(row_sums[i] * u.begin()[i], 2);
+      {
+        const double length = linear() ? 0. : finite->round_off_length()[i];
+        sum += std::pow(row_sums[i] * (std::abs(u.begin()[i]) + length), 2);
+      }
     return std::numeric_limits<double>::epsilon() *
            std::sqrt(Utilities::MPI::sum(sum, communicator));
   }
@@ -192,12 +175,20 @@ namespace Touchstone
     std::vector<std::unique_ptr<ElementKernel>> kernels;
     for (const BodyParameters &body : scene.bodies)
       kernels.push_back(
-        std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material));
+        body.material.finite_strain()
+          ? nullptr
+          : std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material));
     std::vector<Index>  dofs(fe.n_dofs_per_cell());
     std::vector<double> values(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
+          if (const FiniteStrainKernel *kernel = finite->at(cell->active_cell_index(), u))
+            {
+              for (unsigned int q = 0; q < kernel->n_quadrature_points(); ++q)
+                visit(cell->material_id(), kernel->point(q), kernel->stress(q), kernel->volume(q));
+              continue;
+            }
           ElementKernel &kernel = *kernels[cell->material_id()];
           cell->get_dof_indices(dofs);
           for (unsigned int a = 0; a < kernel.nodes_per_cell(); ++a)

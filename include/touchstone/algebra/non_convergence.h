@@ -32,6 +32,12 @@ namespace Touchstone
     using NonConvergence::NonConvergence;
   };
 
+  /** @brief No part of a Newton increment leaves the cells with det F > 0. */
+  class InvertedCells : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
   /** @brief A body can move without resistance. */
   class SingularSystem : public NonConvergence
   {

@@ -61,6 +61,10 @@ namespace Touchstone
     FaceShapes(unsigned int degree, const std::array<double, 2> &xi);
   };
 
+  /** @brief Second derivatives of the shape functions of a face: 11, 12, 22. */
+  std::array<std::array<double, 3>, Face::max_nodes>
+  shape_hessians(unsigned int degree, const std::array<double, 2> &xi);
+
   /** @brief A point of a deformed face with its tangents. */
   struct FacePoint
   {
@@ -81,27 +85,6 @@ namespace Touchstone
    */
   FacePoint
   evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi);
-
-  /** @brief Result of a closest-point projection. */
-  struct Projection
-  {
-    std::array<double, 2> xi{};
-    double                distance_squared = 0.;
-    /** How far the point lies beyond the edges that held the projection back,
-     * as a fraction of the face, for inner and outer edges. */
-    double beyond_inner = 0., beyond_outer = 0.;
-  };
-
-  /**
-   * @brief Closest point of a deformed face, held within the face.
-   *
-   * Gauss-Newton with the second derivative of bilinear faces, projected to the
-   * bounds; from several starts if the first does not converge.
-   */
-  Projection
-  closest_point_projection(const dealii::Point<dim> &x,
-                           const Face               &face,
-                           const AnalyticSurface    *exact);
 } // namespace Touchstone
 
 #endif

@@ -28,6 +28,26 @@ namespace Touchstone
    */
   std::vector<OverlapPoint>
   overlap(const Face &slave, const Face &master);
+
+  /** @brief An OverlapPoint with derivatives with respect to the positions of the
+   * slave nodes and then of the master nodes: component d of node m is variable
+   * dim * m + d.
+   * @tparam n Nodes of a face, 4 or 9. */
+  template <unsigned int n>
+  struct OverlapPointDerivative : OverlapPoint
+  {
+    static constexpr unsigned int n_variables = 2 * n * dim;
+
+    using Gradient = std::array<double, n_variables>;
+    std::array<Gradient, 2> d_slave, d_master;
+    Gradient                d_weight;
+  };
+
+  /** @brief overlap() with derivatives, while the corners of the clipped polygons
+   * stay on the same edges. */
+  template <unsigned int n>
+  std::vector<OverlapPointDerivative<n>>
+  differentiated_overlap(const Face &slave, const Face &master);
 } // namespace Touchstone
 
 #endif

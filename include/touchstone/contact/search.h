@@ -7,8 +7,10 @@
 #include <deal.II/numerics/rtree.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace Touchstone
@@ -21,6 +23,9 @@ namespace Touchstone
     std::array<double, 2>  xi{};
     dealii::Point<dim>     x;
     dealii::Tensor<1, dim> normal;
+    /** 1 or -1 in the wedge over a sharp edge, where the normal is this times the
+     * direction from the contact point; 0 elsewhere. */
+    int wedge = 0;
   };
 
   /**
@@ -39,8 +44,13 @@ namespace Touchstone
      * @param reach     Farthest distance at which a partner is looked for, length.
      * @param tolerance How far beyond an edge of the master surface a node still
      *                  finds it, as a fraction of the face.
+     * @param kind      What gaps are measured to.
      */
-    Search(const Surface &master, double reach, double tolerance, MPI_Comm communicator);
+    Search(const Surface &master,
+           double         reach,
+           double         tolerance,
+           MasterNormal   kind,
+           MPI_Comm       communicator);
 
     /** @brief Exchange the master faces in their present position.
      * @param positions Current positions of this rank's slave nodes. */
@@ -60,16 +70,14 @@ namespace Touchstone
          const dealii::Tensor<1, dim> &slave_normal,
          bool                          in_contact) const;
 
-    /**
-     * @brief Unit outward normal of the master surface at @p xi of a face,
-     * continuous across the edges of faces unless these are sharp.
-     *
-     * On facets it is interpolated from the averaged normals of the nodes. On an
-     * exact surface it is that of the surface moved with the face, with the jumps
-     * at the nodes taken out.
-     */
-    dealii::Tensor<1, dim>
-    normal(const Face &face, const std::array<double, 2> &xi) const;
+    /** @brief What gaps to a face are measured to. */
+    FaceGeometry
+    geometry(const Face &face) const;
+
+    /** @brief Derivatives of the averaged normals of faces of this search, from the
+     * ranks that own them. Empty if normals come from the faces alone. Collective. */
+    std::unordered_map<const Face *, std::vector<NormalDerivative>>
+    normal_derivatives(const std::vector<const Face *> &needed) const;
 
     /** @brief Visit the master faces within reach of a box that look the other way
      * than @p slave_normal. */
@@ -82,11 +90,17 @@ namespace Touchstone
     using Box  = dealii::BoundingBox<dim>;
     using Tree = dealii::RTree<std::pair<Box, std::size_t>>;
 
-    const Surface    &master;
-    const double      reach, tolerance;
-    const MPI_Comm    communicator;
-    std::vector<Face> faces;
-    Tree              tree;
+    const Surface     &master;
+    const double       reach, tolerance;
+    const MasterNormal kind;
+    const MPI_Comm     communicator;
+    std::vector<Face>  faces;
+    Tree               tree;
+
+    /** Numbers of this rank's faces that each rank has received, and where its own
+     * copies of those of another rank begin. */
+    std::map<unsigned int, std::vector<std::size_t>> sent;
+    std::map<unsigned int, std::size_t>              received;
 
     Box
     bounding_box(const Face &face) const;

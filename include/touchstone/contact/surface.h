@@ -1,7 +1,7 @@
 #ifndef touchstone_contact_surface_h
 #define touchstone_contact_surface_h
 
-#include <touchstone/contact/face.h>
+#include <touchstone/contact/face_derivative.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/solid/solid.h>
 
@@ -89,6 +89,11 @@ namespace Touchstone
     const AnalyticSurface *
     exact_surface(const Face &face) const;
 
+    /** @brief How the averaged normals of an owned face change with the positions
+     * of the nodes around it, in the present position. */
+    std::vector<NormalDerivative>
+    normal_derivative(const Face &face) const;
+
     /** @brief Longest diagonal of any face, over all ranks; length. */
     double
     largest_face() const
@@ -104,6 +109,10 @@ namespace Touchstone
     double                   diagonal = 0.;
 
     std::unordered_map<Index, dealii::Tensor<1, dim>> normals;
+
+    /** Faces around a node, with its local number there, in the order in which
+     * their normals are summed. Filled when derivatives are first asked for. */
+    mutable std::unordered_map<Index, std::vector<std::pair<const Face *, unsigned int>>> around;
 
     void
     mark_outer_edges();

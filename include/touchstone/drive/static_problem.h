@@ -69,7 +69,7 @@ namespace Touchstone
     double
     strain_energy() const
     {
-      return 0.5 * (u * internal);
+      return solid.strain_energy(u);
     }
 
     const Contact &

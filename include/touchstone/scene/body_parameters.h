@@ -12,14 +12,35 @@ namespace Touchstone
 {
   class Geometry;
 
-  /** @brief Section "Body NAME/Material": isotropic linear elasticity. */
+  /** @brief Section "Body NAME/Material": an isotropic elastic material. */
   struct MaterialParameters
   {
+    /** "linear elastic" (small strain) or the name of a HyperelasticLaw, whose
+     * constants are those of linear elasticity at the undeformed state. */
+    std::string law = "linear elastic";
     /** Young's modulus, force per area; must be positive. */
     double young_modulus = 0.;
     /** Poisson's ratio, -1 < nu < 0.5. */
     double poisson_ratio = 0.3;
 
+    /** @brief Whether the law is for finite strain: the body is nonlinear then. */
+    bool
+    finite_strain() const
+    {
+      return law != "linear elastic";
+    }
+    /** @brief mu, force per area. */
+    double
+    shear_modulus() const
+    {
+      return young_modulus / (2. * (1. + poisson_ratio));
+    }
+    /** @brief kappa, force per area. */
+    double
+    bulk_modulus() const
+    {
+      return young_modulus / (3. * (1. - 2. * poisson_ratio));
+    }
     void
     declare(dealii::ParameterHandler &prm);
     void
@@ -52,7 +73,8 @@ namespace Touchstone
   {
     full,
     b_bar,
-    incompatible_modes
+    incompatible_modes,
+    f_bar
   };
 
   /** @brief Section "Body NAME". */
@@ -64,8 +86,8 @@ namespace Touchstone
     std::string geometry_name = "box";
     /** The geometry with its own parameters read. */
     std::shared_ptr<Geometry> geometry;
-    /** "full", "b-bar" or "incompatible modes"; "automatic" takes incompatible
-     * modes for degree 1 and full for degree 2, and is replaced by the scene. */
+    /** "full", "b-bar", "incompatible modes" or "F-bar"; "automatic" is replaced
+     * by the scene (see automatic_element()). */
     std::string        element_name = "automatic";
     MaterialParameters material;
     /** Boundaries on which the normal displacement is zero (must be plane). */
@@ -81,6 +103,10 @@ namespace Touchstone
     section() const;
     ElementType
     element() const;
+    /** @brief What "automatic" stands for: full for degree 2, for degree 1 F-bar
+     * with a law for finite strain and else incompatible modes. */
+    std::string
+    automatic_element(unsigned int degree) const;
 
     /**
      * @brief Declare all entries, those of the geometry included; @p conditions
@@ -92,6 +118,10 @@ namespace Touchstone
     /** @param degree Polynomial degree of the discretisation. */
     void
     check(unsigned int degree) const;
+
+  private:
+    void
+    check_element(unsigned int degree) const;
   };
 } // namespace Touchstone
 

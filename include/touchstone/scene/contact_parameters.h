@@ -67,6 +67,9 @@ namespace Touchstone
     /** "manifold": gaps and normals from the exact surfaces where the geometry
      * knows them; "faceted": from the faces of the mesh. */
     std::string contact_geometry = "manifold";
+    /** "face", "averaged" (over the faces around a node) or "smoothed" (gap and
+     * normal of a smooth patch over each face). */
+    std::string master_normal = "averaged";
     /** Farthest distance at which a slave node looks for a master face,
      * length; 0 chooses it from the size of the faces. */
     double search_distance = 0.;

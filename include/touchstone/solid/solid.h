@@ -4,6 +4,7 @@
 #include <touchstone/algebra/vector.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/scene/scene.h>
+#include <touchstone/solid/finite_strain_cells.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -11,6 +12,7 @@
 #include <deal.II/fe/mapping_q.h>
 
 #include <functional>
+#include <memory>
 
 namespace Touchstone
 {
@@ -33,9 +35,21 @@ namespace Touchstone
     dealii::IndexSet relevant;
     const MPI_Comm   communicator;
 
-    /** @brief Assemble the stiffness of all bodies; linear bodies need it once. */
+    /** @brief Whether the bodies are linear, so that the stiffness never changes. */
+    bool
+    linear() const
+    {
+      return finite->empty();
+    }
+
+    /** @brief Assemble the stiffness of the undeformed bodies. */
     void
     assemble();
+
+    /** @brief Assemble the tangent stiffness at @p u (no ghosts): that of bodies
+     * with a law for finite strain; the others keep what assemble() made. */
+    void
+    assemble(const Vector &u);
 
     /** @brief Stiffness, force per length, with no condition applied. */
     const Matrix &
@@ -48,13 +62,25 @@ namespace Touchstone
     void
     internal_force(const Vector &u, Vector &force) const;
 
+    /** @brief Elastic energy of all bodies, force times length. @p u has no ghosts;
+     * collective. */
+    double
+    strain_energy(const Vector &u) const;
+
+    /** @brief Whether det F > 0 at all quadrature points of bodies with a law for
+     * finite strain. @p u has no ghosts; collective. */
+    bool
+    admissible(const Vector &u) const;
+
     /** @brief Norm of the error that round-off makes in the internal forces of
      * @p u: no residual can fall below it. Force; collective. */
     double
     round_off(const Vector &u) const;
 
     /** @brief Visit the quadrature points of the owned cells with body number,
-     * reference position, stress and volume. @p u has ghosts. */
+     * reference position, stress and volume: of bodies with a law for finite
+     * strain the Cauchy stress and the present volume, so that their product
+     * integrates. @p u has ghosts. */
     void
     for_each_stress(const Vector                             &u,
                     const std::function<void(unsigned int                           body,
@@ -62,8 +88,8 @@ namespace Touchstone
                                              const dealii::SymmetricTensor<2, dim> &stress,
                                              double volume)> &visit) const;
 
-    /** @brief Stress averaged per owned cell (in the order of active cell
-     * indices, zero elsewhere), force per area. @p u has ghosts. */
+    /** @brief Stress (see for_each_stress()) averaged per owned cell, in the order of
+     * active cell indices, zero elsewhere; force per area. @p u has ghosts. */
     std::vector<dealii::SymmetricTensor<2, dim>>
     cell_stress(const Vector &u) const;
 
@@ -72,6 +98,11 @@ namespace Touchstone
     Matrix       matrix;
     /** Sum of the absolute entries of each owned row. */
     std::vector<double> row_sums;
+    /** Behind a pointer: its kernels are scratch space of const functions. */
+    std::unique_ptr<FiniteStrainCells> finite;
+
+    Vector
+    ghosted(const Vector &u) const;
   };
 } // namespace Touchstone
 

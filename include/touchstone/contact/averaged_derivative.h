@@ -1,0 +1,102 @@
+#ifndef touchstone_contact_averaged_derivative_h
+#define touchstone_contact_averaged_derivative_h
+
+#include <touchstone/contact/row_derivative.h>
+#include <touchstone/contact/search.h>
+
+#include <list>
+#include <unordered_map>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Derivatives of averaged rows.
+   *
+   * With the mass matrix M, the areas a and the integrals Q_j = int N_j q over the
+   * overlaps of a slave face, its share of row i is a_i (M^-1 Q)_i, for q the
+   * master shapes, the gap, the normal, and one. The integrals are differentiated
+   * point by point, where each depends on one slave and one master face only;
+   * d M^-1 = -M^-1 dM M^-1 makes shares of them. What depends on averaged nodal
+   * normals is collected per face and continued to the nodes around it at the end.
+   */
+  class AveragedDerivative
+  {
+  public:
+    explicit AveragedDerivative(const Search &search)
+      : search(search)
+    {
+    }
+
+    /** @brief Want the derivative of a row.
+     * @param area, normal The sums over slave faces that the row was made from. */
+    void
+    add_row(const ContactRow &row, double area, const dealii::Tensor<1, dim> &normal);
+
+    /** @brief Whether the face takes part in a row that is wanted. */
+    bool
+    wants(const Face &slave) const;
+
+    /** @brief Add the share of a slave face.
+     * @param masters Master faces near it. */
+    void
+    add_face(const Face                      &slave,
+             const AnalyticSurface           *slave_exact,
+             const std::vector<const Face *> &masters);
+
+    /** @brief All faces have been added. Collective. */
+    void
+    finish();
+
+    /** @brief The derivative of the row of a slave node that was wanted. */
+    std::shared_ptr<const RowDerivative>
+    result(const Index slave) const
+    {
+      return rows.at(slave).builder.result;
+    }
+
+  private:
+    /** What depends on the averaged normals of the nodes of a master face. */
+    struct ByNormals
+    {
+      NodeMatrices normal, gap;
+    };
+
+    struct Row
+    {
+      const ContactRow      *row;
+      double                 area;
+      dealii::Tensor<1, dim> normal;
+      RowDerivativeBuilder   builder;
+      /** Derivative of the area. */
+      std::vector<dealii::Tensor<1, dim>>         d_area;
+      std::unordered_map<const Face *, ByNormals> by_normals;
+      /** Places of master nodes in the stencil. */
+      std::unordered_map<Index, unsigned int> stencil;
+    };
+
+    struct Master
+    {
+      FaceGeometry       geometry;
+      FaceDifferentiator differentiator;
+
+      explicit Master(const FaceGeometry &g)
+        : geometry(g)
+        , differentiator(geometry)
+      {
+      }
+    };
+
+    const Search                            &search;
+    std::unordered_map<Index, Row>           rows;
+    std::unordered_map<const Face *, Master> masters;
+
+    template <unsigned int n>
+    void
+    add(const Face                      &slave,
+        const AnalyticSurface           *slave_exact,
+        const std::vector<const Face *> &near);
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,355 @@
+#include <touchstone/contact/averaged_derivative.h>
+#include <touchstone/contact/overlap.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Columns of Q that are not master shapes: area, gap, normal. */
+    constexpr unsigned int n_fixed = 1 + 2 * dim;
+
+    /** The integrals over the overlap of a slave face with one master face, and
+     * their derivatives as OverlapPointDerivative numbers them. */
+    template <unsigned int n>
+    struct Integrals
+    {
+      using Gradient                           = typename OverlapPointDerivative<n>::Gradient;
+      static constexpr unsigned int n_columns  = n_fixed + n;
+      static constexpr unsigned int n_variable = OverlapPointDerivative<n>::n_variables;
+
+      double   mass[n][n] = {}, q[n][n_columns] = {};
+      Gradient d_mass[n][n] = {}, d_q[n][n_columns] = {};
+      /** Of normal and gap with respect to the nodal normals of the master face. */
+      Tensor<2, dim> normal_normal[n][n], gap_normal[n][n];
+
+      void
+      add(const Face                      &slave,
+          const AnalyticSurface           *slave_exact,
+          const OverlapPointDerivative<n> &point,
+          const FaceDerivative            &master,
+          bool                             smooth);
+    };
+
+
+
+    template <unsigned int n>
+    void
+    Integrals<n>::add(const Face                      &slave,
+                      const AnalyticSurface           *slave_exact,
+                      const OverlapPointDerivative<n> &point,
+                      const FaceDerivative            &master,
+                      const bool                       smooth)
+    {
+      const FaceShapes shapes(slave.degree, point.slave);
+      const FacePoint  on_slave = evaluate(slave, slave_exact, point.slave);
+      const double     w        = point.weight;
+
+      // The integrands q and their derivatives.
+      double   value[n_columns];
+      Gradient d_value[n_columns];
+      value[0] = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          value[1 + d]       = on_slave.x[d] - master.point.x[d];
+          value[1 + dim + d] = master.normal[d];
+          Gradient &gap = d_value[1 + d], &normal = d_value[1 + dim + d];
+          for (unsigned int v = 0; v < n_variable; ++v)
+            {
+              gap[v]    = 0.;
+              normal[v] = 0.;
+              for (unsigned int a = 0; a < 2; ++a)
+                {
+                  gap[v] += on_slave.tangents[a][d] * point.d_slave[a][v] -
+                            master.point.tangents[a][d] * point.d_master[a][v];
+                  normal[v] += master.normal_xi[a][d] * point.d_master[a][v];
+                }
+            }
+          for (unsigned int m = 0; m < n; ++m)
+            {
+              gap[dim * m + d] += shapes.value[m];
+              for (unsigned int e = 0; e < dim; ++e)
+                {
+                  gap[dim * (n + m) + e] -= master.x_position[m][d][e];
+                  normal[dim * (n + m) + e] += master.normal_position[m][d][e];
+                }
+            }
+        }
+      for (unsigned int m = 0; m < n; ++m)
+        {
+          value[n_fixed + m] = master.shapes.value[m];
+          for (unsigned int v = 0; v < n_variable; ++v)
+            d_value[n_fixed + m][v] = master.shapes.gradient[m][0] * point.d_master[0][v] +
+                                      master.shapes.gradient[m][1] * point.d_master[1][v];
+        }
+
+      Gradient d_shape[n];
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int v = 0; v < n_variable; ++v)
+          d_shape[j][v] = shapes.gradient[j][0] * point.d_slave[0][v] +
+                          shapes.gradient[j][1] * point.d_slave[1][v];
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          const double wn = w * shapes.value[j];
+          Gradient     d_wn;
+          for (unsigned int v = 0; v < n_variable; ++v)
+            d_wn[v] = shapes.value[j] * point.d_weight[v] + w * d_shape[j][v];
+          for (unsigned int k = 0; k <= j; ++k)
+            {
+              mass[j][k] += wn * shapes.value[k];
+              for (unsigned int v = 0; v < n_variable; ++v)
+                d_mass[j][k][v] += d_wn[v] * shapes.value[k] + wn * d_shape[k][v];
+            }
+          q[j][0] += wn;
+          for (unsigned int v = 0; v < n_variable; ++v)
+            d_q[j][0][v] += d_wn[v];
+          for (unsigned int c = 1; c < n_columns; ++c)
+            {
+              q[j][c] += wn * value[c];
+              for (unsigned int v = 0; v < n_variable; ++v)
+                d_q[j][c][v] += d_wn[v] * value[c] + wn * d_value[c][v];
+            }
+          for (unsigned int m = 0; m < n; ++m)
+            {
+              normal_normal[j][m] += wn * master.normal_normal[m];
+              if (smooth)
+                gap_normal[j][m] -= wn * master.x_normal[m];
+            }
+        }
+    }
+  } // namespace
+
+
+
+  void
+  AveragedDerivative::add_row(const ContactRow     &row,
+                              const double          area,
+                              const Tensor<1, dim> &normal)
+  {
+    Row &entry =
+      rows
+        .emplace(row.slave,
+                 Row{&row, area, normal, RowDerivativeBuilder(row.stencil.size()), {}, {}, {}})
+        .first->second;
+    for (unsigned int m = 0; m < row.stencil.size(); ++m)
+      entry.stencil[row.stencil[m].node] = m;
+  }
+
+
+
+  bool
+  AveragedDerivative::wants(const Face &slave) const
+  {
+    return std::any_of(slave.nodes.begin(),
+                       slave.nodes.begin() + slave.n_nodes(),
+                       [this](const Index node) { return rows.count(node) > 0; });
+  }
+
+
+
+  void
+  AveragedDerivative::add_face(const Face                      &slave,
+                               const AnalyticSurface           *slave_exact,
+                               const std::vector<const Face *> &near)
+  {
+    if (slave.degree == 1)
+      add<4>(slave, slave_exact, near);
+    else
+      add<9>(slave, slave_exact, near);
+  }
+
+
+
+  template <unsigned int n>
+  void
+  AveragedDerivative::add(const Face                      &slave,
+                          const AnalyticSurface           *slave_exact,
+                          const std::vector<const Face *> &near)
+  {
+    // Integrals per master face, and all master nodes, each once.
+    std::list<std::pair<const Face *, Integrals<n>>> parts;
+    std::vector<Index>                               nodes;
+    for (const Face *face : near)
+      {
+        const auto points = differentiated_overlap<n>(slave, *face);
+        if (points.empty())
+          continue;
+        const Master &master = masters.try_emplace(face, search.geometry(*face)).first->second;
+        auto         &part   = parts.emplace_back(face, Integrals<n>()).second;
+        for (const auto &point : points)
+          part.add(slave,
+                   slave_exact,
+                   point,
+                   master.differentiator.at(point.master),
+                   master.geometry.smooth());
+        nodes.insert(nodes.end(), face->nodes.begin(), face->nodes.begin() + n);
+      }
+    if (parts.empty())
+      return;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+
+    // Sums over the master faces. Variables: slave nodes, then master nodes.
+    const unsigned int n_columns   = n_fixed + nodes.size();
+    const unsigned int n_variables = dim * (n + nodes.size());
+    FullMatrix<double> mass(n, n), q(n, n_columns);
+    // [variable][j][column], and the same of the mass matrix.
+    std::vector<double> d_q(n_variables * n * n_columns), d_mass(n_variables * n * n);
+    const auto          place = [&](const Index node) {
+      return std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin();
+    };
+    for (const auto &[face, part] : parts)
+      {
+        unsigned int variable[2 * n * dim], column[n_fixed + n];
+        for (unsigned int v = 0; v < n * dim; ++v)
+          {
+            variable[v]           = v;
+            variable[n * dim + v] = dim * (n + place(face->nodes[v / dim])) + v % dim;
+          }
+        for (unsigned int c = 0; c < n_fixed + n; ++c)
+          column[c] = c < n_fixed ? c : n_fixed + place(face->nodes[c - n_fixed]);
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            for (unsigned int k = 0; k <= j; ++k)
+              {
+                mass(j, k) += part.mass[j][k];
+                for (unsigned int v = 0; v < 2 * n * dim; ++v)
+                  d_mass[(variable[v] * n + j) * n + k] += part.d_mass[j][k][v];
+              }
+            for (unsigned int c = 0; c < n_fixed + n; ++c)
+              {
+                q(j, column[c]) += part.q[j][c];
+                for (unsigned int v = 0; v < 2 * n * dim; ++v)
+                  d_q[(variable[v] * n + j) * n_columns + column[c]] += part.d_q[j][c][v];
+              }
+          }
+      }
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int k = 0; k < j; ++k)
+        {
+          mass(k, j) = mass(j, k);
+          for (unsigned int v = 0; v < n_variables; ++v)
+            d_mass[(v * n + k) * n + j] = d_mass[(v * n + j) * n + k];
+        }
+    // As in the pairing: regular on slivers.
+    constexpr double regularisation = 1e-14;
+    const double     trace          = mass.trace();
+    for (unsigned int j = 0; j < n; ++j)
+      mass(j, j) += regularisation * trace;
+    for (unsigned int v = 0; v < n_variables; ++v)
+      {
+        double d_trace = 0.;
+        for (unsigned int j = 0; j < n; ++j)
+          d_trace += d_mass[(v * n + j) * n + j];
+        for (unsigned int j = 0; j < n; ++j)
+          d_mass[(v * n + j) * n + j] += regularisation * d_trace;
+      }
+    mass.gauss_jordan();
+    FullMatrix<double> solution(n, n_columns);
+    mass.mmult(solution, q);
+
+    std::vector<double> d(n_columns);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const auto wanted = rows.find(slave.nodes[i]);
+        if (wanted == rows.end())
+          continue;
+        Row                      &row    = wanted->second;
+        const double              a      = q(i, 0);
+        RowDerivative            &result = *row.builder.result;
+        std::vector<unsigned int> stencil(nodes.size());
+        for (unsigned int m = 0; m < nodes.size(); ++m)
+          {
+            const auto entry = row.stencil.find(nodes[m]);
+            stencil[m] = entry == row.stencil.end() ? numbers::invalid_unsigned_int : entry->second;
+          }
+        for (unsigned int v = 0; v < n_variables; ++v)
+          {
+            // d (a_i (M^-1 Q)_i)
+            const double d_a = d_q[(v * n + i) * n_columns];
+            for (unsigned int c = 0; c < n_columns; ++c)
+              d[c] = d_a * solution(i, c);
+            for (unsigned int j = 0; j < n; ++j)
+              {
+                const double  dual  = a * mass(i, j);
+                double        taken = 0.;
+                const double *dq    = &d_q[(v * n + j) * n_columns];
+                for (unsigned int k = 0; k < n; ++k)
+                  taken += a * mass(i, k) * d_mass[(v * n + k) * n + j];
+                for (unsigned int c = 0; c < n_columns; ++c)
+                  d[c] += dual * dq[c] - taken * solution(j, c);
+              }
+            const Index        node = v < n * dim ? slave.nodes[v / dim] : nodes[v / dim - n];
+            const std::size_t  to   = row.builder.index(node);
+            const unsigned int e    = v % dim;
+            row.d_area.resize(result.nodes.size());
+            row.d_area[to][e] += d[0];
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                result.gap_vector[to][c][e] += d[1 + c];
+                result.normal[to][c][e] += d[1 + dim + c];
+              }
+            for (unsigned int m = 0; m < nodes.size(); ++m)
+              if (stencil[m] != numbers::invalid_unsigned_int)
+                result.weights[stencil[m]][to][e] += d[n_fixed + m];
+          }
+        for (const auto &[face, part] : parts)
+          {
+            ByNormals &by_normals = row.by_normals[face];
+            for (unsigned int m = 0; m < n; ++m)
+              for (unsigned int j = 0; j < n; ++j)
+                {
+                  by_normals.normal[m] += a * mass(i, j) * part.normal_normal[j][m];
+                  by_normals.gap[m] += a * mass(i, j) * part.gap_normal[j][m];
+                }
+          }
+      }
+  }
+
+
+
+  void
+  AveragedDerivative::finish()
+  {
+    std::vector<const Face *> needed;
+    for (const auto &[face, master] : masters)
+      needed.push_back(face);
+    const auto normal_derivatives = search.normal_derivatives(needed);
+    for (auto &[node, row] : rows)
+      {
+        RowDerivative &result = *row.builder.result;
+        for (const auto &[face, by_normals] : row.by_normals)
+          {
+            const auto derivatives = normal_derivatives.find(face);
+            if (derivatives == normal_derivatives.end())
+              continue;
+            const bool smooth = masters.at(face).geometry.smooth();
+            for (const NormalDerivative &d : derivatives->second)
+              {
+                const std::size_t to = row.builder.index(d.node);
+                result.normal[to] += by_normals.normal[d.m] * d.value;
+                if (smooth)
+                  result.gap_vector[to] += by_normals.gap[d.m] * d.value;
+              }
+          }
+        row.d_area.resize(result.nodes.size());
+
+        // From sums to means.
+        const Tensor<2, dim> direction = normalisation_derivative(row.normal);
+        for (std::size_t a = 0; a < result.nodes.size(); ++a)
+          {
+            result.normal[a] = direction * result.normal[a];
+            result.gap_vector[a] -= outer_product(row.row->gap_vector, row.d_area[a]);
+            result.gap_vector[a] /= row.area;
+            for (std::size_t m = 0; m < result.weights.size(); ++m)
+              result.weights[m][a] =
+                (result.weights[m][a] - row.row->stencil[m].weight * row.d_area[a]) / row.area;
+          }
+      }
+  }
+} // namespace Touchstone

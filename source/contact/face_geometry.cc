@@ -1,0 +1,123 @@
+#include <touchstone/contact/face_geometry.h>
+
+#include <cmath>
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  MasterNormal
+  master_normal(const std::string &name)
+  {
+    static const std::map<std::string, MasterNormal> kinds = {{"face", MasterNormal::face},
+                                                              {"averaged", MasterNormal::averaged},
+                                                              {"smoothed", MasterNormal::smoothed}};
+    return kinds.at(name);
+  }
+
+
+
+  FaceGeometry::FaceGeometry(const Face            &face,
+                             const AnalyticSurface *exact,
+                             const MasterNormal     kind)
+    : data(face)
+    , exact(exact)
+    , kind(kind)
+  {
+    if (kind == MasterNormal::smoothed && exact == nullptr)
+      patch.emplace(face);
+  }
+
+
+
+  FacePoint
+  FaceGeometry::evaluate(const std::array<double, 2> &xi) const
+  {
+    return patch ? patch->evaluate(xi) : Touchstone::evaluate(data, exact, xi);
+  }
+
+
+
+  std::array<Tensor<1, dim>, 3>
+  FaceGeometry::second_derivatives(const std::array<double, 2> &xi) const
+  {
+    if (patch)
+      return patch->second_derivatives(xi);
+    const auto                    hessians = shape_hessians(data.degree, xi);
+    std::array<Tensor<1, dim>, 3> of_reference, result;
+    for (unsigned int m = 0; m < data.n_nodes(); ++m)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          of_reference[a] += hessians[m][a] * data.reference[m];
+          result[a] += hessians[m][a] * data.displacement[m];
+        }
+    if (exact)
+      {
+        // d/dxi_b (grad P T_a) = (grad P)' [T_b] T_a + grad P T_a,b.
+        const FaceShapes shapes(data.degree, xi);
+        Point<dim>       x;
+        Tensor<1, dim>   t[2];
+        for (unsigned int m = 0; m < data.n_nodes(); ++m)
+          {
+            x += shapes.value[m] * data.reference[m];
+            for (unsigned int a = 0; a < 2; ++a)
+              t[a] += shapes.gradient[m][a] * data.reference[m];
+          }
+        const Tensor<2, dim> gradient = exact->projection_gradient(x);
+        const double         step     = 1e-5; // in xi, where a face measures 2
+        Tensor<2, dim>       change[2];
+        for (unsigned int b = 0; b < 2; ++b)
+          change[b] = (exact->projection_gradient(x + step * t[b]) -
+                       exact->projection_gradient(x - step * t[b])) /
+                      (2. * step);
+        result[0] += change[0] * t[0];
+        result[1] += change[1] * t[0];
+        result[2] += change[1] * t[1];
+        for (unsigned int a = 0; a < 3; ++a)
+          result[a] += gradient * of_reference[a];
+      }
+    else
+      for (unsigned int a = 0; a < 3; ++a)
+        result[a] += of_reference[a];
+    return result;
+  }
+
+
+
+  Tensor<1, dim>
+  FaceGeometry::interpolated_normal(const std::array<double, 2> &xi) const
+  {
+    const FaceShapes shapes(data.degree, xi);
+    Tensor<1, dim>   result;
+    for (unsigned int m = 0; m < data.n_nodes(); ++m)
+      result += shapes.value[m] * data.normals[m];
+    if (exact)
+      {
+        result += evaluate(xi).normal();
+        for (unsigned int m = 0; m < data.n_nodes(); ++m)
+          result -= shapes.value[m] * evaluate(node_coordinates(data, m)).normal();
+      }
+    return result / result.norm();
+  }
+
+
+
+  Tensor<1, dim>
+  FaceGeometry::normal(const std::array<double, 2> &xi) const
+  {
+    return interpolates_normals() ? interpolated_normal(xi) : evaluate(xi).normal();
+  }
+
+
+
+  bool
+  FaceGeometry::sharp(const std::array<double, 2> &xi, Tensor<1, dim> &mean) const
+  {
+    const FaceShapes shapes(data.degree, xi);
+    mean = Tensor<1, dim>();
+    for (unsigned int m = 0; m < data.n_nodes(); ++m)
+      mean += shapes.value[m] * data.edge_normals[m];
+    return interpolated_normal(xi) * mean < 0.999 * mean.norm();
+  }
+} // namespace Touchstone

@@ -1,0 +1,85 @@
+#include <touchstone/solid/row_writer.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Touchstone
+{
+  RowWriter::RowWriter(Matrix &matrix)
+    : matrix(const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix()))
+  {
+    this->matrix.OptimizeStorage();
+    const int error = this->matrix.ExtractCrsDataPointers(begin, columns, values);
+    AssertThrow(error == 0,
+                dealii::ExcMessage("The stiffness matrix is not in compressed storage."));
+  }
+
+
+
+  int
+  RowWriter::row(const Index global) const
+  {
+    return matrix.RowMap().LID(static_cast<int>(global));
+  }
+
+
+
+  int
+  RowWriter::column(const Index global) const
+  {
+    return matrix.ColMap().LID(static_cast<int>(global));
+  }
+
+
+
+  int
+  RowWriter::position(const int row, const int column) const
+  {
+    const int *first = columns + begin[row];
+    const int *last  = columns + begin[row + 1];
+    return std::lower_bound(first, last, column) - first;
+  }
+
+
+
+  void
+  RowWriter::clear_node(const int row)
+  {
+    std::fill(values + begin[row], values + begin[row + dim], 0.);
+  }
+
+
+
+  void
+  RowWriter::add(const unsigned int n_nodes,
+                 const int         *node_rows,
+                 const int         *node_columns,
+                 const double      *stiffness)
+  {
+    const unsigned int n = dim * n_nodes;
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      if (node_rows[a] >= 0)
+        for (unsigned int b = 0; b < n_nodes; ++b)
+          {
+            const int place = position(node_rows[a], node_columns[b]);
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                double       *entry = values + begin[node_rows[a] + i] + place;
+                const double *k     = stiffness + (dim * a + i) * n + dim * b;
+                for (unsigned int j = 0; j < dim; ++j)
+                  entry[j] += k[j];
+              }
+          }
+  }
+
+
+
+  double
+  RowWriter::absolute_sum(const int row) const
+  {
+    double sum = 0.;
+    for (int k = begin[row]; k < begin[row + 1]; ++k)
+      sum += std::abs(values[k]);
+    return sum;
+  }
+} // namespace Touchstone
