@@ -90,12 +90,13 @@ namespace Touchstone
   Contact::contact_place(const ContactRow &row) const
   {
     // Small sliding: the path is that of the gap vector. Obstacle: the point in
-    // the frame that moves with it. Master body: its stencil says all.
+    // the frame that moves with it. Master body: its stencil says all, except how
+    // far the node hangs over the edge at which the closest point stops.
     if (pairs[row.pair].small)
       return row.gap_vector;
     if (row.stencil.empty())
       return row.position - row.gap_vector - row.shift;
-    return {};
+    return row.gap_vector - row.gap * row.normal;
   }
 
 
@@ -162,6 +163,8 @@ namespace Touchstone
         Tensor<2, dim> &entry = slip[d.nodes[a]];
         if (row.stencil.empty())
           entry -= tangential * d.gap_vector[a];
+        else
+          entry += tangential * (d.gap_vector[a] - row.gap * d.normal[a]);
         for (std::size_t m = 0; m < row.stencil.size(); ++m)
           entry += outer_product(tangential * position(row.stencil[m].node), d.weights[m][a]);
         entry -= (row.normal * way) * (tangential * d.normal[a]);
