@@ -80,7 +80,8 @@ namespace Touchstone
                 }
               next_point = geometry.evaluate(next);
               next_r     = x - next_point.x;
-              if (next_r.norm_square() <= r.norm_square() * (1. + 1e-14))
+              // Distances are equal up to round-off long before coordinates are.
+              if (change < 1e-6 || next_r.norm_square() <= r.norm_square() * (1. + 1e-14))
                 break;
             }
           xi    = next;

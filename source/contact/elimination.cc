@@ -3,7 +3,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/utility.hpp>
 #include <cmath>
+#include <set>
 
 namespace Touchstone
 {
@@ -80,17 +82,51 @@ namespace Touchstone
       void
       enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
       {
+        const auto active = active_slaves(contact, system.rhs.get_mpi_communicator());
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
-            {
-              for (const Condition &condition : start_row(row, system.keep_symmetric))
+            for (Condition &condition : start_row(row, system.keep_symmetric))
+              {
+                // Slave nodes whose conditions refer to each other cannot all be
+                // eliminated: each takes its neighbours to move like itself.
+                Tensor<1, dim> lagged;
+                for (auto &[node, coefficients] : condition.gradient)
+                  if (node != row.slave && active.count({row.pair, node}) > 0)
+                    {
+                      lagged += coefficients;
+                      coefficients = Tensor<1, dim>();
+                    }
+                if (lagged.norm_square() > 0.)
+                  condition.gradient.emplace_back(row.slave, lagged);
                 row.take(graph.accept(condition));
-            }
+              }
       }
 
       void
       update(Contact &, const std::vector<double> &) override
       {
+      }
+
+    private:
+      /** Pairs and slave nodes of all active rows, if any of this rank's rows has a
+       * derivative. Collective. */
+      static std::set<std::pair<unsigned int, Index>>
+      active_slaves(const Contact &contact, const MPI_Comm communicator)
+      {
+        int                                         needed = 0;
+        std::vector<std::pair<unsigned int, Index>> mine;
+        for (const auto &pair_rows : contact.rows)
+          for (const ContactRow &row : pair_rows)
+            if (row.active())
+              {
+                mine.emplace_back(row.pair, row.slave);
+                needed |= (row.derivative != nullptr);
+              }
+        std::set<std::pair<unsigned int, Index>> all;
+        if (Utilities::MPI::max(needed, communicator) == 1)
+          for (const auto &of_rank : Utilities::MPI::all_gather(communicator, mine))
+            all.insert(of_rank.begin(), of_rank.end());
+        return all;
       }
     };
 

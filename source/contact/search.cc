@@ -120,13 +120,12 @@ namespace Touchstone
 
   namespace
   {
-    /** Such a face is on the far side of its body. */
-    bool
-    looks_the_same_way(const Face            &face,
-                       const AnalyticSurface *exact,
-                       const Tensor<1, dim>  &slave_normal)
+    /** A face that looks the same way as the slave surface is on the far side of
+     * its body. @return the cosine of the angle between both. */
+    double
+    same_way(const Face &face, const AnalyticSurface *exact, const Tensor<1, dim> &slave_normal)
     {
-      return evaluate(face, exact, {{0., 0.}}).normal() * slave_normal > 0.3;
+      return evaluate(face, exact, {{0., 0.}}).normal() * slave_normal;
     }
   } // namespace
 
@@ -144,7 +143,7 @@ namespace Touchstone
     for (auto it = tree.qbegin(bgi::intersects(capture)); it != tree.qend(); ++it)
       {
         const Face &face = faces[it->second];
-        if (!looks_the_same_way(face, master.exact_surface(face), slave_normal))
+        if (same_way(face, master.exact_surface(face), slave_normal) < -0.1)
           near.push_back(&face);
       }
     std::sort(near.begin(), near.end(), [](const Face *a, const Face *b) {
@@ -180,7 +179,7 @@ namespace Touchstone
           break;
         const Face            &face  = faces[it->second];
         const AnalyticSurface *exact = master.exact_surface(face);
-        if (looks_the_same_way(face, exact, slave_normal))
+        if (same_way(face, exact, slave_normal) > 0.3)
           continue;
         const Projection projection = closest_point_projection(x, geometry(face));
         // Points on a common edge are equally close up to round-off: the face

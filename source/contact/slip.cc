@@ -58,45 +58,35 @@ namespace Touchstone
           ContactRow &row = rows[p][k];
           if (!row.friction || row.status == ContactStatus::no_partner)
             continue;
-          FrictionState &f = *row.friction;
-          if (!f.has_anchor)
-            set_anchor(row);
-
-          // The way of the contact point over the master surface, seen on the
-          // surface as it is now: no rotation of both bodies changes it.
+          FrictionState       &f          = *row.friction;
           const Tensor<2, dim> tangential = tangential_part(row.normal);
-          f.slip                          = tangential * (contact_place(row) - f.anchor_offset);
-          if (!pairs[p].small)
-            for (const StencilEntry &entry : row.stencil)
-              f.slip += entry.weight * (tangential * position(entry.node));
-          for (const StencilEntry &entry : f.anchor)
-            f.slip -= entry.weight * (tangential * position(entry.node));
-
-          Tensor<1, dim> direction;
+          Tensor<1, dim>       direction;
           for (const StencilEntry &entry : pairs[p].tangents[k])
             direction += entry.weight * position(entry.node);
           direction  = tangential * direction;
           f.frame[0] = direction / direction.norm();
           f.frame[1] = cross_product_3d(row.normal, f.frame[0]);
-          f.start    = f.stored[0] * f.frame[0] + f.stored[1] * f.frame[1];
+          f.start    = f.carry(f.stored);
           f.slip_gradient.clear();
           f.spin_gradient.clear();
+
+          if (!f.has_anchor)
+            set_anchor(row);
+          f.slip = tangential * way_from_anchor(row) - f.carry(f.anchor_way);
         }
   }
 
 
 
   Tensor<1, dim>
-  Contact::contact_place(const ContactRow &row) const
+  Contact::way_from_anchor(const ContactRow &row) const
   {
-    // Small sliding: the path is that of the gap vector. Obstacle: the point in
-    // the frame that moves with it. Master body: its stencil says all, except how
-    // far the node hangs over the edge at which the closest point stops.
-    if (pairs[row.pair].small)
-      return row.gap_vector;
-    if (row.stencil.empty())
-      return row.position - row.gap_vector - row.shift;
-    return row.gap_vector - row.gap * row.normal;
+    const FrictionState &f = *row.friction;
+    Tensor<1, dim>       way =
+      (pairs[row.pair].small ? row.gap_vector : row.position - row.shift) - f.anchor_offset;
+    for (const StencilEntry &entry : f.anchor)
+      way -= entry.weight * position(entry.node);
+    return way;
   }
 
 
@@ -104,10 +94,22 @@ namespace Touchstone
   void
   Contact::set_anchor(ContactRow &row) const
   {
+    // Slip is the way of the node from the material point that it faces now, seen
+    // in a frame that turns with the surface: no rotation of both bodies changes
+    // it. Small sliding: the way of the gap vector. Obstacle: the point of its
+    // surface moves with it.
     FrictionState &f = *row.friction;
     f.has_anchor     = true;
-    f.anchor         = pairs[row.pair].small ? Stencil() : row.stencil;
-    f.anchor_offset  = contact_place(row);
+    f.anchor.clear();
+    f.anchor_offset = Tensor<1, dim>();
+    if (pairs[row.pair].small)
+      f.anchor_offset = row.gap_vector;
+    else if (row.stencil.empty())
+      f.anchor_offset = row.position - row.gap_vector - row.shift;
+    else
+      f.anchor = row.stencil;
+    const Tensor<1, dim> way = way_from_anchor(row);
+    f.anchor_way             = {{way * f.frame[0], way * f.frame[1]}};
   }
 
 
@@ -138,38 +140,11 @@ namespace Touchstone
   void
   Contact::set_slip_gradient(ContactRow &row, const Stencil &tangent) const
   {
-    FrictionState                      &f = *row.friction;
-    const RowDerivative                &d = *row.derivative;
+    FrictionState                      &f          = *row.friction;
+    const RowDerivative                &d          = *row.derivative;
+    const Tensor<2, dim>                tangential = tangential_part(row.normal);
     std::map<Index, FrictionState::Mat> slip;
     std::map<Index, FrictionState::Vec> spin;
-    const Tensor<2, dim>                tangential = tangential_part(row.normal);
-
-    // s = T (y - y_anchor); of the change of T only the tangential part counts.
-    Tensor<1, dim> way = contact_place(row) - f.anchor_offset;
-    for (const StencilEntry &entry : row.stencil)
-      {
-        slip[entry.node] += entry.weight * tangential;
-        way += entry.weight * position(entry.node);
-      }
-    for (const StencilEntry &entry : f.anchor)
-      {
-        slip[entry.node] -= entry.weight * tangential;
-        way -= entry.weight * position(entry.node);
-      }
-    if (row.stencil.empty())
-      slip[row.slave] += tangential;
-    for (std::size_t a = 0; a < d.nodes.size(); ++a)
-      {
-        Tensor<2, dim> &entry = slip[d.nodes[a]];
-        if (row.stencil.empty())
-          entry -= tangential * d.gap_vector[a];
-        else
-          entry += tangential * (d.gap_vector[a] - row.gap * d.normal[a]);
-        for (std::size_t m = 0; m < row.stencil.size(); ++m)
-          entry += outer_product(tangential * position(row.stencil[m].node), d.weights[m][a]);
-        entry -= (row.normal * way) * (tangential * d.normal[a]);
-      }
-    f.slip_gradient.assign(slip.begin(), slip.end());
 
     // The frame turns with the tangent q: omega = e_2 . dq / |T q|.
     Tensor<1, dim> q;
@@ -183,6 +158,21 @@ namespace Touchstone
     const double length = (tangential * q).norm();
     for (auto &entry : spin)
       entry.second /= length;
+
+    // s = T v - (what v was at the anchor, turned); of the changes of T and of the
+    // frame only the tangential part counts.
+    const Tensor<1, dim> way    = way_from_anchor(row);
+    const Tensor<1, dim> turned = cross_product_3d(row.normal, f.carry(f.anchor_way));
+    slip[row.slave] += tangential;
+    for (const StencilEntry &entry : f.anchor)
+      slip[entry.node] -= entry.weight * tangential;
+    for (std::size_t a = 0; a < d.nodes.size(); ++a)
+      slip[d.nodes[a]] -= (row.normal * way) * (tangential * d.normal[a]);
+    if (turned.norm() > 1e-12 * row.size)
+      for (const auto &[node, rate] : spin)
+        slip[node] -= outer_product(turned, rate);
+
+    f.slip_gradient.assign(slip.begin(), slip.end());
     f.spin_gradient.assign(spin.begin(), spin.end());
   }
 

@@ -142,9 +142,9 @@ namespace Touchstone
     /** Position of a node that positions knows. */
     dealii::Tensor<1, dim>
     position(Index node) const;
-    /** What is known of the place of contact besides the stencil. */
+    /** Way of a slave node from its anchor. */
     dealii::Tensor<1, dim>
-    contact_place(const ContactRow &row) const;
+    way_from_anchor(const ContactRow &row) const;
     /** The present place of contact is where slip counts from. */
     void
     set_anchor(ContactRow &row) const;

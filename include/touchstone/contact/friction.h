@@ -46,10 +46,12 @@ namespace Touchstone
     /** @name History, as of the last converged step */
     /** @{ */
     /** Where the node touched when the step began: a point of the master body by
-     * its stencil, and an offset (obstacle, small sliding). */
-    bool    has_anchor = false;
-    Stencil anchor;
-    Vec     anchor_offset;
+     * its stencil, or an offset (obstacle, small sliding); and the tangential way
+     * of the node from there, in the moving frame. */
+    bool                  has_anchor = false;
+    Stencil               anchor;
+    Vec                   anchor_offset;
+    std::array<double, 2> anchor_way{};
     /** Tangential force in the frame that moves with the slave surface. */
     std::array<double, 2> stored{};
     /** Slip path, length, and work done against friction. */
@@ -96,6 +98,13 @@ namespace Touchstone
 
     void
     clear_force();
+
+    /** @brief A tangential vector from its components in the moving frame. */
+    Vec
+    carry(const std::array<double, 2> &components) const
+    {
+      return components[0] * frame[0] + components[1] * frame[1];
+    }
 
     /** @brief Take the regularised formulation. */
     void

@@ -80,7 +80,8 @@ namespace Touchstone
     normal_derivatives(const std::vector<const Face *> &needed) const;
 
     /** @brief Visit the master faces within reach of a box that look the other way
-     * than @p slave_normal. */
+     * than @p slave_normal. Not those that are seen edge-on: their shadows on the
+     * slave surface are slivers. */
     void
     for_each_near(const dealii::BoundingBox<dim>          &box,
                   const dealii::Tensor<1, dim>            &slave_normal,

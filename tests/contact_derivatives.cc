@@ -1,0 +1,294 @@
+// Derivatives of contact rows against central differences in scattered directions,
+// in which every node moves on its own: a node that is forgotten is noticed.
+
+#include "contact_support.h"
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  const std::string blocks = R"(
+set Bodies        = lower, upper
+set Contact pairs = pair
+subsection Body lower
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Cells = 4, 3, 2
+  end
+end
+subsection Body upper
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Lower corner = 0.07, 0.03, 1
+    set Upper corner = 0.93, 0.95, 2
+    set Cells        = 5, 4, 2
+  end
+end
+subsection Contact pair pair
+  set Slave body        = upper
+  set Slave boundaries  = bottom
+  set Master body       = lower
+  set Master boundaries = top
+end
+)";
+
+  // The upper block stands over the edges and a corner of the lower one.
+  const std::string overhang = R"(
+set Bodies        = lower, upper
+set Contact pairs = pair
+subsection Body lower
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Cells = 3, 4, 2
+  end
+end
+subsection Body upper
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Lower corner = 0.57, 0.61, 1
+    set Upper corner = 1.13, 1.15, 2
+    set Cells        = 4, 5, 2
+  end
+end
+subsection Contact pair pair
+  set Slave body        = upper
+  set Slave boundaries  = bottom
+  set Master body       = lower
+  set Master boundaries = top, right, back
+end
+)";
+
+  const std::string tubes = R"(
+set Bodies        = outer, inner
+set Contact pairs = pair
+subsection Body outer
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Type         = tube
+    set Axis         = x
+    set Start        = 0.1
+    set End          = 0.9
+    set Inner radius = 1
+    set Outer radius = 1.5
+    set Cells        = 1, 5, 4
+  end
+end
+subsection Body inner
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Type         = tube
+    set Axis         = x
+    set Start        = 0
+    set End          = 1
+    set Inner radius = 0.5
+    set Outer radius = 1
+    set Outer slope  = 0.01
+    set Cells        = 1, 6, 3
+  end
+end
+subsection Contact pair pair
+  set Slave body        = outer
+  set Slave boundaries  = inner
+  set Master body       = inner
+  set Master boundaries = outer
+end
+)";
+
+  const std::string obstacle = R"(
+set Bodies        = upper
+set Obstacles     = rigid
+set Contact pairs = pair
+subsection Body upper
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Cells = 3, 3, 2
+  end
+end
+subsection Obstacle rigid
+  set Point  = 0.4, 0.45, -2
+  set Radius = 2
+end
+subsection Contact pair pair
+  set Slave body       = upper
+  set Slave boundaries = bottom
+  set Obstacle         = rigid
+end
+)";
+
+  double
+  largest(const double x)
+  {
+    return Utilities::MPI::max(x, MPI_COMM_WORLD);
+  }
+
+  void
+  check(const std::string              &name,
+        const std::string              &text,
+        const std::vector<std::string> &overrides,
+        const double                    gap,
+        const double                    warp      = 0.02,
+        const double                    tolerance = 1e-6)
+  {
+    PairOfScene pair(text, overrides);
+    const auto  start = [&](const Point<dim> &x, const unsigned int body) {
+      Tensor<1, dim> u = warp * scattered(x, 7);
+      if (body == 1)
+        u[2] += gap;
+      return u;
+    };
+    const Touchstone::Vector u = pair.displacement(start);
+    pair.update(u);
+    pair.differentiate(u);
+    const std::vector<ContactRow> rows = pair.rows;
+
+    IndexSet needed = pair.solid.relevant;
+    for (const ContactRow &row : rows)
+      if (row.derivative)
+        for (const Index node : row.derivative->nodes)
+          needed.add_range(dim * node, dim * node + dim);
+    needed.compress();
+
+    double       errors[3] = {}, sizes[3] = {};
+    unsigned int count = 0, changed = 0;
+    for (const unsigned int seed : {1, 2, 3})
+      {
+        const Touchstone::Vector direction =
+          pair.displacement([&](const Point<dim> &x, unsigned int) { return scattered(x, seed); });
+        Touchstone::Vector ghosted(pair.solid.owned, needed, pair.solid.communicator);
+        ghosted              = direction;
+        const double       h = 1e-7; // slivers of coverage bend much
+        Touchstone::Vector plus(u), minus(u);
+        plus.add(h, direction);
+        minus.add(-h, direction);
+        pair.update(plus);
+        const std::vector<ContactRow> rows_plus = pair.rows;
+        pair.update(minus);
+        const std::vector<ContactRow> rows_minus = pair.rows;
+
+        for (std::size_t k = 0; k < rows.size(); ++k)
+          {
+            if (!rows[k].active())
+              {
+                if (rows[k].derivative)
+                  std::cout << "derivative of a row that is not active FAILED\n";
+                continue;
+              }
+            const RowDerivative &d = *rows[k].derivative;
+            ++count;
+            Tensor<1, dim>      normal, gap_vector;
+            std::vector<double> weights(rows[k].stencil.size());
+            for (std::size_t a = 0; a < d.nodes.size(); ++a)
+              {
+                Tensor<1, dim> v;
+                for (unsigned int c = 0; c < dim; ++c)
+                  v[c] = ghosted(dim * d.nodes[a] + c);
+                normal += d.normal[a] * v;
+                gap_vector += d.gap_vector[a] * v;
+                for (std::size_t m = 0; m < weights.size(); ++m)
+                  weights[m] += d.weights[m][a] * v;
+              }
+            std::map<Index, double> difference;
+            for (const StencilEntry &entry : rows_plus[k].stencil)
+              difference[entry.node] += entry.weight / (2. * h);
+            for (const StencilEntry &entry : rows_minus[k].stencil)
+              difference[entry.node] -= entry.weight / (2. * h);
+            for (std::size_t m = 0; m < weights.size(); ++m)
+              {
+                sizes[2] = std::max(sizes[2], std::abs(weights[m]));
+                difference[rows[k].stencil[m].node] -= weights[m];
+              }
+            for (const auto &[node, error] : difference)
+              errors[2] = std::max(errors[2], std::abs(error));
+            const auto compare =
+              [&](const unsigned int i, const Tensor<1, dim> &a, const Tensor<1, dim> &b) {
+                errors[i] = std::max(errors[i], (a - b).norm());
+                sizes[i]  = std::max(sizes[i], a.norm());
+              };
+            compare(0, normal, (rows_plus[k].normal - rows_minus[k].normal) / (2. * h));
+            compare(1, gap_vector, (rows_plus[k].gap_vector - rows_minus[k].gap_vector) / (2. * h));
+            changed += (rows_plus[k].stencil.size() != rows_minus[k].stencil.size());
+          }
+      }
+    // How the contact points lie: stencils of each size.
+    std::map<unsigned int, unsigned int> stencils;
+    for (const ContactRow &row : rows)
+      if (row.active())
+        ++stencils[std::min<std::size_t>(row.stencil.size(), 19)];
+    std::ostringstream text_of_stencils;
+    for (unsigned int size = 0; size < 20; ++size)
+      if (const unsigned int n = Utilities::MPI::sum(stencils[size], MPI_COMM_WORLD))
+        text_of_stencils << ' ' << size << ": " << n << ',';
+
+    std::ostringstream out;
+    const char *const  names[3] = {"normal", "gap vector", "weights"};
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        const double size = largest(sizes[i]), error = largest(errors[i]);
+        out << (i == 0 ? " " : ", ") << names[i] << ' '
+            << (size == 0. && error == 0. ? std::string("constant")
+                                          : small(error / size, tolerance));
+      }
+    count = Utilities::MPI::sum(count, MPI_COMM_WORLD);
+    if (Utilities::MPI::sum(changed, MPI_COMM_WORLD) > 0)
+      out << ", contact points at a kink: another place is needed FAILED";
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << name << ": " << count / 3 << " rows (stencils" << text_of_stencils.str()
+                << ")\n " << out.str() << std::endl;
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const auto                       set = [](const std::string &key, const std::string &value) {
+    return "Contact pair pair/" + key + "=" + value;
+  };
+  const std::string averaged = set("Pairing", "averaged"),
+                    faceted  = set("Contact geometry", "faceted");
+  const std::string degree_2 = "Discretisation/Degree=2";
+  for (const std::string kind : {"face", "averaged", "smoothed"})
+    {
+      const std::string normal = set("Master normal", kind);
+      for (const std::string pairing : {"pointwise", "averaged"})
+        {
+          const std::string with = set("Pairing", pairing);
+          const std::string name = pairing + ", " + kind;
+          check(name + ", warped faces", blocks, {normal, with}, -0.01);
+          check(name + ", over edges and a corner", overhang, {normal, with}, 0.05);
+          check(name + ", tubes", tubes, {normal, with}, 0.);
+          check(name + ", faceted tubes", tubes, {normal, with, faceted}, 0.);
+          if (kind != "smoothed")
+            {
+              check(name + ", degree 2", blocks, {normal, with, degree_2}, -0.01, 0.005);
+              check(
+                name + ", over edges, degree 2", overhang, {normal, with, degree_2}, 0.05, 0.005);
+              check(name + ", tubes, degree 2", tubes, {normal, with, degree_2}, 0., 0.005);
+            }
+        }
+    }
+  check("smoothed, within the other body",
+        tubes,
+        {set("Master normal", "smoothed"), faceted},
+        0.03);
+  for (const std::string shape : {"plane", "sphere", "cylinder"})
+    check(shape,
+          obstacle,
+          {"Obstacle rigid/Shape=" + shape, "Obstacle rigid/Direction=0.2,1,0.3"},
+          0.);
+}

@@ -1,0 +1,128 @@
+#ifndef touchstone_tests_contact_support_h
+#define touchstone_tests_contact_support_h
+
+#include <touchstone/contact/pairing.h>
+
+#include <deal.II/base/mpi.h>
+
+#include "mesh_common.h"
+#include <cmath>
+#include <functional>
+
+namespace Touchstone
+{
+  /** The first contact pair of a scene, without the rest of the program. */
+  class PairOfScene
+  {
+  public:
+    PairOfScene(const std::string &text, const std::vector<std::string> &overrides = {})
+      : scene(text, "scene.prm", overrides)
+      , forest(scene, "", MPI_COMM_WORLD)
+      , solid(scene, forest, MPI_COMM_WORLD)
+    {
+      const ContactPairParameters &parameters = scene.pairs[0];
+      slave = make(parameters, parameters.slave_body, parameters.slave_boundaries);
+      if (!parameters.master_body.empty())
+        master = make(parameters, parameters.master_body, parameters.master_boundaries);
+      pairing = PairingRegistry::make(parameters.obstacle.empty() ? parameters.pairing : "obstacle",
+                                      {&parameters,
+                                       scene.obstacles.empty() ? nullptr : &scene.obstacles[0],
+                                       &solid,
+                                       slave.get(),
+                                       master.get()});
+      for (const SurfaceNode &node : slave->owned_nodes())
+        {
+          ContactRow row;
+          row.slave = node.node;
+          row.area  = node.area;
+          row.size  = node.size;
+          rows.push_back(row);
+        }
+    }
+
+    /** A displacement given by a formula of the reference position and the body. */
+    Vector
+    displacement(const std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
+                                                            unsigned int body)> &formula) const
+    {
+      using namespace dealii;
+      Vector u(solid.owned, solid.communicator);
+      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+            cell->get_dof_indices(dofs);
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              if (solid.owned.is_element(dofs[i]))
+                {
+                  const Point<dim> x =
+                    solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i));
+                  u(dofs[i]) =
+                    formula(x, cell->material_id())[solid.fe.system_to_component_index(i).first];
+                }
+          }
+      u.compress(VectorOperation::insert);
+      return u;
+    }
+
+    /** Make the rows for a displacement (without ghosts). */
+    void
+    update(const Vector &u)
+    {
+      Vector ghosted(solid.owned, solid.relevant, solid.communicator);
+      ghosted = u;
+      slave->move(ghosted);
+      if (master)
+        master->move(ghosted);
+      pairing->update(ghosted, 0., rows);
+    }
+
+    /** Take every row that has a partner as active, and differentiate. */
+    void
+    differentiate(const Vector &u)
+    {
+      for (ContactRow &row : rows)
+        if (row.status != ContactStatus::no_partner)
+          row.status = ContactStatus::slip;
+      Vector ghosted(solid.owned, solid.relevant, solid.communicator);
+      ghosted = u;
+      pairing->differentiate(ghosted, 0., rows);
+    }
+
+    const Scene              scene;
+    const Forest             forest;
+    const Solid              solid;
+    std::unique_ptr<Surface> slave, master;
+    std::shared_ptr<Pairing> pairing;
+    std::vector<ContactRow>  rows;
+
+  private:
+    std::unique_ptr<Surface>
+    make(const ContactPairParameters    &parameters,
+         const std::string              &body,
+         const std::vector<std::string> &boundaries) const
+    {
+      std::set<dealii::types::boundary_id> ids;
+      for (const std::string &name : boundaries)
+        ids.insert(forest.boundary_id(scene.body_index(body), name, "", ""));
+      return std::make_unique<Surface>(
+        solid, forest, scene.body_index(body), ids, parameters.contact_geometry == "manifold");
+    }
+  };
+
+  /** A number between -1 and 1 that has nothing to do with those of neighbours. */
+  inline double
+  scatter(const dealii::Point<dim> &x, const unsigned int seed)
+  {
+    return std::sin(37.1 * x[0] + 71.3 * x[1] + 53.7 * x[2] + 2.4 * seed);
+  }
+
+  inline dealii::Tensor<1, dim>
+  scattered(const dealii::Point<dim> &x, const unsigned int seed)
+  {
+    return dealii::Tensor<1, dim>(
+      {scatter(x, 3 * seed), scatter(x, 3 * seed + 1), scatter(x, 3 * seed + 2)});
+  }
+} // namespace Touchstone
+
+#endif
