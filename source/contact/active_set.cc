@@ -23,16 +23,37 @@ namespace Touchstone
      * it: keeps nodes from chattering between stick and slip. */
     constexpr double on_the_cone = 1e-8;
 
+    /**
+     * How a row that closes begins. What closes the gap and what takes back the
+     * slip are estimated with the same stiffness: does friction bear the latter?
+     * To begin with sticking would tear nodes open again that have come a long way.
+     * Alart and Curnier (1991), Comput. Methods Appl. Mech. Engng 92.
+     */
+    ContactStatus
+    status_of_closing(const ContactRow &row)
+    {
+      if (!row.friction)
+        return ContactStatus::slip;
+      const FrictionState &f = *row.friction;
+      FrictionInput        input;
+      input.normal_force = std::max(-row.stiffness * row.gap, 0.);
+      input.area         = row.area;
+      input.slip_length  = f.slip_length;
+      return (f.start - row.stiffness * f.slip).norm() > f.law->limit(input).force ?
+               ContactStatus::slip :
+               ContactStatus::stick;
+    }
+
+
+
     Wish
     wish(const ContactRow &row, const double gap_tolerance)
     {
       if (row.tied || row.status == ContactStatus::no_partner)
         return {};
-      // A new contact slips, without a force yet: held at once where it happens to
-      // be after one linear step, it would drag the body along.
       if (!row.active())
         return {-row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.,
-                ContactStatus::slip};
+                status_of_closing(row)};
       const double scale = row.stiffness * row.size;
       const double trial = row.lambda / scale - row.gap / row.size;
       if (trial < -gap_tolerance)

@@ -61,6 +61,9 @@ namespace Touchstone
         if (obstacle == nullptr)
           {
             pair.master_body = scene.body_index(parameters.master_body);
+            // A force is small or large by what the softer body makes of it.
+            pair.modulus =
+              std::min(pair.modulus, scene.bodies[pair.master_body].material.young_modulus);
             pair.master =
               make(parameters.master_body, parameters.master_boundaries, "Master boundaries");
           }

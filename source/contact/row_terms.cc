@@ -44,19 +44,47 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** A condition of the row without direction and value. */
+    Condition
+    blank_condition(const ContactRow &row)
+    {
+      Condition condition;
+      condition.node            = row.slave;
+      condition.stencil         = row.stencil;
+      condition.body            = row.body;
+      condition.master_body     = row.master_body;
+      condition.position        = row.position;
+      condition.master_position = row.position - row.gap_vector;
+      return condition;
+    }
+  } // namespace
+
+
+
+  std::vector<Condition>
+  elastic_stick(const ContactRow &row)
+  {
+    std::vector<Condition> conditions;
+    if (row.friction && row.status == ContactStatus::stick && !row.held() && !row.dropped())
+      for (const Tensor<1, dim> &tangent : row.friction->frame)
+        {
+          conditions.push_back(blank_condition(row));
+          conditions.back().direction = tangent;
+        }
+    return conditions;
+  }
+
+
+
   std::vector<Condition>
   start_row(ContactRow &row, const bool keep_symmetric)
   {
     row.accepted = row.refused = 0;
     if (!row.active())
       return {};
-    Condition condition;
-    condition.node            = row.slave;
-    condition.stencil         = row.stencil;
-    condition.body            = row.body;
-    condition.master_body     = row.master_body;
-    condition.position        = row.position;
-    condition.master_position = row.position - row.gap_vector;
+    Condition              condition = blank_condition(row);
     std::vector<Condition> conditions;
     if (row.tied)
       {

@@ -183,8 +183,9 @@ namespace Touchstone
           continue;
         const Projection projection = closest_point_projection(x, geometry(face));
         // Points on a common edge are equally close up to round-off: the face
-        // with the smaller key gets the node, on any number of ranks.
-        const double tie = 1e-12 * reach * reach;
+        // with the smaller key gets the node, on any number of ranks. But a node
+        // that has just slid over the edge must not be called back to it.
+        const double tie = 1e-12 * projection.distance_squared + 1e-26 * reach * reach;
         if (projection.distance_squared < best_distance - tie ||
             (best && projection.distance_squared < best_distance + tie && face.key < best->key))
           {

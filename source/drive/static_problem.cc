@@ -207,7 +207,14 @@ namespace Touchstone
   void
   StaticProblem::check_supports()
   {
-    const FreeMotion motion = modes->free_motion(graph.accepted());
+    std::vector<Condition> supports = graph.accepted();
+    for (const auto &rows : contact.rows)
+      for (const ContactRow &row : rows)
+        {
+          const auto springs = elastic_stick(row);
+          supports.insert(supports.end(), springs.begin(), springs.end());
+        }
+    const FreeMotion motion = modes->free_motion(supports);
     if (motion.n_modes == 0)
       return;
     for (const unsigned int body : motion.bodies)

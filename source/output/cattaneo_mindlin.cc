@@ -59,8 +59,6 @@ namespace Touchstone
     , pair(pair)
   {
     values.finish();
-    if (!std::isnan(prescribed_peak) && std::isnan(prescribed))
-      values.fail("\"peak tangential force\" stands alone.", "Give \"tangential force\" too.");
     if (std::abs(prescribed_peak) < std::abs(prescribed))
       values.fail("\"peak tangential force\" is less than \"tangential force\".",
                   "It is the largest value that the force has had.");

@@ -96,7 +96,7 @@ namespace Touchstone
       std::unique_ptr<Surface>     slave, master;
       std::shared_ptr<Pairing>     pairing;
       unsigned int                 slave_body = 0, master_body = 0;
-      /** Stiffness scale: Young's modulus of the slave body. */
+      /** Stiffness scale: Young's modulus of the softer body. */
       double modulus = 1.;
       bool   tied    = false;
       /** Pairing of the reference state, kept for small sliding and tied. */

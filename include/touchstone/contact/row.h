@@ -77,7 +77,7 @@ namespace Touchstone
     /** Size of the slave faces at the node, length; makes gaps nondimensional. */
     double size = 1.;
     /** Scale of contact forces per gap, force per length: Young's modulus of the
-     * slave body times area over size. The complementarity constant c. */
+     * softer body times area over size. The complementarity constant c. */
     double stiffness = 1.;
     /** Body of the slave node, and of the stencil. */
     unsigned int body = 0, master_body = 0;

@@ -24,6 +24,11 @@ namespace Touchstone
   std::vector<Condition>
   start_row(ContactRow &row, bool keep_symmetric);
 
+  /** @brief The motions that a sticking node resists elastically, without being
+   * held by conditions: they support its body, too. */
+  std::vector<Condition>
+  elastic_stick(const ContactRow &row);
+
   /** @brief Coefficients of a condition by node. */
   NodalForm
   gradient(const Condition &condition);
