@@ -99,4 +99,6 @@ main(int argc, char **argv)
   slide("Belos CG, lagged", {"Linear solver/Type=Belos CG"});
   slide("Belos GMRES", {"Linear solver/Type=Belos GMRES"});
   slide("finite sliding", {"Contact pair sole/Sliding=finite"});
+  slide("pointwise", {"Contact pair sole/Pairing=pointwise"});
+  slide("averaged", {"Contact pair sole/Pairing=averaged"});
 }

@@ -100,7 +100,7 @@ namespace Touchstone
         force               = limit.force * direction;
         f.direction         = direction;
         f.coupling          = limit.slope * direction;
-        f.rest              = (limit.force - limit.slope * row.lambda) * direction;
+        f.rest              = (limit.force - limit.slope * input.normal_force) * direction;
         const double room   = f.carried ? size : std::max(f.excess, 0.);
         const double kappa  = limit.force < stiffest * row.stiffness / f.c * room
                                 ? limit.force * f.c / room

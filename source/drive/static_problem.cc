@@ -7,6 +7,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <cmath>
+#include <set>
 
 namespace Touchstone
 {
@@ -187,15 +188,23 @@ namespace Touchstone
         terms.add_row(row);
     terms.finish();
     check_supports();
-    system->constraints =
-      graph.constraints(hanging, solid.owned, solid.relevant, solid.communicator);
+    // Contact terms may refer to nodes that are far from this rank's cells, and to
+    // components of them that no condition knows of.
+    std::set<Index> far;
+    for (const MatrixTerm &term : system->terms)
+      for (const Index i : {term.row, term.column})
+        if (i < system->rhs.size() && !solid.relevant.is_element(i))
+          far.insert(i);
+    IndexSet needed = solid.relevant;
+    needed.add_indices(far.begin(), far.end());
+    system->constraints   = graph.constraints(hanging, solid.owned, needed, solid.communicator);
     const auto everywhere = [&](const bool here) {
       return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
     };
     if (!everywhere(graph.symmetric()))
       {
         system->test_constraints =
-          graph.test_constraints(hanging, solid.owned, solid.relevant, solid.communicator);
+          graph.test_constraints(hanging, solid.owned, needed, solid.communicator);
         system->symmetric = false;
       }
     system->symmetric = everywhere(system->symmetric);
@@ -330,7 +339,7 @@ namespace Touchstone
     unsigned int dropped = 0;
     for (const auto &rows : contact.rows)
       for (const ContactRow &row : rows)
-        dropped += (row.active() && row.refused > 0);
+        dropped += (row.active() && row.dropped());
     dropped = Utilities::MPI::sum(dropped, solid.communicator);
     if (dropped > 0)
       text = std::to_string(dropped) +
