@@ -66,7 +66,7 @@ namespace Touchstone
       Mat(unit_symmetric_tensor<dim>()) - outer_product(row.normal, row.normal);
     FrictionInput input;
     input.normal_force        = std::max(row.lambda, 0.);
-    input.area                = row.area;
+    input.area                = f.area;
     input.slip_length         = f.slip_length;
     input.sliding             = slipped;
     const FrictionLimit limit = f.law->limit(input);

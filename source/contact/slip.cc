@@ -100,6 +100,7 @@ namespace Touchstone
     // surface moves with it.
     FrictionState &f = *row.friction;
     f.has_anchor     = true;
+    f.area           = row.area;
     f.anchor.clear();
     f.anchor_offset = Tensor<1, dim>();
     if (pairs[row.pair].small)

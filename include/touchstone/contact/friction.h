@@ -52,6 +52,8 @@ namespace Touchstone
     Stencil               anchor;
     Vec                   anchor_offset;
     std::array<double, 2> anchor_way{};
+    /** Tributary area there: a law that takes it sees it constant in a step. */
+    double area = 0.;
     /** Tangential force in the frame that moves with the slave surface. */
     std::array<double, 2> stored{};
     /** Slip path, length, and work done against friction. */
