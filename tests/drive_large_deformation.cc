@@ -1,6 +1,7 @@
-// Large deformations with exact solutions, on one rank and two: uniaxial tension
-// to twice the length, a rotation by 90 degrees, a homogeneous deformation of a
-// distorted mesh, a linear body beside a nonlinear one; quadratic convergence.
+// Large deformations with exact solutions, on one rank and two: uniaxial tension to
+// twice the length, with quadratic convergence; a rotation by 90 degrees and a
+// homogeneous deformation of a distorted mesh; the stiffness at rest; a linear body
+// beside a nonlinear one.
 
 #include <touchstone/drive/static_problem.h>
 
@@ -255,6 +256,38 @@ end
 
 
 
+  /** Without displacement the laws are linear elasticity, and F-bar is B-bar. */
+  void
+  undeformed(const std::string &law,
+             const std::string &element,
+             const std::string &linear_element,
+             const std::string &degree)
+  {
+    const auto make = [&](const std::string &l, const std::string &e) {
+      const Scene  scene(rod,
+                        "scene.prm",
+                        {"Body rod/Material/Law=" + l,
+                          "Body rod/Element=" + e,
+                          "Discretisation/Degree=" + degree});
+      const Forest forest(scene, "", MPI_COMM_WORLD);
+      Solid        solid(scene, forest, MPI_COMM_WORLD);
+      solid.assemble();
+      auto matrix = std::make_unique<Matrix>();
+      matrix->copy_from(solid.stiffness());
+      return matrix;
+    };
+    const auto   nonlinear = make(law, element), linear = make("linear elastic", linear_element);
+    const double scale = linear->frobenius_norm();
+    nonlinear->add(-1., *linear);
+    const double difference = nonlinear->frobenius_norm() / scale;
+    if (first_rank())
+      std::cout << "stiffness at rest, " << law << ", " << element << " and " << linear_element
+                << ", degree " << degree << ": difference " << small(difference, 1e-13)
+                << std::endl;
+  }
+
+
+
   /** A linear and a nonlinear block side by side do not know each other. */
   void
   mixed()
@@ -314,5 +347,11 @@ main(int argc, char **argv)
         homogeneous("rotation", law, element, degree, turn, rotation);
         homogeneous("patch test", law, element, degree, deform, deformation);
       }
+  for (const std::string law : {"neo-Hookean", "St. Venant-Kirchhoff"})
+    {
+      undeformed(law, "F-bar", "b-bar", "1");
+      undeformed(law, "full", "full", "1");
+      undeformed(law, "full", "full", "2");
+    }
   mixed();
 }

@@ -12,6 +12,20 @@ main()
   try_override("b-bar of degree 2", {"Discretisation/Degree=2", "Body lower/Element=b-bar"});
   try_override("full of degree 2", {"Discretisation/Degree=2", "Body lower/Element=full"});
   try_override("automatic of degree 2", {"Discretisation/Degree=2"});
+  const std::string law = "Body lower/Material/Law=";
+  try_override("b-bar at finite strain", {law + "neo-Hookean", "Body lower/Element=b-bar"});
+  try_override("incompatible modes at finite strain",
+               {law + "St. Venant-Kirchhoff", "Body lower/Element=incompatible modes"});
+  try_override("F-bar at small strain", {"Body lower/Element=F-bar"});
+  try_override("F-bar of degree 2",
+               {law + "neo-Hookean", "Body lower/Element=F-bar", "Discretisation/Degree=2"});
+  try_override("F-bar at finite strain", {law + "neo-Hookean", "Body lower/Element=F-bar"});
+  try_override("automatic at finite strain", {law + "neo-Hookean"});
+  try_override("automatic at finite strain of degree 2",
+               {law + "neo-Hookean", "Discretisation/Degree=2"});
+  try_override("incompressible at finite strain",
+               {law + "neo-Hookean", "Body lower/Material/Poisson ratio=0.5"});
+  try_override("unknown law", {law + "Mooney-Rivlin"});
 
   try_override("held twice", {"Body upper/Symmetry=top"});
   try_override("listed twice", {"Body upper/Fixed=top, top"});

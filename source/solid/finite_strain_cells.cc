@@ -52,7 +52,8 @@ namespace Touchstone
               const int   row   = row_map.LID(static_cast<int>(first));
               dofs.push_back(first);
               rows.push_back(row);
-              columns.push_back(col_map.LID(static_cast<int>(first)));
+              for (unsigned int d = 0; d < dim; ++d)
+                columns.push_back(col_map.LID(static_cast<int>(first + d)));
               const Point<dim> x = mapping.transform_unit_to_real_cell(cell, unit_points[a]);
               positions.insert(positions.end(), {x[0], x[1], x[2]});
               if (row < 0)
@@ -89,7 +90,7 @@ namespace Touchstone
     for (std::size_t c = 0; c < cells.size(); ++c)
       writer.add(n_nodes,
                  &rows[c * n_nodes],
-                 &columns[c * n_nodes],
+                 &columns[c * dim * n_nodes],
                  go_to(c, u, determinant).stiffness().data());
   }
 

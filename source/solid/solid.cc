@@ -83,13 +83,14 @@ namespace Touchstone
           const unsigned int n      = kernel.nodes_per_cell();
           cell->get_dof_indices(dofs);
           rows.assign(n, -1);
-          columns.assign(n, -1);
+          columns.assign(dim * n, -1);
           bool any = false;
           for (unsigned int a = 0; a < n; ++a)
             {
-              rows[a]    = writer.row(dofs[kernel.local_dof(a, 0)]);
-              columns[a] = writer.column(dofs[kernel.local_dof(a, 0)]);
-              any        = any || rows[a] >= 0;
+              rows[a] = writer.row(dofs[kernel.local_dof(a, 0)]);
+              any     = any || rows[a] >= 0;
+              for (unsigned int d = 0; d < dim; ++d)
+                columns[dim * a + d] = writer.column(dofs[kernel.local_dof(a, d)]);
             }
           if (!any)
             continue;

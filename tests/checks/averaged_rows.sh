@@ -33,7 +33,7 @@ patch belos 2 --set "Linear solver/Type=Belos CG" --set "Linear solver/Tolerance
   --set "Newton/Residual tolerance=1e-13"
 
 # Pointwise rows must not pass, or the test shows nothing.
-run pointwise 1 "$prm/patch_test.prm"
+run pointwise 1 "$prm/patch_test.prm" --set "Contact pair interface/Pairing=pointwise"
 awk -v e="$(value pointwise /errors/stress_max_deviation)" 'BEGIN { exit !(e > 0.1) }' ||
   fail "pointwise rows pass the patch test"
 

@@ -49,8 +49,8 @@ namespace Touchstone
     std::string              master_body;
     std::vector<std::string> master_boundaries;
     std::string              obstacle;
-    /** Name under which the pairing is registered ("pointwise"). */
-    std::string pairing = "pointwise";
+    /** Name under which the pairing is registered ("averaged"). */
+    std::string pairing = "averaged";
     /** "frictionless", "tied", or the name under which a friction law is
      * registered. */
     std::string behaviour = "frictionless";

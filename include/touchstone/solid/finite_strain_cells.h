@@ -84,7 +84,8 @@ namespace Touchstone
     std::vector<Cell>                                cells;
     /** By active cell of the triangulation; -1 for none. */
     std::vector<int> number;
-    /** By cell and node: first unknown, first local row (or -1) and column. */
+    /** By cell and node: first unknown, first local row (or -1), the three local
+     * columns. */
     std::vector<Index> dofs;
     std::vector<int>   rows, columns;
     /** Reference positions, by cell, node and component. */

@@ -30,7 +30,7 @@ namespace Touchstone
     /**
      * @brief Add a stiffness of @p n_nodes nodes to the rows that this rank owns.
      * @param rows    First row of each node, or -1.
-     * @param columns First column of each node.
+     * @param columns The three columns of each node.
      * @param values  Row by row, 3 n_nodes times 3 n_nodes, force per length.
      */
     void

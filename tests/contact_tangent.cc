@@ -1,0 +1,625 @@
+// The linear system of contact against central differences of the contact forces
+// and of the conditions, for each pairing, enforcement and state of friction; with
+// a linearisation that keeps normals and stencils constant the differences must be
+// seen. With an argument the errors themselves are printed.
+
+#include <touchstone/contact/enforcement.h>
+#include <touchstone/contact/row_terms.h>
+
+#include "contact_support.h"
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  const std::string blocks = R"(
+set Bodies        = lower, upper
+set Contact pairs = pair
+subsection Body lower
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Cells = 3, 2, 1
+  end
+end
+subsection Body upper
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Lower corner = 0.12, 0.1, 1
+    set Upper corner = 0.88, 0.9, 2
+    set Cells        = 2, 3, 1
+  end
+end
+subsection Contact pair pair
+  set Slave body        = upper
+  set Slave boundaries  = bottom
+  set Master body       = lower
+  set Master boundaries = top
+  set Contact geometry  = faceted
+end
+)";
+
+  const std::string obstacle = R"(
+set Bodies        = lower, upper
+set Obstacles     = rigid
+set Contact pairs = pair
+subsection Body lower
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Upper corner = 1, 1, 0.1
+    set Cells = 1, 1, 1
+  end
+end
+subsection Body upper
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Lower corner = 0.12, 0.1, 1
+    set Upper corner = 0.88, 0.9, 2
+    set Cells        = 2, 3, 1
+  end
+end
+subsection Obstacle rigid
+  set Shape  = sphere
+  set Point  = 0.4, 0.45, -1
+  set Radius = 2
+end
+subsection Contact pair pair
+  set Slave body       = upper
+  set Slave boundaries = bottom
+  set Obstacle         = rigid
+end
+)";
+
+  struct Friction
+  {
+    std::string   name, behaviour, kind;
+    ContactStatus status;
+  };
+
+  const std::vector<Friction> frictions = {
+    {"frictionless", "frictionless", "exact", ContactStatus::slip},
+    {"exact stick", "coulomb", "exact", ContactStatus::stick},
+    {"exact slip", "coulomb", "exact", ContactStatus::slip},
+    {"regularised stick", "coulomb", "regularised", ContactStatus::stick},
+    {"regularised slip", "coulomb", "regularised", ContactStatus::slip},
+    {"tresca slip", "tresca", "exact", ContactStatus::slip},
+    {"regularised tresca slip", "tresca", "regularised", ContactStatus::slip}};
+
+  const std::vector<std::string> enforcements = {"lagrange multipliers",
+                                                 "elimination",
+                                                 "augmented lagrange",
+                                                 "penalty"};
+
+  constexpr double tolerance = 1e-5;
+
+  double
+  sum(const double x)
+  {
+    return Utilities::MPI::sum(x, MPI_COMM_WORLD);
+  }
+
+  /** Square sums of values and of their errors. */
+  struct Error
+  {
+    double error = 0., size = 0.;
+
+    void
+    add(const double value, const double exact)
+    {
+      error += (value - exact) * (value - exact);
+      size += exact * exact;
+    }
+
+    void
+    add(const Touchstone::Vector &value, const Touchstone::Vector &exact)
+    {
+      for (const Index i : value.locally_owned_elements())
+        add(value(i), exact(i));
+    }
+
+    /** Collective; -1 if there is nothing to compare. */
+    double
+    relative() const
+    {
+      const double e = sum(error), s = sum(size);
+      return s > 0. ? std::sqrt(e / s) : e > 0. ? 1. : -1.;
+    }
+  };
+
+
+
+  /** One pair in one state, and its linear system. */
+  class Case
+  {
+  public:
+    Case(const std::string &text,
+         const std::string &pairing,
+         const std::string &enforcement_name,
+         const Friction    &friction)
+      : friction(friction)
+      , enforcement_name(enforcement_name)
+      , made(text, overrides(pairing, enforcement_name, friction))
+      , contact(made.scene, made.forest, made.solid)
+      , enforcement(EnforcementRegistry::make(enforcement_name, made.scene.contact))
+      , u(made.solid.owned, MPI_COMM_WORLD)
+    {
+      const bool   body   = made.master != nullptr;
+      const double deeper = enforcement_name == "penalty" ? 0.15 : 0.;
+      const auto   place  = [&](const Point<dim> &x, const unsigned int number, const bool end) {
+        Tensor<1, dim> y = x + smooth(x, 2 * number + end);
+        if (number == 1)
+          {
+            y[2] -= deeper + (body ? -0.01 : 0.05);
+            if (end)
+              y += Tensor<1, dim>({0.04, -0.03, 0.});
+          }
+        return y;
+      };
+      // Where the step begins: with forces, for the history.
+      u = made.displacement([&](const Point<dim> &x, const unsigned int number) {
+        return place(x, number, false) - x;
+      });
+      contact.update(u, 0.);
+      for (ContactRow &row : contact.rows[0])
+        if (row.status != ContactStatus::no_partner && row.friction)
+          {
+            row.status = ContactStatus::stick;
+            row.lambda = 0.1 * scale(row);
+            row.force  = row.lambda * row.normal + tangential(row, 3, 0.02);
+          }
+      contact.commit();
+
+      // Where it is: turned as a whole, too, unless the obstacle stays behind.
+      const Tensor<2, dim> rotation = body ? turn() : unit_symmetric_tensor<dim>();
+      u = made.displacement([&](const Point<dim> &x, const unsigned int number) {
+        return rotation * place(x, number, true) - x;
+      });
+      contact.update(u, 0.);
+      for (ContactRow &row : contact.rows[0])
+        {
+          if (row.status == ContactStatus::no_partner)
+            continue;
+          ++n_rows;
+          n_penetrate += row.gap < 0.;
+          row.status = friction.status;
+          row.lambda = (0.1 + 0.03 * scatter(Point<dim>(row.position), 5)) * scale(row);
+          if (enforcement_name == "augmented lagrange")
+            row.augmented_lambda = row.lambda + 20. * row.stiffness * row.gap;
+          if (row.friction)
+            row.friction->base = row.augmented = tangential(row, 4, 0.02);
+        }
+      evaluate();
+      // Exact slip is linearised about a force against the slip.
+      if (exact_slip())
+        for (ContactRow &row : contact.rows[0])
+          if (row.active())
+            row.friction->base = row.augmented =
+              -row.friction->limit / row.friction->slip.norm() * row.friction->slip;
+      evaluate();
+    }
+
+    const Friction     friction;
+    const std::string  enforcement_name;
+    PairOfScene        made;
+    Contact            contact;
+    Touchstone::Vector u;
+    unsigned int       n_rows = 0, n_penetrate = 0;
+
+    std::vector<ContactRow> &
+    rows()
+    {
+      return contact.rows[0];
+    }
+
+    /** Forces are unknowns, or follow from the balance. */
+    bool
+    with_multipliers() const
+    {
+      return enforcement_name == "lagrange multipliers" || enforcement_name == "elimination";
+    }
+
+    /** Contact forces of the rows as the enforcement makes them. */
+    void
+    evaluate()
+    {
+      if (enforcement_name == "elimination")
+        {
+          // Without the balance: the normal force and that of stick stay.
+          for (ContactRow &row : rows())
+            if (row.active())
+              {
+                if (row.friction)
+                  choose_friction(row);
+                respond(row);
+              }
+        }
+      else
+        enforcement->recover(contact,
+                             made.displacement(
+                               [](const Point<dim> &, unsigned int) { return Tensor<1, dim>(); }),
+                             graph);
+    }
+
+    /** Contact forces at the nodes; exact slip against the present slip. */
+    Touchstone::Vector
+    forces()
+    {
+      evaluate();
+      if (exact_slip())
+        for (ContactRow &row : rows())
+          if (row.active())
+            {
+              const FrictionState &f = *row.friction;
+              row.force              = row.lambda * row.normal - f.limit / f.slip.norm() * f.slip;
+            }
+      Touchstone::Vector result(made.solid.owned, MPI_COMM_WORLD);
+      contact.add_forces(result);
+      return result;
+    }
+
+    /** As StaticProblem does. */
+    void
+    linearize(const bool consistent)
+    {
+      system = std::make_unique<LinearSystem>();
+      system->rhs.reinit(made.solid.owned, MPI_COMM_WORLD);
+      system->first_extra = system->rhs.size();
+      graph.clear();
+      if (consistent)
+        contact.differentiate();
+      enforcement->enforce(contact, graph, *system);
+      RowTerms terms(*system);
+      for (ContactRow &row : rows())
+        terms.add_row(row);
+      terms.finish();
+    }
+
+    /** Conditions of the active rows of this rank in their order, as the rows make
+     * them. */
+    template <class Visit>
+    void
+    for_each_condition(const Visit &visit)
+    {
+      unsigned int k = 0;
+      for (ContactRow &row : rows())
+        {
+          const unsigned int accepted = row.accepted, refused = row.refused;
+          const auto         conditions = start_row(row, false);
+          row.accepted                  = accepted;
+          row.refused                   = refused;
+          for (unsigned int i = 0; i < conditions.size(); ++i)
+            visit(k++, row, i, conditions[i]);
+        }
+    }
+
+    /** A displacement at all nodes that the system refers to. */
+    Touchstone::Vector
+    ghosted(const Touchstone::Vector &v)
+    {
+      IndexSet needed = made.solid.relevant;
+      for (const MatrixTerm &term : system->terms)
+        if (term.column < v.size())
+          needed.add_index(term.column);
+      for_each_condition(
+        [&](unsigned int, const ContactRow &, unsigned int, const Condition &condition) {
+          for (const auto &[node, coefficients] : gradient(condition))
+            needed.add_range(dim * node, dim * node + dim);
+        });
+      needed.compress();
+      Touchstone::Vector result(made.solid.owned, needed, MPI_COMM_WORLD);
+      result = v;
+      return result;
+    }
+
+    /** Change of the contact forces with displacements (with ghosts) and with
+     * extra unknowns of this rank. */
+    Touchstone::Vector
+    change(const Touchstone::Vector &v, const std::vector<double> &extra)
+    {
+      Touchstone::Vector  result(made.solid.owned, MPI_COMM_WORLD);
+      std::vector<Index>  unknowns;
+      std::vector<double> values;
+      for (const MatrixTerm &term : system->terms)
+        if (term.row < result.size())
+          {
+            unknowns.push_back(term.row);
+            values.push_back(-term.value * (term.column < result.size()
+                                              ? v(term.column)
+                                              : extra[term.column - system->first_extra]));
+          }
+      // What is eliminated still acts through its force.
+      if (enforcement_name == "elimination")
+        {
+          const auto &conditions = graph.accepted();
+          for (unsigned int k = 0; k < conditions.size(); ++k)
+            {
+              const Condition     &c = conditions[k];
+              const Tensor<1, dim> direction =
+                c.force_direction.norm_square() > 0. ? c.force_direction : c.direction;
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  unknowns.push_back(dim * c.node + d);
+                  values.push_back(-extra[k] * direction[d]);
+                  for (const StencilEntry &entry : c.stencil)
+                    {
+                      unknowns.push_back(dim * entry.node + d);
+                      values.push_back(extra[k] * entry.weight * direction[d]);
+                    }
+                }
+            }
+        }
+      result.add(unknowns, values);
+      result.compress(VectorOperation::add);
+      return result;
+    }
+
+    /** The extra unknowns for given forces of the conditions. */
+    double
+    extra(const ContactRow &row, const double force) const
+    {
+      return enforcement_name == "elimination" ? -force : -force / row.stiffness;
+    }
+
+    std::unique_ptr<LinearSystem> system;
+    ConstraintGraph               graph;
+
+  private:
+    std::shared_ptr<Enforcement> enforcement;
+
+    static std::vector<std::string>
+    overrides(const std::string &pairing, const std::string &enforcement, const Friction &friction)
+    {
+      std::vector<std::string> result = {"Contact/Enforcement=" + enforcement,
+                                         "Contact pair pair/Behaviour=" + friction.behaviour};
+      if (pairing != "obstacle")
+        result.push_back("Contact pair pair/Pairing=" + pairing);
+      if (friction.behaviour == "coulomb")
+        result.push_back("Contact pair pair/Friction/Coefficient=0.3");
+      if (friction.behaviour == "tresca")
+        result.push_back("Contact pair pair/Friction/Shear strength=0.02");
+      if (friction.behaviour != "frictionless")
+        result.push_back("Contact/Friction=" + friction.kind);
+      return result;
+    }
+
+    bool
+    exact_slip() const
+    {
+      return friction.behaviour != "frictionless" && friction.kind == "exact" &&
+             friction.status == ContactStatus::slip && enforcement_name != "penalty";
+    }
+
+    /** A force, for the scale. */
+    static double
+    scale(const ContactRow &row)
+    {
+      return row.stiffness * row.size;
+    }
+
+    static Tensor<1, dim>
+    tangential(const ContactRow &row, const unsigned int seed, const double size)
+    {
+      const Tensor<1, dim> t = scattered(Point<dim>(row.position), seed);
+      return size * scale(row) * (t - (t * row.normal) * row.normal);
+    }
+
+    static Tensor<1, dim>
+    smooth(const Point<dim> &x, const unsigned int seed)
+    {
+      Tensor<1, dim> w;
+      for (unsigned int d = 0; d < dim; ++d)
+        w[d] = 0.02 * std::sin(4.3 * x[0] + 1.7 * seed + 2.1 * d) *
+                 std::sin(3.7 * x[1] - 1.1 * seed + 0.9 * d) +
+               0.01 * std::cos(3.1 * x[2] + x[0] - 2. * x[1] + seed - d);
+      return w;
+    }
+
+    static Tensor<2, dim>
+    turn()
+    {
+      const double   a = 0.5, b = 0.3;
+      Tensor<2, dim> first, second;
+      first[0][0] = first[2][2] = std::cos(a);
+      first[0][2]               = std::sin(a);
+      first[2][0]               = -std::sin(a);
+      first[1][1] = second[2][2] = 1.;
+      second[0][0] = second[1][1] = std::cos(b);
+      second[0][1]                = -std::sin(b);
+      second[1][0]                = std::sin(b);
+      return second * first;
+    }
+  };
+
+
+
+  /** Relative errors: of the conditions along the normal and across, the rows of
+   * the multipliers, the force itself, its change, the force per multiplier. */
+  constexpr unsigned int n_errors = 6;
+  const char *const      names[n_errors] =
+    {"gap", "slip", "multiplier rows", "force", "stiffness", "column"};
+
+  std::array<Error, n_errors>
+  errors_of(Case &c, const bool consistent)
+  {
+    // Twice, so that exact slip refers to a last iteration.
+    c.linearize(consistent);
+    c.evaluate();
+    c.linearize(consistent);
+    std::array<Error, n_errors> errors;
+
+    // The force itself: what the system adds at no increment.
+    const std::vector<ContactRow> base = c.rows();
+    std::vector<double>           extra;
+    c.for_each_condition(
+      [&](unsigned int, const ContactRow &row, const unsigned int i, const Condition &condition) {
+        extra.push_back(
+          c.extra(row, i == 0 ? row.lambda : row.friction->base * condition.direction));
+      });
+    const Touchstone::Vector no_motion(c.made.solid.owned, MPI_COMM_WORLD);
+    {
+      Touchstone::Vector force = c.change(c.ghosted(no_motion), extra);
+      force += c.system->rhs;
+      errors[3].add(force, c.forces());
+      c.rows() = base;
+    }
+
+    const double h = 1e-6;
+    for (const unsigned int seed : {1, 2})
+      {
+        const Touchstone::Vector direction = c.made.displacement(
+          [&](const Point<dim> &x, unsigned int) { return scattered(x, seed); });
+        const Touchstone::Vector v = c.ghosted(direction);
+        Touchstone::Vector       plus(c.u), minus(c.u);
+        plus.add(h, direction);
+        minus.add(-h, direction);
+        c.contact.update(plus, 0.);
+        Touchstone::Vector            difference = c.forces();
+        const std::vector<ContactRow> rows_plus  = c.rows();
+        c.rows()                                 = base;
+        c.contact.update(minus, 0.);
+        difference -= c.forces();
+        difference /= 2. * h;
+        const std::vector<ContactRow> rows_minus = c.rows();
+        c.contact.update(c.u, 0.);
+        c.rows() = base;
+        errors[4].add(c.change(v, std::vector<double>(extra.size(), 0.)), difference);
+
+        std::vector<double> rows_of_system(c.system->n_extra, 0.);
+        for (const MatrixTerm &term : c.system->terms)
+          if (term.row >= v.size())
+            rows_of_system[term.row - c.system->first_extra] += term.value * v(term.column);
+        c.for_each_condition([&](const unsigned int k,
+                                 const ContactRow  &row,
+                                 const unsigned int i,
+                                 const Condition   &condition) {
+          const std::size_t r     = &row - &c.rows()[0];
+          double            value = 0.;
+          for (const auto &[node, coefficients] : gradient(condition))
+            for (unsigned int d = 0; d < dim; ++d)
+              value += coefficients[d] * v(dim * node + d);
+          const double exact =
+            i == 0 ? (rows_plus[r].gap - rows_minus[r].gap) / (2. * h)
+                   : condition.direction *
+                       (rows_plus[r].friction->slip - rows_minus[r].friction->slip) / (2. * h);
+          errors[i > 0].add(value, exact);
+          if (c.system->n_extra > 0)
+            errors[2].add(rows_of_system[k] / row.stiffness, exact);
+        });
+
+        if (!c.with_multipliers())
+          continue;
+        // Forces of the conditions change, nothing moves.
+        std::vector<double> force_changes, extra_changes;
+        c.for_each_condition(
+          [&](unsigned int, const ContactRow &row, const unsigned int i, const Condition &) {
+            force_changes.push_back(row.stiffness * scatter(Point<dim>(row.position), seed + i));
+            extra_changes.push_back(c.extra(row, force_changes.back()));
+          });
+        const auto forces_at = [&](const double step) {
+          c.for_each_condition([&](const unsigned int k,
+                                   ContactRow        &row,
+                                   const unsigned int i,
+                                   const Condition   &condition) {
+            if (i == 0)
+              row.lambda += step * force_changes[k];
+            else
+              row.friction->base += step * force_changes[k] * condition.direction;
+          });
+          const Touchstone::Vector result = c.forces();
+          c.rows()                        = base;
+          return result;
+        };
+        difference = forces_at(h);
+        difference -= forces_at(-h);
+        difference /= 2. * h;
+        errors[5].add(c.change(c.ghosted(no_motion), extra_changes), difference);
+      }
+    return errors;
+  }
+
+
+
+  /** Elimination leaves to the slave node what it takes from neighbours. */
+  bool
+  lagged_rightly(Case &c)
+  {
+    bool good = true;
+    c.for_each_condition(
+      [&](const unsigned int k, const ContactRow &, unsigned int, const Condition &condition) {
+        Tensor<1, dim> own, used;
+        for (const auto &[node, coefficients] : gradient(condition))
+          own += coefficients;
+        for (const auto &[node, coefficients] : gradient(c.graph.accepted()[k]))
+          used += coefficients;
+        good = good && (own - used).norm() < 1e-12;
+      });
+    return good;
+  }
+
+
+
+  void
+  check(const std::string &text,
+        const std::string &pairing,
+        const std::string &enforcement,
+        const Friction    &friction,
+        const bool         with_numbers)
+  {
+    Case       c(text, pairing, enforcement, friction);
+    const auto frozen     = errors_of(c, false);
+    const auto consistent = errors_of(c, true);
+
+    std::ostringstream out;
+    double             seen    = 0.;
+    unsigned int       refused = 0;
+    for (const ContactRow &row : c.rows())
+      refused += row.refused;
+    const unsigned int count = Utilities::MPI::sum(c.n_rows, MPI_COMM_WORLD);
+    out << pairing << ", " << enforcement << ", " << friction.name << " (" << count << " rows, "
+        << Utilities::MPI::sum(c.n_penetrate, MPI_COMM_WORLD) << " penetrate):";
+    for (unsigned int i = 0; i < n_errors; ++i)
+      {
+        const double error = consistent[i].relative(), before = frozen[i].relative();
+        seen = std::max(seen, before);
+        if (error < 0.)
+          continue;
+        out << ' ' << names[i] << ' ';
+        if (with_numbers)
+          out << error << " (" << before << ")";
+        else if (error <= tolerance)
+          out << "ok";
+        else
+          out << error << " FAILED";
+        out << ',';
+      }
+    out << (seen > 100. * tolerance ? " seen if frozen" : " not seen if frozen FAILED");
+    if (sum(refused) > 0.)
+      out << ", conditions refused FAILED";
+    if (sum(enforcement == "elimination" && !lagged_rightly(c)) > 0.)
+      out << ", lagged terms lost FAILED";
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << out.str() << std::endl;
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (const std::string pairing : {"pointwise", "averaged", "obstacle"})
+    for (const std::string &enforcement : enforcements)
+      for (const Friction &friction : frictions)
+        // Penalty knows no exact friction.
+        if (enforcement != "penalty" || friction.kind == "regularised" ||
+            friction.behaviour == "frictionless")
+          check(
+            pairing == "obstacle" ? obstacle : blocks, pairing, enforcement, friction, argc > 1);
+}
