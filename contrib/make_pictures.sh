@@ -14,6 +14,7 @@ mkdir -p "$runs" "$pictures"
 
 run()
 {
+  mkdir -p "$(dirname "$runs/$1")"
   [ -f "$runs/$1/solution.pvd" ] || "$program" --output "$runs/$1" "prm/$1.prm" >"$runs/$1.log"
 }
 
@@ -52,5 +53,53 @@ set ylabel "contact pressure, MPa"
 set xrange [0:0.26]; set yrange [0:1600]; set key top right; set grid; set samples 2000
 plot (x < a ? p0 * sqrt(1 - (x / a)**2) : 0) title "Hertz, p_0 (1 - r^2/a^2)^{1/2}" lw 2 lc rgb "#b03030", \\
   "$runs/hertz_sphere.txt" using (sqrt(\$1**2 + \$2**2)):(\$4) title "slave nodes" pt 7 ps 0.8 lc rgb "#2040a0"
+END
+
+# Shallow ironing: forces per mm of depth, ten times those of the slice. Published:
+# smallest and largest of Fischer and Wriggers 2006, Hartmann et al. 2009, Yastrebov
+# 2011, Poulios and Renard 2015 and Code_Aster, as digitised in the solids4foam
+# tutorial shallowIroning, at the end of the press and in the middle of the draw.
+run benchmarks/ironing
+gnuplot <<END
+set terminal pngcairo size 800,480 font "DejaVu Sans,12"
+set output "$pictures/ironing_forces.png"
+set title "Shallow ironing, force on the block per mm of depth"
+set xlabel "time: pressed by 1 mm from 0 to 1, drawn by 10 mm from 1 to 2"
+set ylabel "force, N"
+set xrange [0:2]; set yrange [0:480]; set key top left; set grid
+scaled(t) = t > 1 ? 1 + (t - 1) / 50 : t
+plot "$runs/benchmarks/ironing/statistics" using (scaled(\$2)):(10 * \$9) with lines lw 2 lc rgb "#2040a0" title "vertical", \\
+  "" using (scaled(\$2)):(-10 * \$7) with lines lw 2 lc rgb "#b03030" title "horizontal", \\
+  "-" with yerrorbars lw 2 lc rgb "#606060" title "published, from smallest to largest"
+1.0 300 267.9 332
+1.5 379 337.4 421
+1.0 63 55.3 71
+1.5 145 102.1 188.8
+e
+END
+
+run benchmarks/twist
+pvbatch contrib/render.py "$runs/benchmarks/twist" "$pictures/twist.png" --unit MPa \
+  --camera "1 -1.2 0.6" --contact-camera "0.3 -0.5 -1" --contact-up "0 1 0"
+
+# Partial slip: tractions at the nodes against Cattaneo and Mindlin.
+run benchmarks/cattaneo_mindlin
+perl tests/checks/contact_points.pl "$runs"/benchmarks/cattaneo_mindlin/contact_0005.vtu >"$runs/slip.txt"
+awk '/"force":/ { gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print f[3] / 0.25, -f[1] / 0.25 }' \
+  "$runs/benchmarks/cattaneo_mindlin/summary.json" >"$runs/slip_forces.txt"
+gnuplot <<END
+P = real(system("cut -d' ' -f1 $runs/slip_forces.txt")); Q = real(system("cut -d' ' -f2 $runs/slip_forces.txt"))
+mu = 0.3; R = 50; E = 210000 / (2 * (1 - 0.3**2))
+a = sqrt(4 * P * R / (pi * E)); p0 = 2 * P / (pi * a); c = a * sqrt(1 - Q / (mu * P))
+root(x, b) = abs(x) < b ? sqrt(1 - (x / b)**2) : 0
+set terminal pngcairo size 800,480 font "DejaVu Sans,12"
+set output "$pictures/partial_slip.png"
+set title sprintf("Cattaneo and Mindlin: Q = %.3f {/Symbol m}P, a = %.3f mm, c = %.3f mm", Q / (mu * P), a, c)
+set xlabel "x, mm"; set ylabel "traction, MPa"
+set xrange [-1.1:1.1]; set yrange [0:400]; set key top right; set grid; set samples 4000
+plot mu * p0 * root(x, a) title "limit {/Symbol m}p" lw 1 dt 2 lc rgb "#606060", \\
+  mu * p0 * (root(x, a) - c / a * root(x, c)) title "shear traction, exact" lw 2 lc rgb "#b03030", \\
+  "$runs/slip.txt" using 1:(0.3 * \$7) title "nodes, {/Symbol m}p" pt 6 ps 0.7 lc rgb "#606060", \\
+  "" using 1:(-\$11) title "nodes, shear traction" pt 7 ps 0.7 lc rgb "#2040a0"
 END
 ls -l "$pictures"

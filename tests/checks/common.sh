@@ -27,7 +27,7 @@ run() {
   rm -rf "$run_name" "$run_name.numbers"
   set -- "$program" --results-only --output "$run_name" --set "Output/VTU interval=0" \
     "$@" "$run_scene"
-  [ "$run_ranks" -eq 1 ] || set -- mpirun -n "$run_ranks" "$@"
+  [ "$run_ranks" -eq 1 ] || set -- mpirun --oversubscribe -n "$run_ranks" "$@"
   if "$@" >"$run_name.txt" 2>&1; then
     numbers "$run_name/summary.json" >"$run_name.numbers"
   else
