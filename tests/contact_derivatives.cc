@@ -276,8 +276,13 @@ main(int argc, char **argv)
           if (kind != "smoothed")
             {
               check(name + ", degree 2", blocks, {normal, with, degree_2}, -0.01, 0.005);
-              check(
-                name + ", over edges, degree 2", overhang, {normal, with, degree_2}, 0.05, 0.005);
+              // Nodes with little coverage have weights that depend much on it.
+              check(name + ", over edges, degree 2",
+                    overhang,
+                    {normal, with, degree_2, "Body upper/Geometry/Upper corner=1.21,1.33,2"},
+                    0.05,
+                    0.005,
+                    pairing == "averaged" ? 1e-3 : 1e-6);
               check(name + ", tubes, degree 2", tubes, {normal, with, degree_2}, 0., 0.005);
             }
         }

@@ -75,6 +75,8 @@ main()
   try_override("tied", {"Contact pair between/Behaviour=tied"});
   try_override("tied and finite",
                {"Contact pair between/Behaviour=tied", "Contact pair between/Sliding=finite"});
+  try_override("smoothed faces of degree 2",
+               {"Contact pair between/Master normal=smoothed", "Discretisation/Degree=2"});
 
   try_override("multipliers and CG",
                {"Contact/Enforcement=lagrange multipliers", "Linear solver/Type=Belos CG"});

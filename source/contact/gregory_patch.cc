@@ -72,6 +72,39 @@ namespace Touchstone
       return 16 + (i - 1) + 2 * (j - 1);
     }
 
+    /** At the edge of the whole surface the averages know one side only and are
+     * wrong by half the angle between faces. There the normal of the next node inward
+     * is mirrored, as on a circle; neighbours along the edge do the same. */
+    template <typename Number>
+    std::array<Vector3<Number>, 4>
+    mirror_at_outer_edges(const unsigned int                    outer_edges,
+                          const std::array<Vector3<Number>, 4> &x,
+                          const std::array<Vector3<Number>, 4> &n)
+    {
+      std::array<Vector3<Number>, 4> result = n;
+      // From each node at such an edge to the one opposite; corners take two steps.
+      for (const unsigned int step : {2u, 1u})
+        {
+          const std::array<Vector3<Number>, 4> seen = result;
+          for (unsigned int m = 0; m < 4; ++m)
+            {
+              const unsigned int edge = step == 1 ? 1u << (m % 2) : 4u << (m / 2);
+              if (!(outer_edges & edge))
+                continue;
+              const unsigned int inward = m ^ step;
+              // Both edges of a strip are outer: the facet's normal stays.
+              const Vector3<Number> &from  = seen[inward];
+              Vector3<Number>        chord = x[inward];
+              for (unsigned int d = 0; d < dim; ++d)
+                chord[d] -= x[m][d];
+              const Number along = 2. * dot(from, chord) / dot(chord, chord);
+              for (unsigned int d = 0; d < dim; ++d)
+                result[m][d] = from[d] - along * chord[d];
+            }
+        }
+      return result;
+    }
+
     template <typename Number>
     std::array<Vector3<Number>, GregoryPatch::n_control_points>
     control_points(const std::array<Vector3<Number>, 4> &x, const std::array<Vector3<Number>, 4> &n)
@@ -138,7 +171,7 @@ namespace Touchstone
           x[m][d] = face.reference[m][d] + face.displacement[m][d];
           n[m][d] = face.normals[m][d];
         }
-    const auto p = control_points(x, n);
+    const auto p = control_points(x, mirror_at_outer_edges(face.outer_edges, x, n));
     for (unsigned int k = 0; k < n_control_points; ++k)
       for (unsigned int d = 0; d < dim; ++d)
         points[k][d] = p[k][d];
@@ -159,7 +192,7 @@ namespace Touchstone
             Number(n_variables, dim * m + d, face.reference[m][d] + face.displacement[m][d]);
           n[m][d] = Number(n_variables, dim * (4 + m) + d, face.normals[m][d]);
         }
-    const auto p = control_points(x, n);
+    const auto p = control_points(x, mirror_at_outer_edges(face.outer_edges, x, n));
     Derivative result;
     for (unsigned int k = 0; k < n_control_points; ++k)
       for (unsigned int m = 0; m < 8; ++m)

@@ -26,6 +26,19 @@ namespace Touchstone
                  master_normal(input.parameters->master_normal),
                  input.solid->communicator)
       {
+        search.commit(nullptr);
+        for (const SurfaceNode &node : input.slave->owned_nodes())
+          start.push_back(node.reference);
+        present_faces.resize(start.size());
+      }
+
+      void
+      commit_positions(const Vector &u) override
+      {
+        search.commit(&u);
+        const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          start[k] = input.slave->position(nodes[k], u);
       }
 
       void
@@ -38,6 +51,10 @@ namespace Touchstone
       Search search;
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<ContactPartner>> partners;
+      /** Keys of the faces that nodes had last. */
+      std::vector<std::optional<std::uint64_t>> present_faces;
+      /** Positions of the slave nodes at the start of the step. */
+      std::vector<Point<dim>> start;
     };
 
     const PairingRegistry::Entry<PointwisePairing>
@@ -52,13 +69,20 @@ namespace Touchstone
       std::vector<Point<dim>>         positions;
       for (const SurfaceNode &node : nodes)
         positions.push_back(input.slave->position(node, u));
-      search.update(positions);
+      std::vector<Point<dim>> all(positions);
+      all.insert(all.end(), start.begin(), start.end());
+      search.update(all);
       partners.resize(nodes.size());
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow &row     = rows[k];
-          const auto &partner = partners[k] =
-            search.find(positions[k], input.slave->normal(nodes[k].node), row.active());
+          const auto &partner = partners[k] = search.find({positions[k],
+                                                           start[k],
+                                                           input.slave->normal(nodes[k].node),
+                                                           row.active(),
+                                                           present_faces[k]});
+          present_faces[k] =
+            partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
           row.stencil.clear();
           if (!partner)
             {

@@ -1,3 +1,4 @@
+#include <touchstone/contact/crossing.h>
 #include <touchstone/contact/search.h>
 
 #include <deal.II/base/mpi.h>
@@ -30,12 +31,12 @@ namespace Touchstone
 
 
   Search::Box
-  Search::bounding_box(const Face &face) const
+  Search::bounding_box(const Face &face, const Displacements &displacement) const
   {
     Point<dim> lower, upper;
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       {
-        const Point<dim> x = face.reference[m] + face.displacement[m];
+        const Point<dim> x = face.reference[m] + displacement[m];
         for (unsigned int d = 0; d < dim; ++d)
           {
             lower[d] = m == 0 ? x[d] : std::min(lower[d], x[d]);
@@ -44,10 +45,39 @@ namespace Touchstone
       }
     // A curved face reaches beyond its nodes: by less than half its size, or it
     // would be bent by more than a right angle.
-    const double margin = 0.25 * lower.distance(upper) * (face.degree == 1 ? 0.5 : 1.);
+    const bool   curved = face.degree > 1 || kind == MasterNormal::smoothed;
+    const double margin = 0.25 * lower.distance(upper) * (curved ? 1. : 0.5);
     Box          box({lower, upper});
     box.extend(margin);
     return box;
+  }
+
+
+
+  Search::Box
+  Search::swept_box(const Face &face) const
+  {
+    Box box = bounding_box(face, face.displacement);
+    if (swept)
+      box.merge_with(bounding_box(face, face.committed));
+    return box;
+  }
+
+
+
+  void
+  Search::commit(const Vector *u)
+  {
+    swept = true;
+    committed.assign(master.owned_faces().size(), {});
+    if (u != nullptr)
+      for (std::size_t f = 0; f < committed.size(); ++f)
+        {
+          const Face &face = master.owned_faces()[f];
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            for (unsigned int d = 0; d < dim; ++d)
+              committed[f][m][d] = (*u)(dim * face.nodes[m] + d);
+        }
   }
 
 
@@ -73,18 +103,21 @@ namespace Touchstone
     sent.clear();
     received.clear();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    std::vector<Face>  own     = master.owned_faces();
+    for (std::size_t f = 0; f < committed.size(); ++f)
+      own[f].committed = committed[f];
     if (n_ranks == 1)
-      faces = master.owned_faces();
+      faces.swap(own);
     else
       {
         const auto captures =
           Utilities::MPI::all_gather(communicator,
                                      std::vector<double>(capture.begin(), capture.end()));
         std::map<unsigned int, std::vector<char>> packages;
-        for (std::size_t f = 0; f < master.owned_faces().size(); ++f)
+        for (std::size_t f = 0; f < own.size(); ++f)
           {
-            const Face &face = master.owned_faces()[f];
-            const Box   box  = bounding_box(face);
+            const Face &face = own[f];
+            const Box   box  = swept_box(face);
             for (unsigned int rank = 0; rank < n_ranks; ++rank)
               {
                 const auto &c     = captures[rank];
@@ -109,11 +142,15 @@ namespace Touchstone
           }
       }
 
-    std::vector<std::pair<Box, std::size_t>> boxes;
-    boxes.reserve(faces.size());
+    std::vector<std::pair<Box, std::size_t>> boxes, swept_boxes;
     for (std::size_t i = 0; i < faces.size(); ++i)
-      boxes.emplace_back(bounding_box(faces[i]), i);
-    tree = pack_rtree(boxes);
+      {
+        boxes.emplace_back(bounding_box(faces[i], faces[i].displacement), i);
+        if (swept)
+          swept_boxes.emplace_back(swept_box(faces[i]), i);
+      }
+    tree       = pack_rtree(boxes);
+    swept_tree = pack_rtree(swept_boxes);
   }
 
 
@@ -127,6 +164,18 @@ namespace Touchstone
     {
       return evaluate(face, exact, {{0., 0.}}).normal() * slave_normal;
     }
+
+    double
+    size(const Face &face)
+    {
+      const unsigned int last = face.n_nodes() - 1;
+      return (face.reference[0] + face.displacement[0])
+        .distance(face.reference[last] + face.displacement[last]);
+    }
+
+    /** A node in contact stays with its face across a sharp edge unless another is
+     * closer by this fraction of the face. */
+    constexpr double hold = 1e-3;
   } // namespace
 
 
@@ -163,56 +212,183 @@ namespace Touchstone
 
 
 
-  std::optional<ContactPartner>
-  Search::find(const Point<dim> &x, const Tensor<1, dim> &slave_normal, const bool in_contact) const
+  Search::Candidate
+  Search::closest(const SlavePoint &point) const
   {
-    if (faces.empty())
-      return {};
-    double      best_distance = reach * reach;
-    const Face *best          = nullptr;
-    Projection  best_projection;
+    const Point<dim> &x             = point.x;
+    double            best_distance = reach * reach, margin = 0.;
+    Candidate         best, present;
     for (auto it = tree.qbegin(bgi::nearest(x, static_cast<unsigned int>(faces.size())));
          it != tree.qend();
          ++it)
       {
-        if (bg::comparable_distance(x, it->first) > best_distance)
+        const double distance = bg::comparable_distance(x, it->first);
+        if (distance > best_distance && std::sqrt(distance) > std::sqrt(best_distance) + margin)
           break;
-        const Face            &face  = faces[it->second];
-        const AnalyticSurface *exact = master.exact_surface(face);
-        if (same_way(face, exact, slave_normal) > 0.3)
+        const Face &face = faces[it->second];
+        if (same_way(face, master.exact_surface(face), point.normal) > 0.3)
           continue;
         const Projection projection = closest_point_projection(x, geometry(face));
+        if (point.in_contact && point.present_face == face.key)
+          present = {&face, projection};
+        if (point.in_contact && point.present_face)
+          margin = std::max(margin, hold * size(face));
         // Points on a common edge are equally close up to round-off: the face
         // with the smaller key gets the node, on any number of ranks. But a node
         // that has just slid over the edge must not be called back to it.
         const double tie = 1e-12 * projection.distance_squared + 1e-26 * reach * reach;
         if (projection.distance_squared < best_distance - tie ||
-            (best && projection.distance_squared < best_distance + tie && face.key < best->key))
+            (best.face && projection.distance_squared < best_distance + tie &&
+             face.key < best.face->key))
           {
-            best_distance   = projection.distance_squared;
-            best            = &face;
-            best_projection = projection;
+            best_distance = projection.distance_squared;
+            best          = {&face, projection};
           }
       }
-    if (best == nullptr || best_projection.beyond_outer > (in_contact ? 5. : 1.) * tolerance)
-      return {};
 
-    const FaceGeometry shape = geometry(*best);
-    ContactPartner     partner{best,
-                           best_projection.xi,
-                           shape.evaluate(best_projection.xi).x,
-                           shape.normal(best_projection.xi)};
-    Tensor<1, dim>     edge;
-    if (best_projection.beyond_inner > 1e-6 && shape.sharp(partner.xi, edge))
+    // Between two faces that meet in a sharp edge a node in contact stays with the
+    // present one: it would go to and fro otherwise. Within a smooth surface the
+    // closest point is unique.
+    if (best.face && present.face && best.face != present.face &&
+        std::sqrt(present.projection.distance_squared) <
+          std::sqrt(best_distance) + hold * size(*present.face) &&
+        geometry(*best.face).normal(best.projection.xi) *
+            geometry(*present.face).normal(present.projection.xi) <
+          0.64)
+      return present;
+    return best;
+  }
+
+
+
+  Search::Candidate
+  Search::walk(const SlavePoint &point, const Face &from) const
+  {
+    Candidate best{&from, closest_point_projection(point.x, geometry(from))};
+    while (best.projection.beyond_inner > 0.)
+      {
+        const Face &face  = *best.face;
+        const Box   box   = bounding_box(face, face.displacement);
+        Candidate   found = best;
+        for (auto it = tree.qbegin(bgi::intersects(box)); it != tree.qend(); ++it)
+          {
+            const Face &other = faces[it->second];
+            const auto  end   = face.nodes.begin() + face.n_nodes();
+            if (std::find_first_of(other.nodes.begin(),
+                                   other.nodes.begin() + other.n_nodes(),
+                                   face.nodes.begin(),
+                                   end) == other.nodes.begin() + other.n_nodes() ||
+                same_way(other, master.exact_surface(other), point.normal) > 0.3)
+              continue;
+            const Projection projection = closest_point_projection(point.x, geometry(other));
+            const double     tie        = 1e-12 * reach * reach;
+            if (projection.distance_squared < found.projection.distance_squared - tie)
+              found = {&other, projection};
+          }
+        if (found.face == best.face)
+          break;
+        best = found;
+      }
+    return best;
+  }
+
+
+
+  std::optional<Search::Candidate>
+  Search::passed(const SlavePoint &point, const bool penetrates) const
+  {
+    Box path({point.x, point.x});
+    path.merge_with(Box({point.start, point.start}));
+    std::vector<std::pair<Crossing, const Face *>> crossings;
+    for (auto it = swept_tree.qbegin(bgi::intersects(path)); it != swept_tree.qend(); ++it)
+      {
+        const Face            &face  = faces[it->second];
+        const AnalyticSurface *exact = master.exact_surface(face);
+        if (same_way(face, exact, point.normal) > 0.3)
+          continue;
+        if (const auto found = crossing(point.start, point.x, face, exact))
+          crossings.emplace_back(*found, &face);
+      }
+    std::sort(crossings.begin(), crossings.end(), [](const auto &a, const auto &b) {
+      return a.first.time != b.first.time ? a.first.time < b.first.time
+                                          : a.second->key < b.second->key;
+    });
+
+    // How many bodies the node is in, and where it went into the first of them.
+    int         depth = 0;
+    const Face *entry = nullptr;
+    for (std::size_t i = 0; i < crossings.size(); ++i)
+      {
+        const Crossing &c = crossings[i].first;
+        // Faces that meet in an edge are passed together.
+        if (i > 0 && c.inward == crossings[i - 1].first.inward &&
+            c.time - crossings[i - 1].first.time < 1e-8)
+          continue;
+        if (c.inward && depth == 0)
+          entry = crossings[i].second;
+        depth = std::max(0, depth + (c.inward ? 1 : -1));
+      }
+    if (depth <= (penetrates ? 1 : 0))
+      return {};
+    return walk(point, *entry);
+  }
+
+
+
+  ContactPartner
+  Search::partner(const SlavePoint &point, const Candidate &candidate) const
+  {
+    const FaceGeometry shape = geometry(*candidate.face);
+    ContactPartner     partner;
+    partner.face   = candidate.face;
+    partner.xi     = candidate.projection.xi;
+    partner.x      = shape.evaluate(partner.xi).x;
+    partner.normal = shape.normal(partner.xi);
+    Tensor<1, dim> edge;
+    if (candidate.projection.beyond_inner > 1e-6 && shape.sharp(partner.xi, edge))
       {
         // In the wedge over a sharp edge the shortest way leads to the edge.
-        const Tensor<1, dim> way = x - partner.x;
+        const Tensor<1, dim> way = point.x - partner.x;
         if (way.norm() > 1e-8 * reach)
           partner.wedge = (way * edge < 0. ? -1 : 1);
         partner.normal = partner.wedge != 0 ? partner.wedge * way : edge;
         partner.normal /= partner.normal.norm();
       }
     return partner;
+  }
+
+
+
+  std::optional<ContactPartner>
+  Search::find(const SlavePoint &point) const
+  {
+    if (faces.empty())
+      return {};
+    const auto on_surface = [&](const Candidate &candidate) {
+      return candidate.face != nullptr &&
+             candidate.projection.beyond_outer <= (point.in_contact ? 5. : 1.) * tolerance;
+    };
+    const Candidate               found = closest(point);
+    std::optional<ContactPartner> result;
+    if (on_surface(found))
+      result = partner(point, found);
+    if (swept)
+      {
+        const bool penetrates = result && (point.x - result->x) * result->normal < 0.;
+        if (penetrates)
+          {
+            // What moves less than a tenth of a face does not reach another body.
+            const Face    &face   = *result->face;
+            Tensor<1, dim> motion = point.x - point.start;
+            for (unsigned int m = 0; m < face.n_nodes(); ++m)
+              motion -= (face.displacement[m] - face.committed[m]) / face.n_nodes();
+            if (motion.norm() < 0.1 * size(face))
+              return result;
+          }
+        if (const auto other = passed(point, penetrates); other && on_surface(*other))
+          result = partner(point, *other);
+      }
+    return result;
   }
 
 

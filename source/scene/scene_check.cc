@@ -99,5 +99,11 @@ namespace Touchstone
                        pair.sliding,
                        "a tied pair cannot slide",
                        "remove 'Sliding' or set it to 'small'");
+    if (pair.master_normal == "smoothed" && discretisation.degree != 1)
+      throw InputError(section,
+                       "Master normal",
+                       pair.master_normal,
+                       "only faces of degree 1 can be smoothed; those of degree 2 are curved",
+                       "set 'Master normal = averaged' or 'Discretisation/Degree = 1'");
   }
 } // namespace Touchstone

@@ -37,6 +37,8 @@ namespace Touchstone
     std::array<Index, max_nodes>                  nodes{};
     std::array<dealii::Point<dim>, max_nodes>     reference;
     std::array<dealii::Tensor<1, dim>, max_nodes> displacement;
+    /** Displacement at the start of the step. */
+    std::array<dealii::Tensor<1, dim>, max_nodes> committed;
     /** Unit normals averaged over the faces that meet at the node, but for those
      * beyond a sharp edge; and over all of them. */
     std::array<dealii::Tensor<1, dim>, max_nodes> normals, edge_normals;

@@ -17,6 +17,8 @@ namespace Touchstone
    * Nodal normals stop at sharp edges, so there each face has a boundary curve of
    * its own; between plane faces it is the straight edge.
    *
+   * At the edge of the whole surface normals are mirrored from the next nodes inward.
+   *
    * Chiyokura and Kimura (1983), Design of solids with free-form surfaces, Comput.
    * Graph. 17; Puso and Laursen (2002), A 3D contact smoothing method using Gregory
    * patches, Int. J. Numer. Meth. Engng 54, 1161-1194.

@@ -60,6 +60,16 @@ namespace Touchstone
     {
     }
 
+    /**
+     * @brief A step ends or starts with the displacement @p u (with ghosts): what
+     * nodes pass through from here on counts. Without a call, steps start from the
+     * reference state.
+     */
+    virtual void
+    commit_positions(const Vector & /*u*/)
+    {
+    }
+
   protected:
     const PairingInput input;
   };

@@ -15,6 +15,21 @@
 
 namespace Touchstone
 {
+  /** @brief A slave node that looks for a partner. */
+  struct SlavePoint
+  {
+    /** Present position, and at the start of the step. */
+    dealii::Point<dim> x, start;
+    /** Outward normal of the slave surface there: faces that look the same way are
+     * on the far side of a body. */
+    dealii::Tensor<1, dim> normal;
+    /** A node in contact slides off an edge only five times as far beyond it as one
+     * that is not comes on, or it would go on and off for ever. */
+    bool in_contact = false;
+    /** Key of the face that a node in contact had last. */
+    std::optional<std::uint64_t> present_face;
+  };
+
   /** @brief The master point that a slave node faces. */
   struct ContactPartner
   {
@@ -52,23 +67,28 @@ namespace Touchstone
            MasterNormal   kind,
            MPI_Comm       communicator);
 
+    /** @brief A step ends with the displacement @p u (with ghosts), null for the
+     * reference state. Without any call nodes that pass through faces within a step
+     * are not looked for. */
+    void
+    commit(const Vector *u);
+
     /** @brief Exchange the master faces in their present position.
-     * @param positions Current positions of this rank's slave nodes. */
+     * @param positions Of this rank's slave nodes, present ones and, if steps are
+     *                  committed, those at the start of the step. */
     void
     update(const std::vector<dealii::Point<dim>> &positions);
 
     /**
-     * @brief The partner of a node at @p x.
-     * @param slave_normal Outward normal of the slave surface there: faces that
-     *                     look the same way are on the far side of a body.
-     * @param in_contact   A node in contact slides off an edge only five times as
-     *                     far beyond it as one that is not comes on, or it would
-     *                     go on and off for ever.
+     * @brief The partner of a node.
+     *
+     * The closest face, unless the node is in contact with another that is as close,
+     * within the tolerance of edges, across a sharp edge; or unless the node has
+     * passed through a face since the start of the step and would be lost: then the
+     * closest point around the face that it passed first.
      */
     std::optional<ContactPartner>
-    find(const dealii::Point<dim>     &x,
-         const dealii::Tensor<1, dim> &slave_normal,
-         bool                          in_contact) const;
+    find(const SlavePoint &point) const;
 
     /** @brief What gaps to a face are measured to. */
     FaceGeometry
@@ -90,13 +110,20 @@ namespace Touchstone
   private:
     using Box  = dealii::BoundingBox<dim>;
     using Tree = dealii::RTree<std::pair<Box, std::size_t>>;
+    /** Of the nodes of a face. */
+    using Displacements = std::array<dealii::Tensor<1, dim>, Face::max_nodes>;
 
     const Surface     &master;
     const double       reach, tolerance;
     const MasterNormal kind;
     const MPI_Comm     communicator;
     std::vector<Face>  faces;
-    Tree               tree;
+    /** Of the faces where they are, and of all places where they were in this step. */
+    Tree tree, swept_tree;
+
+    /** Displacements of this rank's faces at the start of the step. */
+    std::vector<Displacements> committed;
+    bool                       swept = false;
 
     /** Numbers of this rank's faces that each rank has received, and where its own
      * copies of those of another rank begin. */
@@ -104,7 +131,30 @@ namespace Touchstone
     std::map<unsigned int, std::size_t>              received;
 
     Box
-    bounding_box(const Face &face) const;
+    bounding_box(const Face &face, const Displacements &displacement) const;
+    /** The present and the committed place. */
+    Box
+    swept_box(const Face &face) const;
+
+    /** A face with the point of it that is closest to a node. */
+    struct Candidate
+    {
+      const Face *face = nullptr;
+      Projection  projection;
+    };
+
+    /** The closest face within reach, or the present one if that is as close. */
+    Candidate
+    closest(const SlavePoint &point) const;
+    /** The closest point that is reached from a face over its neighbours. */
+    Candidate
+    walk(const SlavePoint &point, const Face &from) const;
+    /** Where a node has passed into a body since the start of the step, unless it
+     * came out again. @param penetrates It is known to be in one body. */
+    std::optional<Candidate>
+    passed(const SlavePoint &point, bool penetrates) const;
+    ContactPartner
+    partner(const SlavePoint &point, const Candidate &candidate) const;
   };
 } // namespace Touchstone
 
