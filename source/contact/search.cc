@@ -385,7 +385,10 @@ namespace Touchstone
             if (motion.norm() < 0.1 * size(face))
               return result;
           }
-        if (const auto other = passed(point, penetrates); other && on_surface(*other))
+        // Nor does a node that is about on the surface, up to round-off in or out.
+        const auto other = passed(point, penetrates);
+        if (other && on_surface(*other) &&
+            !(result && std::sqrt(other->projection.distance_squared) < hold * size(*other->face)))
           result = partner(point, *other);
       }
     return result;
