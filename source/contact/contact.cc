@@ -291,6 +291,9 @@ namespace Touchstone
       for (ContactRow &row : pair_rows)
         if (row.friction)
           commit_friction(row);
+    for (Pair &pair : pairs)
+      if (!pair.small)
+        pair.pairing->commit_positions(ghosted);
     committed = rows;
   }
 

@@ -179,6 +179,29 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Whether a row changes so fast that its derivative says nothing of a Newton
+     * increment: the normal over a sharp edge with hardly a gap, averages over a
+     * sliver of coverage. Such a row is better frozen. */
+    bool
+    steep(const ContactRow &row)
+    {
+      constexpr double     turns = 30., weights_change = 300.; // over a face
+      const RowDerivative &d = *row.derivative;
+      for (const Tensor<2, dim> &normal : d.normal)
+        if (!(normal.norm() * row.size < turns))
+          return true;
+      for (const auto &weight : d.weights)
+        for (const Tensor<1, dim> &change : weight)
+          if (!(change.norm() * row.size < weights_change))
+            return true;
+      return false;
+    }
+  } // namespace
+
+
+
   void
   Contact::differentiate()
   {
@@ -188,8 +211,13 @@ namespace Touchstone
           continue; // normals and stencils do not change
         pairs[p].pairing->differentiate(ghosted, time, rows[p]);
         for (std::size_t k = 0; k < rows[p].size(); ++k)
-          if (rows[p][k].friction && rows[p][k].derivative)
-            set_slip_gradient(rows[p][k], pairs[p].tangents[k]);
+          {
+            ContactRow &row = rows[p][k];
+            if (row.derivative && steep(row))
+              row.derivative.reset();
+            if (row.friction && row.derivative)
+              set_slip_gradient(row, pairs[p].tangents[k]);
+          }
       }
   }
 } // namespace Touchstone
