@@ -85,7 +85,7 @@ pvbatch contrib/render.py "$runs/benchmarks/twist" "$pictures/twist.png" --unit 
 # Partial slip: tractions at the nodes against Cattaneo and Mindlin.
 run benchmarks/cattaneo_mindlin
 perl tests/checks/contact_points.pl "$runs"/benchmarks/cattaneo_mindlin/contact_0005.vtu >"$runs/slip.txt"
-awk '/"force":/ { gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print f[3] / 0.25, -f[1] / 0.25 }' \
+awk '/"force":/ { sub(/.*force/, ""); gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print f[3] / 0.25, -f[1] / 0.25 }' \
   "$runs/benchmarks/cattaneo_mindlin/summary.json" >"$runs/slip_forces.txt"
 gnuplot <<END
 P = real(system("cut -d' ' -f1 $runs/slip_forces.txt")); Q = real(system("cut -d' ' -f2 $runs/slip_forces.txt"))
@@ -96,7 +96,7 @@ set terminal pngcairo size 800,480 font "DejaVu Sans,12"
 set output "$pictures/partial_slip.png"
 set title sprintf("Cattaneo and Mindlin: Q = %.3f {/Symbol m}P, a = %.3f mm, c = %.3f mm", Q / (mu * P), a, c)
 set xlabel "x, mm"; set ylabel "traction, MPa"
-set xrange [-1.1:1.1]; set yrange [0:400]; set key top right; set grid; set samples 4000
+set xrange [-1.1:1.1]; set yrange [0:470]; set key top center; set grid; set samples 4000
 plot mu * p0 * root(x, a) title "limit {/Symbol m}p" lw 1 dt 2 lc rgb "#606060", \\
   mu * p0 * (root(x, a) - c / a * root(x, c)) title "shear traction, exact" lw 2 lc rgb "#b03030", \\
   "$runs/slip.txt" using 1:(0.3 * \$7) title "nodes, {/Symbol m}p" pt 6 ps 0.7 lc rgb "#606060", \\
