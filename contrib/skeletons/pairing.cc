@@ -35,8 +35,12 @@ namespace Touchstone
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
             ContactRow &row = rows[k];
-            const auto  partner =
-              search.find(positions[k], input.slave->normal(nodes[k].node), row.active());
+            // The start of the step would let it find what lies on the way from there.
+            const auto  partner = search.find({positions[k],
+                                               positions[k],
+                                               input.slave->normal(nodes[k].node),
+                                               row.active(),
+                                               {}});
             row.stencil.clear();
             if (!partner)
               {

@@ -39,9 +39,9 @@ namespace Touchstone
       input.normal_force = std::max(-row.stiffness * row.gap, 0.);
       input.area         = row.area;
       input.slip_length  = f.slip_length;
-      return (f.start - row.stiffness * f.slip).norm() > f.law->limit(input).force ?
-               ContactStatus::slip :
-               ContactStatus::stick;
+      return (f.start - row.stiffness * f.slip).norm() > f.law->limit(input).force
+               ? ContactStatus::slip
+               : ContactStatus::stick;
     }
 
 
@@ -68,7 +68,9 @@ namespace Touchstone
       // Slip that turns round within an iteration has come to rest on the way: left
       // to slip, the node would go back and forth for ever.
       const bool turned = f.direction * f.last_direction < 0.;
-      return {turned ? f.limit / scale : f.excess < -tolerance ? -f.excess / scale : 0.,
+      return {turned                  ? f.limit / scale
+              : f.excess < -tolerance ? -f.excess / scale
+                                      : 0.,
               ContactStatus::stick};
     }
 
@@ -163,7 +165,7 @@ namespace Touchstone
               row.clear_force();
               continue;
             }
-          if (row.refused == 0 && (row.active() || row.gap < 0.))
+          if ((row.tied ? row.refused == 0 : row.normal_accepted) && (row.active() || row.gap < 0.))
             result.gap =
               std::max(result.gap,
                        (row.tied ? row.gap_vector.norm() - row.granted_gap

@@ -397,19 +397,28 @@ namespace Touchstone
       {
         double       lowest = std::numeric_limits<double>::max(), size = 0.;
         unsigned int partner = 0, overlapping = 0;
-        for (const ContactRow &row : rows[p])
-          if (row.status != ContactStatus::no_partner)
-            {
-              ++partner;
-              lowest = std::min(lowest, row.gap);
-              size   = std::max(size, row.size);
-              overlapping += (row.gap < -touching * row.size);
-            }
-        const unsigned int total = Utilities::MPI::sum(rows[p].size(), solid.communicator);
-        lowest                   = Utilities::MPI::min(lowest, solid.communicator);
-        size                     = Utilities::MPI::max(size, solid.communicator);
-        partner                  = Utilities::MPI::sum(partner, solid.communicator);
-        overlapping              = Utilities::MPI::sum(overlapping, solid.communicator);
+        for (std::size_t k = 0; k < rows[p].size(); ++k)
+          {
+            const ContactRow &row = rows[p][k];
+            if (row.status == ContactStatus::no_partner)
+              continue;
+            const double gap = row.gap + pairs[p].overlap[k]; // as the bodies are placed
+            ++partner;
+            lowest = std::min(lowest, gap);
+            size   = std::max(size, row.size);
+            overlapping += (gap < -touching * row.size);
+          }
+        const unsigned int total     = Utilities::MPI::sum(rows[p].size(), solid.communicator);
+        lowest                       = Utilities::MPI::min(lowest, solid.communicator);
+        size                         = Utilities::MPI::max(size, solid.communicator);
+        partner                      = Utilities::MPI::sum(partner, solid.communicator);
+        overlapping                  = Utilities::MPI::sum(overlapping, solid.communicator);
+        const std::string &treatment = pairs[p].parameters->initial_overlap;
+        const std::string  overlap   = std::string(": an initial overlap") +
+                                    (lowest < -size ? " larger than a face" : "") + ", " +
+                                    (treatment == "adjust" ? "adjusted to no gap"
+                                     : treatment == "ramp" ? "an interference that grows with time"
+                                                           : "taken as interference");
         char text[300];
         if (partner == 0)
           std::snprintf(text,
@@ -423,10 +432,7 @@ namespace Touchstone
                         total,
                         partner,
                         lowest,
-                        overlapping == 0 ? ""
-                        : lowest < -size
-                          ? ": an initial overlap larger than a face, taken as interference"
-                          : ": an initial overlap, taken as interference");
+                        overlapping == 0 ? "" : overlap.c_str());
         lines.push_back("contact pair " + pairs[p].parameters->name + ": " + text);
       }
     return lines;

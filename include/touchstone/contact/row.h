@@ -88,6 +88,8 @@ namespace Touchstone
     /** Conditions of the row that the constraint graph took and refused: what a
      * refused one asks for is decided by others. */
     unsigned int accepted = 0, refused = 0;
+    /** The first of them, along the normal, was taken. */
+    bool normal_accepted = true;
     /** Gap that the enforcement grants for now: the penetration of a penalty. */
     double granted_gap = 0.;
     /** Normal and other force at the last augmentation of an augmented
@@ -139,6 +141,8 @@ namespace Touchstone
     void
     take(const bool was_accepted)
     {
+      if (accepted + refused == 0)
+        normal_accepted = was_accepted;
       ++(was_accepted ? accepted : refused);
     }
   };
