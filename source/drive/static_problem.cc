@@ -13,6 +13,23 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Slip makes the system unsymmetric anyway. Without friction a symmetric
+     * factorisation wins more than the iterations that it takes longer cost. */
+    bool
+    consistent(const Scene &scene)
+    {
+      bool friction = false;
+      for (const ContactPairParameters &pair : scene.pairs)
+        friction = friction || pair.friction;
+      return scene.contact.linearisation == "consistent" ||
+             (scene.contact.linearisation == "automatic" && friction);
+    }
+  } // namespace
+
+
+
   StaticProblem::StaticProblem(const Scene  &scene,
                                const Forest &forest,
                                Solid        &solid,
@@ -179,7 +196,7 @@ namespace Touchstone
     system->first_extra    = system->rhs.size();
     system->tolerance      = linear_tolerance;
     system->keep_symmetric = solver->symmetric_only();
-    if (!system->keep_symmetric && scene.contact.linearisation != "frozen")
+    if (!system->keep_symmetric && consistent(scene))
       contact.differentiate();
     enforcement->enforce(contact, graph, *system);
     RowTerms terms(*system);

@@ -273,8 +273,8 @@ namespace Touchstone
                       linearisation,
                       "Within a Newton iteration, normals, contact points and slip directions "
                       "change with the bodies ('consistent', quadratic convergence), or not "
-                      "('frozen', symmetric but for slip). 'automatic' is consistent where the "
-                      "linear solver takes unsymmetric systems.",
+                      "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
+                      "where the linear solver takes unsymmetric systems.",
                       Patterns::Selection("automatic|consistent|frozen"));
   }
 

@@ -105,7 +105,8 @@ namespace Touchstone
     /** Multiplies the automatic stiffness of regularised stick; no unit. */
     double tangential_factor = 1.;
     /** "consistent": with the change of normals, stencils and slip directions;
-     * "frozen": without; "automatic": as the linear solver allows. */
+     * "frozen": without; "automatic": consistent with friction, if the linear
+     * solver allows it. */
     std::string linearisation = "automatic";
 
     void
