@@ -2,7 +2,7 @@
 // inhomogeneities, contact terms in rows of other ranks, a diagonal shift, and
 // extra unknowns.
 
-#include <touchstone/algebra/linear_system.h>
+#include <touchstone/algebra/condensed_system.h>
 #include <touchstone/algebra/vector.h>
 
 #include <deal.II/base/mpi.h>

@@ -31,13 +31,19 @@ namespace Touchstone
       {
       }
 
+      bool
+      wants_basis_change() const override
+      {
+        return true;
+      }
+
     private:
       /** The matrix that the multigrid was made from; ML keeps a reference. */
       std::shared_ptr<Epetra_CrsMatrix>                    preconditioned_matrix;
       std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> preconditioner;
       std::vector<double>                                  null_space;
-      /** Constrained unknowns of that matrix. */
-      std::vector<char> constrained;
+      /** Constrained unknowns of that matrix, and those of changed basis. */
+      std::vector<char> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
       int fresh_iterations = 0;
 
@@ -132,12 +138,13 @@ namespace Touchstone
     {
       preconditioner.reset();
       constrained           = system.constrained;
+      changed               = system.changed;
       preconditioned_matrix = system.matrix;
       const int n           = modes.MyLength();
       null_space.assign(static_cast<std::size_t>(n) * modes.NumVectors(), 0.);
       for (int v = 0; v < modes.NumVectors(); ++v)
         for (int i = 0; i < n; ++i)
-          if (!system.constrained[i])
+          if (!system.constrained[i] && !system.changed[i])
             null_space[static_cast<std::size_t>(v) * n + i] = modes[v][i];
 
       Teuchos::ParameterList list;
@@ -207,7 +214,8 @@ namespace Touchstone
       // condensed then, and one of an earlier set cost up to six times the
       // iterations), or until it costs half as many iterations again; a set-up
       // costs about ten.
-      int same = preconditioner && constrained == system.constrained, all_same = 0;
+      int same = preconditioner && constrained == system.constrained && changed == system.changed;
+      int all_same = 0;
       system.matrix->Comm().MinAll(&same, &all_same, 1);
       const bool fits = all_same == 1;
       if (!fits)

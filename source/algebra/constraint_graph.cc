@@ -138,9 +138,11 @@ namespace Touchstone
     double best = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        // Of components that are nearly equal the first: the choice should stay when
+        // the direction turns a little.
         const double size =
           std::min(std::abs(reduced.motion.direction[d]), std::abs(reduced.force.direction[d]));
-        if (size > best)
+        if (size > 1.3 * best)
           {
             best          = size;
             reduced.pivot = d;
@@ -154,10 +156,10 @@ namespace Touchstone
     std::vector<ReducedCondition> &all = nodes[condition.node];
     // What is eliminated must not refer to another pivot of its own node, or the
     // lines would depend on each other in a circle.
-    if (treatment == Treatment::eliminate)
+    if (treatment != Treatment::multiplier)
       for (ReducedCondition &earlier : all)
         {
-          if (earlier.treatment == Treatment::multiplier)
+          if (earlier.treatment != treatment)
             continue;
           substitute(earlier.motion, reduced.pivot, reduced.motion);
           substitute(earlier.force, reduced.pivot, reduced.force);
@@ -198,7 +200,7 @@ namespace Touchstone
       for (const ReducedCondition &condition : reduced)
         {
           const Index index = dim * node + condition.pivot;
-          if (condition.treatment == Treatment::multiplier)
+          if (condition.treatment != Treatment::eliminate)
             continue;
           if (hanging.is_constrained(index))
             continue; // a hanging node follows its neighbours
@@ -248,5 +250,76 @@ namespace Touchstone
             return result;
           }
       }
+  }
+
+
+
+  AffineConstraints<double>
+  ConstraintGraph::basis_change(const AffineConstraints<double> &constraints,
+                                const IndexSet                  &owned,
+                                const IndexSet                  &relevant,
+                                const MPI_Comm                   communicator) const
+  {
+    int here = 0;
+    for (const auto &[node, reduced] : nodes)
+      for (const ReducedCondition &condition : reduced)
+        here |= (condition.treatment == Treatment::spring);
+    if (Utilities::MPI::max(here, communicator) == 0)
+      return AffineConstraints<double>();
+
+    // Two rounds: which unknowns are changed, then to what.
+    IndexSet needed = relevant;
+    for (const auto &line : constraints.get_lines())
+      for (const auto &entry : line.entries)
+        needed.add_index(entry.first);
+    for (const auto &[node, reduced] : nodes)
+      for (const ReducedCondition &condition : reduced)
+        for (const auto &[unknown, coefficient] : condition.motion.others)
+          needed.add_index(unknown);
+    needed.compress();
+    AffineConstraints<double> known(needed);
+    for (const bool with_entries : {false, true})
+      {
+        AffineConstraints<double> result(needed);
+        const auto                plain = [&](const Index i) {
+          return !known.is_constrained(i) && !constraints.is_constrained(i);
+        };
+        for (const auto &[node, reduced] : nodes)
+          for (const ReducedCondition &condition : reduced)
+            {
+              const Index index = dim * node + condition.pivot;
+              if (condition.treatment != Treatment::spring || constraints.is_constrained(index))
+                continue;
+              result.add_line(index);
+              if (!with_entries)
+                continue;
+              std::map<Index, double> entries;
+              const auto              add = [&](const Index unknown, const double factor) {
+                if (constraints.is_constrained(unknown))
+                  {
+                    for (const auto &entry : *constraints.get_constraint_entries(unknown))
+                      if (plain(entry.first))
+                        entries[entry.first] += factor * entry.second;
+                  }
+                else if (plain(unknown))
+                  entries[unknown] += factor;
+              };
+              const Side &side = condition.motion;
+              for (unsigned int d = 0; d < dim; ++d)
+                if (d != condition.pivot && side.direction[d] != 0.)
+                  add(dim * node + d, -side.direction[d]);
+              for (const auto &[unknown, coefficient] : side.others)
+                if (coefficient != 0.)
+                  add(unknown, -coefficient);
+              result.add_entries(index, {entries.begin(), entries.end()});
+            }
+        if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+          result.make_consistent_in_parallel(owned, needed, communicator);
+        known.clear();
+        known.reinit(needed);
+        known.copy_from(result);
+      }
+    known.close();
+    return known;
   }
 } // namespace Touchstone

@@ -1,3 +1,4 @@
+#include <touchstone/contact/balance.h>
 #include <touchstone/contact/enforcement.h>
 #include <touchstone/contact/row_terms.h>
 
@@ -27,7 +28,7 @@ namespace Touchstone
       }
 
       void
-      recover(Contact &contact, const Vector &, const ConstraintGraph &) override
+      recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override
       {
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
@@ -37,6 +38,8 @@ namespace Touchstone
               evaluate(row);
               grant(row, solved);
             }
+        if (solved)
+          augment(contact, unbalanced, graph);
         solved = false;
       }
 
@@ -61,8 +64,7 @@ namespace Touchstone
           for (ContactRow &row : pair_rows)
             for (const Condition &condition : start_row(row, system.keep_symmetric))
               {
-                const bool accepted =
-                  graph.accept(condition, ConstraintGraph::Treatment::multiplier);
+                const bool accepted = graph.accept(condition, ConstraintGraph::Treatment::spring);
                 row.take(accepted);
                 if (!accepted)
                   continue;
@@ -94,7 +96,7 @@ namespace Touchstone
         double sum = 0.;
         for (const auto &pair_rows : contact.rows)
           for (const ContactRow &row : pair_rows)
-            if (row.active())
+            if (row.active() && by_gap(row))
               sum += std::pow(4. * std::numeric_limits<double>::epsilon() * length * factor *
                                 row.stiffness,
                               2);
@@ -107,6 +109,19 @@ namespace Touchstone
        * overlap that a step begins with. */
       virtual void
       grant(ContactRow &row, bool solved) const = 0;
+
+      /** Whether the force of the row is judged as that of its spring. */
+      virtual bool
+      by_gap(const ContactRow &) const
+      {
+        return true;
+      }
+
+      /** Augment forces by what a solve has shown. */
+      virtual void
+      augment(Contact &, const Vector &, const ConstraintGraph &) const
+      {
+      }
 
       /** Decide what the friction of the row starts from; @p epsilon is the
        * stiffness of the normal spring. */
@@ -183,8 +198,33 @@ namespace Touchstone
       grant(ContactRow &row, const bool solved) const override
       {
         row.granted_gap = 0.;
-        if (merged && solved)
+        if (merged && solved && by_gap(row))
           augment(row);
+      }
+
+      bool
+      by_gap(const ContactRow &row) const override
+      {
+        return !merged || row.friction;
+      }
+
+      /** Without friction the force is that of the linearised gap. One of the gap
+       * itself would turn the change of normals and contact points into forces,
+       * the larger the stiffer the springs. */
+      void
+      augment(Contact               &contact,
+              const Vector          &unbalanced,
+              const ConstraintGraph &graph) const override
+      {
+        if (!merged)
+          return;
+        balance_slave_nodes(contact, unbalanced, graph, [this](const ContactRow &row) {
+          return !by_gap(row);
+        });
+        for (auto &pair_rows : contact.rows)
+          for (ContactRow &row : pair_rows)
+            if (row.active() && !row.dropped() && !by_gap(row))
+              augment(row);
       }
 
       void

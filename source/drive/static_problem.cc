@@ -188,8 +188,9 @@ namespace Touchstone
         solid.assemble(u);
         ++assemblies;
       }
-    system            = std::make_unique<LinearSystem>();
-    system->stiffness = &solid.stiffness();
+    system                    = std::make_unique<LinearSystem>();
+    system->stiffness         = &solid.stiffness();
+    system->lasting_stiffness = solid.linear();
     system->rhs.reinit(solid.owned, solid.communicator);
     system->rhs = external;
     system->rhs -= internal;
@@ -225,7 +226,10 @@ namespace Touchstone
         system->symmetric = false;
       }
     system->symmetric = everywhere(system->symmetric);
-    condensed         = std::make_unique<CondensedSystem>(*system);
+    if (solver->wants_basis_change())
+      system->basis_change =
+        graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
+    condensed = std::make_unique<CondensedSystem>(*system);
   }
 
 
@@ -295,9 +299,20 @@ namespace Touchstone
     const unsigned int before = solver->counts().iterations;
     Epetra_Vector      solution(condensed->matrix->RowMap());
     solver->solve(*condensed, modes->columns(), solution);
+    if (condensed->scale)
+      solution.Multiply(1., *condensed->scale, solution, 0.);
     const Index n = solid.owned.n_elements();
     std::copy(solution.Values(), solution.Values() + n, increment.begin());
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
+    if (solver->wants_basis_change())
+      {
+        const Vector deviation(increment);
+        system->basis_change.distribute(increment);
+        for (const auto &line : system->basis_change.get_lines())
+          if (solid.owned.is_element(line.index))
+            increment(line.index) += deviation(line.index);
+        increment.compress(VectorOperation::add);
+      }
     system->constraints.distribute(increment);
     condensed.reset();
     const unsigned int iterations = solver->counts().iterations - before;

@@ -69,11 +69,12 @@ namespace Touchstone
     clear();
 
     /** @brief How a condition is met: by elimination of an unknown, or by a
-     * multiplier that somebody else adds. */
+     * multiplier or a spring that somebody else adds. */
     enum class Treatment
     {
       eliminate,
-      multiplier
+      multiplier,
+      spring
     };
 
     /** @brief Take note of a condition. @return false if it depends on earlier
@@ -124,6 +125,23 @@ namespace Touchstone
     {
       return make_constraints(&ReducedCondition::force, hanging, owned, relevant, communicator);
     }
+
+    /**
+     * @brief Unknowns that say how far a spring is stretched, as deal.II
+     * constraints without chains: x_i = sum_j c_j x_j would be a rigid spring.
+     *
+     * With these deviations for unknowns a spring adds to one diagonal entry, so
+     * that multigrid sees a stiff spring as it sees an eliminated unknown, however
+     * stiff. Any change of basis leads to the same solution: what refers to
+     * another unknown of this kind is left out.
+     *
+     * @param constraints What constraints() has returned.
+     */
+    dealii::AffineConstraints<double>
+    basis_change(const dealii::AffineConstraints<double> &constraints,
+                 const dealii::IndexSet                  &owned,
+                 const dealii::IndexSet                  &relevant,
+                 MPI_Comm                                 communicator) const;
 
     /** @brief Whether all conditions to be eliminated are symmetric: then both
      * kinds of constraints are the same. Of this rank only. */

@@ -1,7 +1,7 @@
 #ifndef touchstone_algebra_linear_solver_h
 #define touchstone_algebra_linear_solver_h
 
-#include <touchstone/algebra/linear_system.h>
+#include <touchstone/algebra/condensed_system.h>
 #include <touchstone/registry.h>
 #include <touchstone/scene/solver_parameters.h>
 
@@ -47,6 +47,14 @@ namespace Touchstone
     /** @brief Whether it takes symmetric positive definite systems only. */
     virtual bool
     symmetric_only() const
+    {
+      return false;
+    }
+
+    /** @brief Whether stiff springs slow it down unless their stretch is an unknown
+     * of its own. */
+    virtual bool
+    wants_basis_change() const
     {
       return false;
     }

@@ -7,9 +7,6 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -34,6 +31,8 @@ namespace Touchstone
   {
     /** Continuum stiffness without any condition; symmetric pattern. */
     const Matrix *stiffness = nullptr;
+    /** The stiffness keeps its values as long as any system refers to it. */
+    bool lasting_stiffness = false;
     /** Added to the diagonal of the displacement block, force per length; may
      * be empty. */
     Vector diagonal_shift;
@@ -45,6 +44,13 @@ namespace Touchstone
      * they are not the same. */
     dealii::AffineConstraints<double>                constraints;
     std::optional<dealii::AffineConstraints<double>> test_constraints;
+    /**
+     * Unknowns x_i = y_i + sum_j c_j x_j that are to be replaced by their
+     * deviation y_i from others, not closed over each other; homogeneous, for
+     * solvers that suffer from stiff springs between x_i and the others. The others
+     * are unknowns of their own: neither constrained nor replaced.
+     */
+    dealii::AffineConstraints<double> basis_change;
     /** Out-of-balance forces, and right-hand side of the extra unknowns. */
     Vector              rhs;
     std::vector<double> extra_rhs;
@@ -55,30 +61,6 @@ namespace Touchstone
     bool definite = true;
     /** Relative residual that an iterative solution needs. */
     double tolerance = 1e-8;
-  };
-
-  /**
-   * @brief A linear system with its constraints condensed out, S^T A T y = S^T
-   * (b - A g) for x = T y + g and test functions S z, as plain distributed rows
-   * that all back ends understand. S = T where the test functions have the same
-   * constraints.
-   *
-   * Rows that no constraint and no contact term touches are copied, so the cost
-   * beyond the copy is that of the constrained neighbourhood. Constrained
-   * unknowns keep a diagonal entry and a zero right-hand side.
-   */
-  class CondensedSystem
-  {
-  public:
-    explicit CondensedSystem(const LinearSystem &system);
-
-    /** Shared with preconditioners that are made from it. */
-    std::shared_ptr<Epetra_CrsMatrix> matrix;
-    std::unique_ptr<Epetra_Vector>    rhs;
-    /** Marks rows of constrained unknowns, in the order of the local rows. */
-    std::vector<char> constrained;
-    bool              symmetric, definite;
-    double            tolerance;
   };
 } // namespace Touchstone
 

@@ -1,0 +1,307 @@
+#include <touchstone/algebra/condensation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <algorithm>
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  Expansion::append(const Index global, const double factor, Line &line)
+  {
+    if (basis_change.is_constrained(global))
+      for (const auto &[other, coefficient] : *basis_change.get_constraint_entries(global))
+        line.entries.emplace_back(numbers.local(other), factor * coefficient);
+    line.entries.emplace_back(numbers.local(global), factor);
+  }
+
+
+
+  const Expansion::Line *
+  Expansion::line(const int local)
+  {
+    if (static_cast<std::size_t>(local) >= which.size())
+      which.resize(numbers.global().size(), -2);
+    if (which[local] == -2)
+      {
+        const Index global   = numbers.global()[local];
+        which[local]         = -1;
+        const bool unknown   = global < n_displacements;
+        const bool dependent = unknown && constraints.is_constrained(global);
+        if (dependent || (unknown && basis_change.is_constrained(global)))
+          {
+            Line line;
+            if (dependent)
+              {
+                for (const auto &[other, factor] : *constraints.get_constraint_entries(global))
+                  append(other, factor, line);
+                line.shift = constraints.get_inhomogeneity(global);
+              }
+            else
+              append(global, 1., line);
+            which[local] = static_cast<int>(lines.size());
+            lines.push_back(std::move(line));
+          }
+      }
+    return which[local] < 0 ? nullptr : &lines[which[local]];
+  }
+
+
+
+  SparseRow
+  Accumulator::take()
+  {
+    for (const auto &entry : row)
+      place[entry.first] = -1;
+    SparseRow result(row);
+    row.clear();
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
+
+
+  Condensation::Condensation(const LinearSystem &system,
+                             const Epetra_Map   &rows,
+                             LocalNumbers       &columns)
+    : values(rows.NumMyElements())
+    , constrained(rows.NumMyElements())
+    , system(system)
+    , row_map(rows)
+    , row_numbers(rows)
+    , columns(columns)
+    , motion(system.constraints, system.basis_change, system.rhs.size(), columns)
+    , test(system.test_constraints ? *system.test_constraints : system.constraints,
+           system.basis_change,
+           system.rhs.size(),
+           row_numbers)
+    , replaced(rows.NumMyElements())
+  {
+    add_stiffness();
+    add_terms();
+    if (Utilities::MPI::n_mpi_processes(system.rhs.get_mpi_communicator()) > 1)
+      exchange();
+    gather();
+  }
+
+
+
+  double
+  Condensation::expand(const int column, const double value)
+  {
+    const Expansion::Line *line = motion.line(column);
+    if (!line)
+      {
+        accumulator.add(column, value);
+        return 0.;
+      }
+    for (const auto &[other, factor] : line->entries)
+      accumulator.add(other, value * factor);
+    return value * line->shift;
+  }
+
+
+
+  void
+  Condensation::add_source(const int row, const double value)
+  {
+    const int source = static_cast<int>(sources.size());
+    sources.push_back(accumulator.take());
+    source_values.push_back(value);
+    if (const Expansion::Line *line = test.line(row))
+      for (const auto &[target, factor] : line->entries)
+        parts.push_back({target, source, factor});
+    else
+      parts.push_back({row, source, 1.});
+  }
+
+
+
+  void
+  Condensation::add_stiffness()
+  {
+    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
+    const double           *shift =
+      system.diagonal_shift.size() > 0 ? system.diagonal_shift.begin() : nullptr;
+
+    // Which columns are plain is asked 27 times for each: look it up once.
+    std::vector<char> plain(stiffness.NumMyCols());
+    for (unsigned int j = 0; j < plain.size(); ++j)
+      plain[j] = (motion.line(static_cast<int>(j)) == nullptr);
+    double diagonal = 0.;
+    for (int i = 0; i < stiffness.NumMyRows(); ++i)
+      {
+        int     n;
+        double *value;
+        int    *column;
+        stiffness.ExtractMyRowView(i, n, value, column);
+        const int here = stiffness.LCID(stiffness.GRID(i));
+        constrained[i] = system.constraints.is_constrained(stiffness.GRID(i));
+        bool touched   = constrained[i] || (shift && shift[i] != 0.);
+        for (int k = 0; k < n && !touched; ++k)
+          touched = !plain[column[k]];
+        values[i] = 0.;
+        if (!touched)
+          {
+            values[i] = system.rhs.begin()[i];
+            continue;
+          }
+        replaced[i] = 1;
+        for (int k = 0; k < n; ++k)
+          if (column[k] == here)
+            diagonal = std::max(diagonal, std::abs(value[k]));
+        const Expansion::Line *line = test.line(i);
+        if (line && line->entries.empty())
+          continue; // a support: nothing stands for this row
+        double product = 0.;
+        for (int k = 0; k < n; ++k)
+          product += expand(column[k], value[k]);
+        if (shift)
+          product += expand(here, shift[i]);
+        add_source(i, system.rhs.begin()[i] - product);
+      }
+    diagonal = Utilities::MPI::max(diagonal, system.rhs.get_mpi_communicator());
+    if (diagonal == 0.)
+      diagonal = 1.;
+    for (int i = 0; i < stiffness.NumMyRows(); ++i)
+      if (constrained[i])
+        rows[i] = {{stiffness.LCID(stiffness.GRID(i)), diagonal}};
+    for (Index k = 0; k < system.n_extra; ++k)
+      {
+        values[stiffness.NumMyRows() + k]   = system.extra_rhs[k];
+        replaced[stiffness.NumMyRows() + k] = 1;
+        rows[stiffness.NumMyRows() + k];
+      }
+  }
+
+
+
+  void
+  Condensation::add_terms()
+  {
+    std::vector<unsigned int> order(system.terms.size());
+    for (unsigned int k = 0; k < order.size(); ++k)
+      order[k] = k;
+    std::stable_sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+      return system.terms[a].row < system.terms[b].row;
+    });
+    for (std::size_t k = 0; k < order.size();)
+      {
+        const Index row     = system.terms[order[k]].row;
+        double      product = 0.;
+        for (; k < order.size() && system.terms[order[k]].row == row; ++k)
+          {
+            const MatrixTerm &term = system.terms[order[k]];
+            product += expand(columns.local(term.column), term.value);
+          }
+        add_source(row_numbers.local(row), -product);
+      }
+  }
+
+
+
+  std::size_t
+  Condensation::sum(const std::size_t begin, double &value)
+  {
+    std::size_t k = begin;
+    for (; k < parts.size() && parts[k].target == parts[begin].target; ++k)
+      {
+        const double factor = parts[k].factor;
+        for (const auto &[column, entry] : sources[parts[k].source])
+          accumulator.add(column, factor * entry);
+        value += factor * source_values[parts[k].source];
+      }
+    return k;
+  }
+
+
+
+  void
+  Condensation::exchange()
+  {
+    const MPI_Comm communicator = system.rhs.get_mpi_communicator();
+    const int      n_owned      = row_map.NumMyElements();
+    const auto foreign = std::stable_partition(parts.begin(), parts.end(), [&](const Part &part) {
+      return part.target < n_owned;
+    });
+    std::vector<Part> away(foreign, parts.end());
+    parts.erase(foreign, parts.end());
+    std::stable_sort(away.begin(), away.end(), [](const Part &a, const Part &b) {
+      return a.target < b.target;
+    });
+    parts.swap(away);
+
+    // Ranks own displacements and extra unknowns in ascending order.
+    const Index first_owned = system.stiffness->local_size() > 0
+                                ? static_cast<Index>(row_map.GID(0))
+                                : static_cast<Index>(system.rhs.size());
+    const auto  first =
+      Utilities::MPI::all_gather(communicator, std::make_pair(first_owned, system.first_extra));
+    const auto owner = [&](const Index i) {
+      const bool   extra = i >= system.rhs.size();
+      unsigned int rank  = 0;
+      for (unsigned int r = 0; r < first.size(); ++r)
+        if ((extra ? first[r].second : first[r].first) <= i)
+          rank = r;
+      return rank;
+    };
+    // Row, its value, its length, columns and entries one after the other.
+    std::map<unsigned int, std::vector<double>> packages;
+    for (std::size_t begin = 0; begin < parts.size();)
+      {
+        const Index target  = row_numbers.global()[parts[begin].target];
+        double      value   = 0.;
+        begin               = sum(begin, value);
+        const SparseRow row = accumulator.take();
+        auto           &to  = packages[owner(target)];
+        to.insert(to.end(), {static_cast<double>(target), value, static_cast<double>(row.size())});
+        for (const auto &[column, entry] : row)
+          to.insert(to.end(), {static_cast<double>(columns.global()[column]), entry});
+      }
+    parts.swap(away);
+    for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
+      for (std::size_t k = 0; k < package.size();)
+        {
+          const Index       target = static_cast<Index>(package[k]);
+          const double      value  = package[k + 1];
+          const std::size_t n      = static_cast<std::size_t>(package[k + 2]);
+          k += 3;
+          for (std::size_t e = 0; e < n; ++e, k += 2)
+            accumulator.add(columns.local(static_cast<Index>(package[k])), package[k + 1]);
+          // Summed up for this row by the sender: not expanded again.
+          parts.push_back({row_numbers.local(target), static_cast<int>(sources.size()), 1.});
+          sources.push_back(accumulator.take());
+          source_values.push_back(value);
+        }
+  }
+
+
+
+  void
+  Condensation::gather()
+  {
+    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
+    std::stable_sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
+      return a.target < b.target;
+    });
+    for (std::size_t begin = 0; begin < parts.size();)
+      {
+        const int row = parts[begin].target;
+        if (!replaced[row])
+          {
+            int     n;
+            double *value;
+            int    *column;
+            stiffness.ExtractMyRowView(row, n, value, column);
+            for (int k = 0; k < n; ++k)
+              accumulator.add(column[k], value[k]);
+          }
+        begin     = sum(begin, values[row]);
+        rows[row] = accumulator.take();
+      }
+  }
+} // namespace Touchstone
