@@ -218,6 +218,16 @@ def contact_points(model, blocks):
     return points
 
 
+def mean_pressure(model, force):
+    """The uniform pressure with this force on the slave surface; no number for a closed ring,
+    where it has none."""
+    area = surfaces.vector_area(model.pair["slave"], model.positions, model.degree)
+    size = sum(a * a for a in area)
+    if size < 1e-6 * sum(model.areas.values()) ** 2:
+        return math.nan
+    return -sum(f * a for f, a in zip(force, area)) / size
+
+
 def errors(model, folder):
     """The same errors as those of the program's summary."""
     values = measures.reference_values(model.reference["values"])
@@ -230,7 +240,15 @@ def errors(model, folder):
     # What holds the slave body is balanced by the contact force on it.
     force = [-sum(f[d] for n, f in blocks["FORC"].items() if n in model.slave_body_nodes)
              for d in range(3)]
-    return measures.OF_CONTACT[kind](contact_points(model, blocks), force, values)
+    points = contact_points(model, blocks)
+    result = measures.OF_CONTACT[kind](points, force, values)
+    if kind == "interference fit":
+        # Pressures that CalculiX extrapolates to nodes do not add up to the force, those of
+        # the program do: its mean is force over area.
+        mean = mean_pressure(model, force)
+        if not math.isnan(mean):
+            result["contact_pressure_mean"] = abs(mean / measures.fit_pressure(values) - 1)
+    return result
 
 
 def prepare(program, case, campaign, folder):

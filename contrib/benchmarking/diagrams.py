@@ -45,7 +45,7 @@ set format y "10^{{%L}}"
 set xlabel "CPU seconds of a run, start and output included"
 set ylabel {_quoted('error: ' + error)}
 set title {_quoted(campaign.title)}
-set grid lc rgb "#e0e0e0"
+set grid lt 1 lw 0.5 lc rgb "#d8d8d8"
 set key below left Left reverse maxcols 2
 set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03
 """
@@ -57,11 +57,11 @@ set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03
             f'set output "{stem}.png"\n{draw}')
 
 
-def draw(campaign, rows, folder, prefix=""):
+def draw(campaign, rows, folder):
     """Draw a diagram for each error. @return names of the files."""
     files = []
     for error in campaign.errors:
-        stem = f"{prefix}{campaign.name}_{error}"
+        stem = f"{campaign.name}_{error}"
         text = script(campaign, rows, error, stem)
         if text is None:
             continue

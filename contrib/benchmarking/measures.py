@@ -56,7 +56,8 @@ def profile_error(points, computed, exact):
     return math.sqrt(error / size) if size > 0 else math.nan
 
 
-def interference_fit(points, _force, values):
+def fit_pressure(values):
+    """Exact pressure of the press fit on the slave surface."""
     inner, outer = values["inner skin radius"], values["outer bore radius"]
     a, c = values["inner radius"], values["outer radius"]
     young, nu = values["young modulus"], values["poisson ratio"]
@@ -66,7 +67,11 @@ def interference_fit(points, _force, values):
                   nu * (1 + nu) / young +
                   (1 - outer_nu**2) / outer_young * (c**2 + outer**2) / (c**2 - outer**2) +
                   outer_nu * (1 + outer_nu) / outer_young)
-    exact = (inner - outer) / compliance / values["slave radius"]
+    return (inner - outer) / compliance / values["slave radius"]
+
+
+def interference_fit(points, _force, values):
+    exact = fit_pressure(values)
     active = [p for p in points if p.active]
     area = sum(p.area for p in active)
     mean = sum(p.area * p.pressure for p in active) / area if area > 0 else 0.0

@@ -36,6 +36,27 @@ def serendipity(x, y):
                       (1 - x * x) * (1 + y) / 2, (1 - x) * (1 - y * y) / 2]
 
 
+def face_points(face, nodes, degree):
+    """Quadrature points of a face: coordinates x, y, shape functions, normal times weight."""
+    for x, wx in GAUSS:
+        for y, wy in GAUSS:
+            value, by_x, by_y = tensor_shapes(degree, x, y)
+            t = [[sum(d * nodes[n][k] for d, n in zip(by, face)) for k in range(3)]
+                 for by in (by_x, by_y)]
+            yield x, y, value, [wx * wy * (t[0][(k + 1) % 3] * t[1][(k + 2) % 3] -
+                                           t[0][(k + 2) % 3] * t[1][(k + 1) % 3])
+                                for k in range(3)]
+
+
+def vector_area(faces, nodes, degree):
+    """The integral of the outward normal: a uniform unit pressure has this force."""
+    total = [0.0] * 3
+    for face in faces:
+        for *_, normal in face_points(face, nodes, degree):
+            total = [a + b for a, b in zip(total, normal)]
+    return total
+
+
 def node_areas(faces, nodes, degree, quadratic_of_eight=False):
     """Tributary areas: the integral of each node's shape function, as the program does.
 
@@ -46,17 +67,11 @@ def node_areas(faces, nodes, degree, quadratic_of_eight=False):
     for face in faces:
         own = [0.0] * (8 if quadratic_of_eight else len(face))
         total = 0.0
-        for x, wx in GAUSS:
-            for y, wy in GAUSS:
-                value, by_x, by_y = tensor_shapes(degree, x, y)
-                t = [[sum(d * nodes[n][k] for d, n in zip(by, face)) for k in range(3)]
-                     for by in (by_x, by_y)]
-                cross = [t[0][(k + 1) % 3] * t[1][(k + 2) % 3] -
-                         t[0][(k + 2) % 3] * t[1][(k + 1) % 3] for k in range(3)]
-                jxw = wx * wy * math.sqrt(sum(c * c for c in cross))
-                total += jxw
-                weights = [s * s for s in serendipity(x, y)] if quadratic_of_eight else value
-                own = [a + w * jxw for a, w in zip(own, weights)]
+        for x, y, value, normal in face_points(face, nodes, degree):
+            jxw = math.sqrt(sum(c * c for c in normal))
+            total += jxw
+            weights = [s * s for s in serendipity(x, y)] if quadratic_of_eight else value
+            own = [a + w * jxw for a, w in zip(own, weights)]
         scale = total / sum(own)
         members = [face[i] for i in EIGHT] if quadratic_of_eight else face
         for node, area in zip(members, own):

@@ -105,6 +105,37 @@ assert table.best(line, "e", 0.01)["nodes"] == 3
 assert table.best(line, "e", 0.001) is None
 PYTHON
 
+# Decks, which need no CalculiX to be written: all nodes, numbers that it can read, the
+# whole load, and on quadratic faces the negative loads of corners.
+"$python" - "$source" "$program" <<'PYTHON' || fail "the decks"
+import pathlib, sys
+sys.path.insert(0, sys.argv[1] + "/contrib")
+from benchmarking import calculix, campaign
+tiny = campaign.load(pathlib.Path("tiny.toml"), pathlib.Path(sys.argv[1]))
+for degree, element, nodes in ((1, "C3D8I", 50), (2, "C3D20", 147)):
+    case = [c for c in tiny.cases if c.program == "calculix"][0]
+    case.settings["Discretisation/Degree"] = degree
+    case.choices |= {"degree": degree, "element": element}
+    model = calculix.prepare(sys.argv[2], case, tiny, pathlib.Path("deck").resolve())
+    blocks, name = {}, None
+    for line in pathlib.Path("deck/deck.inp").read_text().splitlines():
+        if line.startswith("*"):
+            name = blocks.setdefault(line, [])
+        else:
+            name.append([word.strip() for word in line.split(",")])
+    assert len(blocks["*NODE, NSET=ALL"]) == len(model.nodes) == nodes, len(model.nodes)
+    assert all(len(w) <= 20 for rows in blocks.values() for row in rows for w in row)
+    assert len(blocks["*SURFACE, NAME=SLAVE, TYPE=ELEMENT"]) == 9
+    assert {side for _, side in blocks["*SURFACE, NAME=SLAVE, TYPE=ELEMENT"]} == {"S2"}
+    assert {side for _, side in blocks["*SURFACE, NAME=MASTER, TYPE=ELEMENT"]} == {"S1"}
+    loads = [float(row[2]) for row in blocks["*CLOAD"] if row[1] == "3"]
+    assert abs(sum(loads) + 10) < 1e-9, loads
+    # Four corners of one face each: a quarter of it, or minus a twelfth.
+    corner = {1: -10 / 16, 2: 10 / 48}[degree]
+    assert sum(abs(load - corner) < 1e-9 for load in loads) == 4, loads
+    assert abs(sum(model.areas.values()) - 1) < 1e-12
+PYTHON
+
 # Without the two optional programs.
 mkdir -p bin
 for tool in sh mpirun env; do
