@@ -46,7 +46,7 @@ set xlabel "CPU seconds of a run, start and output included"
 set ylabel {_quoted('error: ' + error)}
 set title {_quoted(campaign.title)}
 set grid lt 1 lw 0.5 lc rgb "#d8d8d8"
-set key below left Left reverse maxcols 2
+set key below left Left reverse maxcols 2 title " " font ",11"
 set offsets graph 0.03, graph 0.03, graph 0.03, graph 0.03
 """
     draw = "plot " + ", \\\n  ".join(plots + [bounds]) + "\n"

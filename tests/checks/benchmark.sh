@@ -9,6 +9,8 @@ python=$(python3 -c 'import sys, tomllib; print(sys.executable)' 2>/dev/null) ||
   exit 0
 }
 
+export PYTHONDONTWRITEBYTECODE=1
+
 # contains FILE TEXT
 contains() {
   if grep -qF -- "$2" "$1"; then
