@@ -252,10 +252,10 @@ def load(path, root, quick=False):
     _subsets(path, "the table 'quick', key 'contenders'", rapid.get("contenders", []), names)
     cases = []
     for number, contender in enumerate(contenders):
-        cases += _contender_cases(path, number, contender, meshes, lists,
-                                  _typed(path, "the campaign", table, "settings", dict, {}))
-        if quick and contender["name"] not in rapid.get("contenders", names):
-            cases = [case for case in cases if case.line.split(", ")[0] != contender["name"]]
+        own = _contender_cases(path, number, contender, meshes, lists,
+                               _typed(path, "the campaign", table, "settings", dict, {}))
+        if not quick or contender["name"] in rapid.get("contenders", names):
+            cases += own
     if quick:
         cases = [case for case in cases if case.mesh in rapid.get("meshes", meshes)]
     twice = {case.folder for case in cases}

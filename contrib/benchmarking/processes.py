@@ -40,9 +40,13 @@ def run(command, folder, log, time_limit):
     timed_out = threading.Event()
     with open(log, "wb") as output:
         # A session of its own, so that mpirun's ranks can be stopped with it.
-        process = subprocess.Popen(command, cwd=folder, env=environment, stdout=output,
-                                   stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
-                                   start_new_session=True)
+        try:
+            process = subprocess.Popen(command, cwd=folder, env=environment, stdout=output,
+                                       stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                       start_new_session=True)
+        except OSError as error:
+            output.write(f"{error}\n".encode())
+            return Usage(127, False, 0.0, 0.0, 0.0, 0.0)  # as a shell would say
 
         def stop():
             timed_out.set()

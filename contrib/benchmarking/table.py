@@ -38,13 +38,7 @@ def median_row(case, runs, campaign):
                 row |= {"status": "failed", "reason": f"the run has no error '{name}'"}
             value = chosen["errors"].get(name, math.nan)
             row[name] = math.nan if value is None else value
-        summary = chosen.get("summary")
-        for name, path in campaign.columns.items():
-            if summary:
-                value = summary
-                for step in path:
-                    value = value[step]
-                row[name] = value
+        row |= chosen.get("columns", {})
     return row
 
 

@@ -15,11 +15,19 @@ def command(program, case, campaign, folder):
     return result
 
 
+class MissingResult(Exception):
+    """A campaign asks for a result that the summary does not have."""
+
+
 def dig(summary, path):
-    """The value at a path of names and numbers."""
+    """The value at a path of names and numbers. @throws MissingResult"""
+    value = summary
     for step in path:
-        summary = summary[step]
-    return summary
+        try:
+            value = value[step]
+        except (KeyError, IndexError, TypeError) as error:
+            raise MissingResult("summary.json has no " + "/".join(map(str, path))) from error
+    return value
 
 
 def execute(program, case, campaign, folder):
@@ -42,11 +50,15 @@ def execute(program, case, campaign, folder):
     row |= {"nodes": summary["unknowns"] // 3, "unknowns": summary["unknowns"],
             "steps": summary["steps"], "newton": summary["iterations"]["newton"],
             "linear_mean": summary["iterations"]["linear_mean"],
-            "memory_mb": summary["peak_memory_mb"], "summary": summary}
+            "memory_mb": summary["peak_memory_mb"]}
     if not summary["converged"]:
         row["reason"] = summary["failure"] or "not converged"
         return row
     row["errors"] = dict(summary["errors"])
-    for name, quantity in campaign.quantities.items():
-        row["errors"][name] = abs(dig(summary, quantity.path) / quantity.exact - 1)
+    try:
+        for name, quantity in campaign.quantities.items():
+            row["errors"][name] = abs(dig(summary, quantity.path) / quantity.exact - 1)
+        row["columns"] = {name: dig(summary, path) for name, path in campaign.columns.items()}
+    except MissingResult as error:
+        row["reason"] = str(error)
     return row

@@ -71,7 +71,7 @@ contains results/tiny/runs/ours_averaged_2/command "Contact pair interface/Pairi
 "$python" - "$source" "$csv" <<'PYTHON' || fail "the rows of $csv"
 import sys
 sys.path.insert(0, sys.argv[1] + "/contrib")
-from benchmarking import calculix, campaign, table
+from benchmarking import calculix, campaign, processes, table
 rows = {row["contender"]: row for row in table.read_csv(sys.argv[2])}
 assert rows["ours, averaged"]["stress_max_deviation"] < 1e-10
 assert 0.05 < rows["ours, pointwise"]["stress_max_deviation"] < 1
@@ -89,6 +89,11 @@ if calculix.installed():
     assert abs(n - rows["ours, pointwise"]["stress_max_deviation"]) < 0.01, n
 else:
     assert len(rows) == 4
+
+# Runs that take too long, and programs that are not there.
+usage = processes.run(["sleep", "20"], ".", "sleep.log", 0.2)
+assert usage.failure().startswith("time limit") and usage.wall_seconds < 10, usage
+assert processes.run(["no such program"], ".", "no.log", 1).failure() == "exit code 127"
 
 # The median, and the worst of several outcomes.
 case = campaign.Case("x", "2", "touchstone", {}, {})
@@ -150,6 +155,12 @@ if command -v gnuplot >/dev/null; then
   benchmark --redraw tiny.toml || fail "--redraw: $(cat said.txt)"
   contains results/tiny/tiny_stress_max_deviation.svg "<svg"
 fi
+
+# Results that the summary does not have, and the choice of --quick.
+sed -e 's/"area"\]/"arae"]/' -e 's/^repeat = 1/contenders = ["ours"]/' tiny.toml >asks.toml
+benchmark --quick --repeat 1 asks.toml || fail "missing results: $(cat said.txt)"
+contains results/asks/table.md "failed: summary.json has no results/contact/interface/arae"
+[ "$(grep -c , results/asks/results.csv)" -eq 3 ] || fail "--quick takes other contenders"
 
 # refuses SED MESSAGE: a changed campaign ends with a message.
 refuses() {
