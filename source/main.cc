@@ -1,4 +1,5 @@
 #include <touchstone/drive/simulation.h>
+#include <touchstone/output/model_export.h>
 #include <touchstone/scene/command_line.h>
 #include <touchstone/scene/input_error.h>
 
@@ -44,6 +45,12 @@ namespace
         validate(scene, folder, communicator);
         if (first)
           std::cout << line.scene_file << ": valid\n";
+        return 0;
+      }
+
+    if (!line.export_model.empty())
+      {
+        export_model(scene, folder, line.export_model, communicator);
         return 0;
       }
 

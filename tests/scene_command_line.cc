@@ -26,6 +26,8 @@ namespace
                   << (line.version ? ", version" : "") << (line.validate ? ", validate" : "")
                   << (line.print_parameters ? ", print parameters" : "")
                   << (line.results_only ? ", results only" : "");
+        if (!line.export_model.empty())
+          std::cout << ", export model '" << line.export_model << "'";
         for (const std::string &override_text : line.overrides)
           std::cout << ", [" << override_text << "]";
         std::cout << std::endl;
@@ -59,6 +61,8 @@ main()
   try_line({"--validate", "x.prm", "--print-parameters"});
   try_line({"--set", "A/B=1", "--set=C = 2", "x.prm", "--output", "here"});
   try_line({"--output=there", "x.prm", "--results-only"});
+  try_line({"--export-model", "model.json", "x.prm"});
+  try_line({"x.prm", "--export-model"});
   try_line({"--help"});
   try_line({"-h"});
   try_line({"--version"});

@@ -63,7 +63,7 @@ namespace Touchstone
                                "quotation marks: --set \"Section/Key=value\"");
             line.scene_file = argument;
           }
-        else if (option == "--set" || option == "--output")
+        else if (option == "--set" || option == "--output" || option == "--export-model")
           {
             std::string value;
             if (equals != std::string::npos)
@@ -75,9 +75,13 @@ namespace Touchstone
                                option,
                                "",
                                "this option lacks its value",
-                               option == "--set" ? "write --set \"Section/Key=value\""
-                                                 : "write --output FOLDER");
-            line.overrides.push_back(option == "--set" ? value : "Output/Directory=" + value);
+                               option == "--set"      ? "write --set \"Section/Key=value\""
+                               : option == "--output" ? "write --output FOLDER"
+                                                      : "write --export-model FILE");
+            if (option == "--export-model")
+              line.export_model = value;
+            else
+              line.overrides.push_back(option == "--set" ? value : "Output/Directory=" + value);
           }
         else if (option == "--resume")
           throw InputError(section,
@@ -89,7 +93,7 @@ namespace Touchstone
           *switches.at(option) = true;
         else
           {
-            std::vector<std::string> known = {"--set", "--output"};
+            std::vector<std::string> known = {"--set", "--output", "--export-model"};
             for (const auto &[name, flag] : switches)
               if (name != "-h")
                 known.push_back(name);
@@ -126,6 +130,8 @@ namespace Touchstone
            "  --print-parameters      print the complete scene with all keys, then stop\n"
            "  --set \"Section/Key=value\"  change one key of the scene; can be repeated\n"
            "  --output FOLDER         write there instead of to output/STEM\n"
+           "  --export-model FILE     write mesh, supports, loads and contact surfaces as\n"
+           "                          JSON for other programs, then stop\n"
            "  --results-only          print nothing but the results\n"
            "  --version               print the version, then stop\n"
            "  --help                  print this text, then stop\n"

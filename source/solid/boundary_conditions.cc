@@ -156,17 +156,37 @@ namespace Touchstone
 
 
   double
+  BoundaryConditions::Prescribed::displacement(const double t) const
+  {
+    if (!value)
+      return 0.;
+    value->set_time(t);
+    return value->value(position);
+  }
+
+
+
+  std::vector<PrescribedDisplacement>
+  BoundaryConditions::displacements(const double t) const
+  {
+    std::vector<PrescribedDisplacement> result;
+    for (const Prescribed &p : prescribed)
+      result.push_back({p.node,
+                        p.direction,
+                        p.displacement(t),
+                        supports[p.support].body + "/" + supports[p.support].boundary});
+    return result;
+  }
+
+
+
+  double
   BoundaryConditions::prescribe(const double t, const Vector &u, ConstraintGraph &graph) const
   {
     double mismatch = 0.;
     for (const Prescribed &p : prescribed)
       {
-        double value = 0.;
-        if (p.value)
-          {
-            p.value->set_time(t);
-            value = p.value->value(p.position);
-          }
+        double value = p.displacement(t);
         for (unsigned int d = 0; d < dim; ++d)
           if (p.direction[d] != 0.)
             value -= p.direction[d] * u(dim * p.node + d);

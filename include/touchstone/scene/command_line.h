@@ -18,6 +18,8 @@ namespace Touchstone
     /** Entries "Section/Key=value"; "--output DIR" is one of them. */
     std::vector<std::string> overrides;
     std::string              scene_file;
+    /** File for the model of the scene; empty: solve the scene. */
+    std::string export_model;
 
     /**
      * @brief Read the options of the environment variable TOUCHSTONE_OPTIONS,

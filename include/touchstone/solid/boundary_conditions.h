@@ -20,6 +20,17 @@ namespace Touchstone
     dealii::Tensor<1, dim> force;
   };
 
+  /** @brief One component of the displacement of one node, as the scene prescribes it. */
+  struct PrescribedDisplacement
+  {
+    Index node;
+    /** Unit vector along which the displacement has the value (length). */
+    dealii::Tensor<1, dim> direction;
+    double                 value;
+    /** "BODY/BOUNDARY". */
+    std::string support;
+  };
+
   /**
    * @brief What the scene prescribes on the boundaries of the bodies: loads as
    * nodal forces, displacements and symmetry as conditions.
@@ -43,6 +54,11 @@ namespace Touchstone
     double
     prescribe(double t, const Vector &u, ConstraintGraph &graph) const;
 
+    /** @brief The prescribed displacements of owned nodes at time @p t. A node on
+     * several boundaries has several, which may depend on each other. */
+    std::vector<PrescribedDisplacement>
+    displacements(double t) const;
+
     /**
      * @brief Forces that the supports exert on the bodies.
      * @param unbalanced Internal minus external minus contact forces at each
@@ -65,6 +81,10 @@ namespace Touchstone
       unsigned int       body;
       /** Which reaction it belongs to. */
       unsigned int support;
+
+      /** The displacement along the direction at time @p t, length. */
+      double
+      displacement(double t) const;
     };
 
     struct Load

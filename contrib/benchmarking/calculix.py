@@ -1,0 +1,301 @@
+"""The same mesh, materials, supports and loads in CalculiX (ccx).
+
+The program exports the discrete problem of a scene (--export-model); here it becomes a
+deck. Differences that remain:
+* C3D20 has no nodes in the middle of faces and cells, FE_Q(2) has: corners and edges are
+  the same, so a quadratic mesh has fewer nodes here. Loads on the middle of a face go to
+  the others with the values of their shape functions there, which is exact.
+* CalculiX knows contact surfaces by their facets only, where the program takes the exact
+  surfaces of its geometries (key 'Contact geometry').
+* Contact is a penalty: its stiffness is the key 'penalty' times Young's modulus over the
+  size of a slave face.
+* Small strain, as in the program's linear elastic bodies; contact follows the displaced
+  nodes in both.
+"""
+
+import json
+import math
+import shutil
+
+from . import measures, processes, surfaces
+
+# Corners in the order of CalculiX from the lexicographic one, as steps along x, y, z.
+CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6),
+         (3, 7))
+# Corners of the sides S1 to S6 of an element.
+SIDES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+
+
+class DeckError(Exception):
+    """The scene has something that this translation does not know."""
+
+
+def installed():
+    return shutil.which("ccx")
+
+
+def element_nodes(cell, degree):
+    """Nodes of a cell in the order of C3D8 or C3D20."""
+    n = degree + 1
+
+    def at(i, j, k):
+        return cell[i + n * (j + n * k)]
+
+    nodes = [at(*(degree * c for c in corner)) for corner in CORNERS]
+    if degree == 2:
+        nodes += [at(*(CORNERS[a][d] + CORNERS[b][d] for d in range(3))) for a, b in EDGES]
+    return nodes
+
+
+class Model:
+    """The exported problem, in the terms of CalculiX."""
+
+    def __init__(self, exported):
+        self.degree = exported["degree"]
+        self.positions = exported["nodes"]
+        self.bodies = exported["bodies"]
+        self.steps = exported["steps"]
+        if len(exported["pairs"]) != 1 or not exported["pairs"][0]["master"]:
+            raise DeckError("only scenes with one contact pair of two bodies can be translated")
+        self.pair = exported["pairs"][0]
+        if self.pair["behaviour"] not in ("frictionless", "coulomb"):
+            raise DeckError(f"contact that is '{self.pair['behaviour']}' is not translated")
+        self.reference = exported["reference"]
+        self.elements, self.side_of = [], {}
+        for number, body in enumerate(self.bodies):
+            if body["law"] != "linear elastic":
+                raise DeckError(f"the material law '{body['law']}' is not translated")
+            for cell in body["cells"]:
+                nodes = element_nodes(cell, self.degree)
+                self.elements.append((number, nodes))
+                for side, corners in enumerate(SIDES):
+                    key = frozenset(nodes[c] for c in corners)
+                    self.side_of[key] = (len(self.elements), side + 1)
+        # The middles of faces and cells belong to no element of degree 2.
+        self.nodes = sorted({n for _, nodes in self.elements for n in nodes})
+        slave = self.face_side(self.pair["slave"][0])[0]
+        body = self.elements[slave - 1][0]
+        self.slave_body_nodes = {n for b, nodes in self.elements for n in nodes if b == body}
+        self.slave_young = self.bodies[body]["young_modulus"]
+        self.areas = surfaces.node_areas(self.pair["slave"], self.positions, self.degree,
+                                         quadratic_of_eight=self.degree == 2)
+        self.face_size = math.sqrt(sum(self.areas.values()) / len(self.pair["slave"]))
+
+    def face_side(self, face):
+        """Element and side of a face with lexicographic nodes."""
+        p = self.degree
+        corners = (face[0], face[p], face[p * (p + 1)], face[-1])
+        return self.side_of[frozenset(corners)]
+
+    def forces(self, step):
+        """Nodal forces of a step on the nodes of this mesh."""
+        forces = {entry[0]: entry[1:] for entry in step["forces"]}
+        middles = {}
+        if self.degree == 2:
+            # In the bodies' cells: nodes in the middle of faces, with the 8 around them.
+            for body in self.bodies:
+                for cell in body["cells"]:
+                    for axis in range(3):
+                        for end in (0, 2):
+                            s = [3**axis, 3 ** ((axis + 1) % 3), 3 ** ((axis + 2) % 3)]
+                            face = [cell[end * s[0] + i * s[1] + j * s[2]]
+                                    for j in range(3) for i in range(3)]
+                            middles[face[4]] = [face[i] for i in surfaces.EIGHT]
+        result = {}
+        for node, force in forces.items():
+            shares = zip(middles[node], surfaces.MIDDLE) if node in middles else [(node, 1.0)]
+            for target, share in shares:
+                known = result.setdefault(target, [0.0, 0.0, 0.0])
+                for d in range(3):
+                    known[d] += share * force[d]
+        return result
+
+    def displacements(self, step):
+        """Prescribed components (node, axis) of a step and their values."""
+        result = {}
+        known = set(self.nodes)
+        for support, entries in step["displacements"].items():
+            for node, *direction, value in entries:
+                axis = max(range(3), key=lambda d: abs(direction[d]))
+                if abs(abs(direction[axis]) - 1) > 1e-12:
+                    raise DeckError(f"the support {support} is not along an axis")
+                if node in known:
+                    result[(node, axis)] = value / direction[axis]
+        return result
+
+
+def deck(model, choices, tension, with_stress):
+    """The text of the deck."""
+    # CalculiX reads 20 characters of a number: with 15 digits exponents would be lost.
+    lines = ["*NODE, NSET=ALL"]
+    lines += [f"{n + 1}, " + ", ".join(f"{x:.12g}" for x in model.positions[n])
+              for n in model.nodes]
+    for number, body in enumerate(model.bodies):
+        lines.append(f"*ELEMENT, TYPE={choices['element']}, ELSET=BODY{number}")
+        for e, (owner, nodes) in enumerate(model.elements):
+            if owner == number:
+                words = [str(e + 1)] + [str(n + 1) for n in nodes]
+                # At most 16 entries stand in a line.
+                lines += [", ".join(words[i:i + 11]) + ("," if i + 11 < len(words) else "")
+                          for i in range(0, len(words), 11)]
+        lines += [f"*MATERIAL, NAME=MATERIAL{number}", "*ELASTIC",
+                  f"{body['young_modulus']:.12g}, {body['poisson_ratio']:.12g}",
+                  f"*SOLID SECTION, ELSET=BODY{number}, MATERIAL=MATERIAL{number}"]
+    for name in ("slave", "master"):
+        lines.append(f"*SURFACE, NAME={name.upper()}, TYPE=ELEMENT")
+        lines += ["{}, S{}".format(*model.face_side(face)) for face in model.pair[name]]
+    stiffness = choices["penalty"] * model.slave_young / model.face_size
+    lines += ["*SURFACE INTERACTION, NAME=CONTACT",
+              "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR",
+              f"{stiffness:.9g}" + (f", {tension:.9g}" if tension > 0 else "")]
+    if model.pair["friction_coefficient"] > 0:
+        # The stick slope is a tenth of the stiffness, as CalculiX' manual advises.
+        lines += ["*FRICTION", f"{model.pair['friction_coefficient']:.9g}, {0.1 * stiffness:.9g}"]
+    kind = choices["contact"].upper()
+    lines += [f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE={kind}", "SLAVE, MASTER"]
+    start = 0.0
+    for step in model.steps:
+        period = step["time"] - start
+        start = step["time"]
+        lines += ["*STEP, INC=1000", f"*STATIC, SOLVER={choices['solver'].upper()}",
+                  f"{period / choices['increments']:.9g}, {period:.9g}", "*BOUNDARY"]
+        lines += [f"{node + 1}, {axis + 1}, {axis + 1}, {value:.12g}"
+                  for (node, axis), value in sorted(model.displacements(step).items())]
+        forces = model.forces(step)
+        if forces:
+            lines.append("*CLOAD")
+            lines += [f"{node + 1}, {d + 1}, {force[d]:.12g}"
+                      for node, force in sorted(forces.items()) for d in range(3) if force[d]]
+        last = step is model.steps[-1]
+        lines += ["*NODE FILE" + ("" if last else ", FREQUENCY=100000"), "U, RF",
+                  "*CONTACT FILE" + ("" if last else ", FREQUENCY=100000"), "CDIS, CSTR"]
+        if with_stress and last:
+            for number in range(len(model.bodies)):
+                lines += [f"*EL PRINT, ELSET=BODY{number}", "S"]
+        lines.append("*END STEP")
+    return "\n".join(lines) + "\n"
+
+
+def read_frd(path):
+    """The last block of each name in a result file: values by node."""
+    blocks, current = {}, None
+    with open(path, encoding="ascii", errors="replace") as lines:
+        for line in lines:
+            if line.startswith(" -4"):
+                current = blocks[line[5:13].strip()] = {}
+            elif line.startswith(" -1") and current is not None:
+                current[int(line[3:13]) - 1] = [float(line[i:i + 12])
+                                                for i in range(13, len(line.rstrip()), 12)]
+            elif line.startswith(" -3"):
+                current = None
+    return blocks
+
+
+def read_stresses(path):
+    """All lines 'element point sxx syy szz sxy sxz syz' of a .dat file."""
+    result = []
+    for line in path.read_text(encoding="ascii", errors="replace").splitlines():
+        words = line.split()
+        if len(words) == 8 and words[0].isdigit():
+            result.append([float(w) for w in words[2:]])
+    return result
+
+
+def contact_points(model, blocks):
+    """Results at the slave nodes, with the areas that the program gives them."""
+    values = blocks.get("CONTACT", {})
+    mu = model.pair["friction_coefficient"]
+    points = []
+    for node, area in model.areas.items():
+        # COPEN, CSLIP1, CSLIP2, CPRESS, CSHEAR1, CSHEAR2; nothing where contact is open.
+        _, _, _, pressure, shear1, shear2 = values.get(node, [0.0] * 6)
+        active = pressure > 0
+        stick = active and mu > 0 and math.hypot(shear1, shear2) < 0.999 * mu * pressure
+        # The first tangent of a surface along z is x; CSHEAR acts on the master.
+        points.append(measures.Point(tuple(model.positions[node]), area, pressure, -shear1, active,
+                                     stick))
+    return points
+
+
+def mean_pressure(model, force):
+    """The uniform pressure with this force on the slave surface; no number for a closed ring,
+    where it has none."""
+    area = surfaces.vector_area(model.pair["slave"], model.positions, model.degree)
+    size = sum(a * a for a in area)
+    if size < 1e-6 * sum(model.areas.values()) ** 2:
+        return math.nan
+    return -sum(f * a for f, a in zip(force, area)) / size
+
+
+def errors(model, folder):
+    """The same errors as those of the program's summary."""
+    values = measures.reference_values(model.reference["values"])
+    kind = model.reference["type"]
+    if kind == "uniform stress":
+        return measures.uniform_stress(read_stresses(folder / "deck.dat"), values)
+    if kind not in measures.OF_CONTACT:
+        raise DeckError(f"there is no measure for the reference solution '{kind}'")
+    blocks = read_frd(folder / "deck.frd")
+    # What holds the slave body is balanced by the contact force on it.
+    force = [-sum(f[d] for n, f in blocks["FORC"].items() if n in model.slave_body_nodes)
+             for d in range(3)]
+    points = contact_points(model, blocks)
+    result = measures.OF_CONTACT[kind](points, force, values)
+    if kind == "interference fit":
+        # Pressures that CalculiX extrapolates to nodes do not add up to the force, those of
+        # the program do: its mean is force over area.
+        mean = mean_pressure(model, force)
+        if not math.isnan(mean):
+            result["contact_pressure_mean"] = abs(mean / measures.fit_pressure(values) - 1)
+    return result
+
+
+def prepare(program, case, campaign, folder):
+    """Export the model and write the deck. @throws DeckError"""
+    folder.mkdir(parents=True, exist_ok=True)
+    file = folder / "model.json"
+    words = [str(program), str(campaign.scene), "--export-model", str(file)]
+    for key, value in case.settings.items():
+        words += ["--set", f"{key}={value}"]
+    usage = processes.run(words, campaign.scene.parent, folder / "export", campaign.time_limit)
+    if usage.failure():
+        text = (folder / "export").read_text(encoding="utf-8", errors="replace").strip()
+        raise DeckError(f"export: {usage.failure()}: {text}")
+    model = Model(json.loads(file.read_text(encoding="utf-8")))
+    with_stress = model.reference["type"] == "uniform stress"
+    (folder / "deck.inp").write_text(deck(model, case.choices, case.tension, with_stress),
+                                     encoding="ascii")
+    return model
+
+
+def execute(program, case, campaign, folder, models):
+    """Run the case once; see touchstone.execute(). @param models Those of earlier rounds."""
+    row = {"user_seconds": math.nan, "system_seconds": math.nan, "wall_seconds": math.nan,
+           "memory_mb": math.nan, "reason": "", "command": ["ccx", "-i", "deck"], "errors": {}}
+    try:
+        if case.folder not in models:
+            models[case.folder] = prepare(program, case, campaign, folder)
+        model = models[case.folder]
+    except DeckError as error:
+        return row | {"reason": str(error)}
+    for suffix in ("frd", "dat"):
+        (folder / f"deck.{suffix}").unlink(missing_ok=True)
+    log = folder / "terminal"
+    usage = processes.run(["ccx", "-i", "deck"], folder, log, campaign.time_limit)
+    row |= {"user_seconds": usage.user_seconds, "system_seconds": usage.system_seconds,
+            "wall_seconds": usage.wall_seconds, "memory_mb": usage.memory_mb,
+            "nodes": len(model.nodes), "unknowns": 3 * len(model.nodes),
+            "reason": usage.failure()}
+    text = log.read_text(encoding="utf-8", errors="replace")
+    row["newton"] = text.count("iteration ") or None
+    if not usage.failure():
+        # It says so and yet ends with exit code 0 or 201, by version.
+        if "*ERROR" in text or "Job finished" not in text:
+            complaints = [line.strip() for line in text.splitlines() if "*ERROR" in line]
+            row["reason"] = complaints[-1] if complaints else "did not finish"
+        else:
+            row["errors"] = errors(model, folder)
+    elif usage.exit_code and "*ERROR" in text:
+        row["reason"] += ": " + [line.strip() for line in text.splitlines() if "*ERROR" in line][-1]
+    return row

@@ -1,0 +1,215 @@
+#include <touchstone/contact/friction_law.h>
+#include <touchstone/contact/surface.h>
+#include <touchstone/output/folder.h>
+#include <touchstone/output/json.h>
+#include <touchstone/output/model_export.h>
+#include <touchstone/scene/input_error.h>
+#include <touchstone/solid/boundary_conditions.h>
+
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** For each node of a cell in lexicographic order its unknown of component 0
+     * among those of the cell. */
+    std::vector<unsigned int>
+    lexicographic_nodes(const FiniteElement<dim> &fe)
+    {
+      const unsigned int        n = fe.degree + 1;
+      std::vector<unsigned int> result(n * n * n);
+      for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+        if (fe.system_to_component_index(i).first == 0)
+          {
+            unsigned int position = 0;
+            for (unsigned int d = dim; d-- > 0;)
+              position = n * position + static_cast<unsigned int>(
+                                          std::lround(fe.unit_support_point(i)[d] * fe.degree));
+            result[position] = i;
+          }
+      return result;
+    }
+
+
+
+    /** Positions of all nodes, and the cells of each body. */
+    void
+    export_mesh(const Scene &scene, const Solid &solid, Json &model)
+    {
+      const std::vector<unsigned int> order = lexicographic_nodes(solid.fe);
+      std::vector<Point<dim>>         nodes(solid.dof_handler.n_dofs() / dim);
+      std::vector<Json>               cells(scene.bodies.size(), Json::array());
+      std::vector<Index>              dofs(solid.fe.n_dofs_per_cell());
+      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+        {
+          cell->get_dof_indices(dofs);
+          Json list = Json::array();
+          for (const unsigned int i : order)
+            {
+              nodes[dofs[i] / dim] =
+                solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i));
+              list.append(dofs[i] / dim);
+            }
+          cells[cell->material_id()].append(list);
+        }
+
+      Json positions = Json::array();
+      for (const Point<dim> &x : nodes)
+        positions.append(Tensor<1, dim>(x));
+      model.set("nodes", positions);
+      Json bodies = Json::array();
+      for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+        {
+          const BodyParameters &body = scene.bodies[b];
+          bodies.append(Json::object()
+                          .set("name", body.name)
+                          .set("element", body.element_name)
+                          .set("law", body.material.law)
+                          .set("young_modulus", body.material.young_modulus)
+                          .set("poisson_ratio", body.material.poisson_ratio)
+                          .set("cells", cells[b]));
+        }
+      model.set("bodies", bodies);
+    }
+
+
+
+    Json
+    export_faces(const Scene                    &scene,
+                 const Forest                   &forest,
+                 const Solid                    &solid,
+                 const std::string              &body_name,
+                 const std::vector<std::string> &boundaries,
+                 const std::string              &section,
+                 const std::string              &key)
+    {
+      const unsigned int           body = scene.body_index(body_name);
+      std::set<types::boundary_id> ids;
+      for (const std::string &name : boundaries)
+        ids.insert(forest.boundary_id(body, name, section, key));
+      const Surface surface(solid, forest, body, ids, /*exact=*/false);
+      Json          list = Json::array();
+      for (const Face &face : surface.owned_faces())
+        {
+          Json nodes = Json::array();
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            nodes.append(face.nodes[m]);
+          list.append(nodes);
+        }
+      return list;
+    }
+
+
+
+    Json
+    export_pairs(const Scene &scene, const Forest &forest, const Solid &solid)
+    {
+      Json pairs = Json::array();
+      for (const ContactPairParameters &pair : scene.pairs)
+        {
+          FrictionInput input;
+          input.normal_force = 1.;
+          input.area         = 1.;
+          input.sliding      = true;
+          const auto faces   = [&](const auto &body, const auto &boundaries, const auto &key) {
+            return export_faces(scene, forest, solid, body, boundaries, pair.section(), key);
+          };
+          pairs.append(
+            Json::object()
+              .set("name", pair.name)
+              .set("behaviour", pair.behaviour)
+              .set("friction_coefficient", pair.friction ? pair.friction->limit(input).slope : 0.)
+              .set("slave", faces(pair.slave_body, pair.slave_boundaries, "Slave boundaries"))
+              .set("master",
+                   pair.obstacle.empty()
+                     ? faces(pair.master_body, pair.master_boundaries, "Master boundaries")
+                     : Json::array()));
+        }
+      return pairs;
+    }
+
+
+
+    /** The components that are more than round-off of @p scale; -0 is none. */
+    Json
+    node_entry(const Index node, const Tensor<1, dim> &vector, const double scale)
+    {
+      Json entry = Json::array().append(node);
+      for (unsigned int d = 0; d < dim; ++d)
+        entry.append(std::abs(vector[d]) > 1e-14 * scale ? vector[d] : 0.);
+      return entry;
+    }
+
+
+
+    /** Conditions and loads at the end of a step. */
+    Json
+    export_step(const BoundaryConditions &conditions, const Solid &solid, const double time)
+    {
+      std::map<std::string, Json> lists;
+      for (const PrescribedDisplacement &p : conditions.displacements(time))
+        lists.emplace(p.support, Json::array())
+          .first->second.append(node_entry(p.node, p.direction, 1.).append(p.value));
+      Json displacements = Json::object();
+      for (const auto &[support, list] : lists)
+        displacements.set(support, list);
+
+      Vector force(solid.owned, solid.communicator);
+      conditions.external_force(time, force);
+      const double largest = force.linfty_norm();
+      Json         forces  = Json::array();
+      for (Index node = 0; node < solid.dof_handler.n_dofs() / dim; ++node)
+        {
+          Tensor<1, dim> f;
+          for (unsigned int d = 0; d < dim; ++d)
+            f[d] = force(dim * node + d);
+          if (f.norm() > 1e-14 * largest)
+            forces.append(node_entry(node, f, largest));
+        }
+      return Json::object()
+        .set("time", time)
+        .set("displacements", displacements)
+        .set("forces", forces);
+    }
+  } // namespace
+
+
+
+  void
+  export_model(const Scene       &scene,
+               const std::string &folder_of_scene,
+               const std::string &path,
+               const MPI_Comm     communicator)
+  {
+    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
+      throw InputError("command line",
+                       "--export-model",
+                       path,
+                       "a model is exported by one rank",
+                       "start touchstone without mpirun");
+    const Forest             forest(scene, folder_of_scene, communicator);
+    const Solid              solid(scene, forest, communicator);
+    const BoundaryConditions conditions(scene, forest, solid);
+
+    Json model = Json::object();
+    model.set("title", scene.title)
+      .set("degree", scene.discretisation.degree)
+      .set("reference",
+           Json::object()
+             .set("type", scene.reference.type)
+             .set("pair", scene.reference.pair)
+             .set("values", scene.reference.values));
+    export_mesh(scene, solid, model);
+    model.set("pairs", export_pairs(scene, forest, solid));
+    Json               steps = Json::array();
+    const unsigned int n     = scene.load_stepping.steps;
+    for (unsigned int step = 1; step <= n; ++step)
+      steps.append(
+        export_step(conditions, solid, scene.load_stepping.end_time * (double(step) / n)));
+    model.set("steps", steps);
+    write_file_atomically(path, model.print(16));
+  }
+} // namespace Touchstone
