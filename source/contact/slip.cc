@@ -7,17 +7,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  namespace
-  {
-    Tensor<2, dim>
-    tangential_part(const Tensor<1, dim> &normal)
-    {
-      return Tensor<2, dim>(unit_symmetric_tensor<dim>()) - outer_product(normal, normal);
-    }
-  } // namespace
-
-
-
   Tensor<1, dim>
   Contact::position(const Index node) const
   {
@@ -59,7 +48,7 @@ namespace Touchstone
           if (!row.friction || row.status == ContactStatus::no_partner)
             continue;
           FrictionState       &f          = *row.friction;
-          const Tensor<2, dim> tangential = tangential_part(row.normal);
+          const Tensor<2, dim> tangential = tangential_projector(row.normal);
           Tensor<1, dim>       direction;
           for (const StencilEntry &entry : pairs[p].tangents[k])
             direction += entry.weight * position(entry.node);
@@ -143,7 +132,7 @@ namespace Touchstone
   {
     FrictionState                      &f          = *row.friction;
     const RowDerivative                &d          = *row.derivative;
-    const Tensor<2, dim>                tangential = tangential_part(row.normal);
+    const Tensor<2, dim>                tangential = tangential_projector(row.normal);
     std::map<Index, FrictionState::Mat> slip;
     std::map<Index, FrictionState::Vec> spin;
 

@@ -15,6 +15,10 @@ namespace Touchstone
 {
   struct ContactRow;
 
+  /** @brief I - n n, what is left of a vector in the plane of the unit normal n. */
+  dealii::Tensor<2, dim>
+  tangential_projector(const dealii::Tensor<1, dim> &normal);
+
   /**
    * @brief Friction of one slave node: its history, its present slip, and the
    * response that enters the linear system.
@@ -107,6 +111,10 @@ namespace Touchstone
     {
       return components[0] * frame[0] + components[1] * frame[1];
     }
+
+    /** @brief The cone of the law under a normal force. */
+    FrictionLimit
+    cone(double normal_force, bool sliding) const;
 
     /** @brief Take the regularised formulation. */
     void
