@@ -40,6 +40,14 @@ namespace Touchstone
 
 
 
+  FrictionState::Vec
+  FrictionState::irreversible_slip(const Vec &force) const
+  {
+    return carried ? slip - (start - force) / c : slip;
+  }
+
+
+
   void
   choose_friction(ContactRow &row)
   {

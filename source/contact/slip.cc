@@ -118,9 +118,12 @@ namespace Touchstone
       {
         const Tensor<1, dim> force = row.force - row.lambda * row.normal;
         f.stored                   = {{force * f.frame[0], force * f.frame[1]}};
-        f.work -= force * f.slip;
         if (row.status == ContactStatus::slip)
-          f.slip_length += f.slip.norm();
+          {
+            const Tensor<1, dim> slip = f.irreversible_slip(force);
+            f.work -= force * slip;
+            f.slip_length += slip.norm();
+          }
       }
     set_anchor(row);
   }

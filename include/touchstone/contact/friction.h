@@ -60,7 +60,8 @@ namespace Touchstone
     double area = 0.;
     /** Tangential force in the frame that moves with the slave surface. */
     std::array<double, 2> stored{};
-    /** Slip path, length, and work done against friction. */
+    /** Slip path, length, and work done against friction: of the slip that is
+     * not elastic. */
     double slip_length = 0., work = 0.;
     /** @} */
 
@@ -115,6 +116,12 @@ namespace Touchstone
     /** @brief The cone of the law under a normal force. */
     FrictionLimit
     cone(double normal_force, bool sliding) const;
+
+    /** @brief The slip of the present step without its elastic part, the change of
+     * the springs that regularised friction stores its force in.
+     * @param force The present tangential force. */
+    Vec
+    irreversible_slip(const Vec &force) const;
 
     /** @brief Take the regularised formulation. */
     void
