@@ -56,6 +56,10 @@ namespace Touchstone
     Stencil               anchor;
     Vec                   anchor_offset;
     std::array<double, 2> anchor_way{};
+    /** The gap then, and the tangential way that an open node had yet to go until
+     * it touches, which is no slip: part of anchor_way. */
+    double                anchor_gap = 0.;
+    std::array<double, 2> way_to_touch{};
     /** Tributary area there: a law that takes it sees it constant in a step. */
     double area = 0.;
     /** Tangential force in the frame that moves with the slave surface. */
