@@ -19,7 +19,7 @@ slip() {
       --set "Body $body/Geometry/Contact layers=$cells" \
       --set "Body $body/Geometry/Contact width=$width"
   done
-  run "$name" 1 "$scene" "$@"
+  run "$name" "$([ "$name" = ranks ] && echo 2 || echo 1)" "$scene" "$@"
   below "$name" contact_half_width "$(value "$name" /errors/contact_half_width)" "$widths"
   below "$name" stick_half_width "$(value "$name" /errors/stick_half_width)" "$widths"
   below "$name" pressure_l2 "$(value "$name" /errors/pressure_l2)" "$pressure"
@@ -28,6 +28,8 @@ slip() {
 
 slip coarse 6 0.04 0.01 0.08
 slip medium 12 0.025 0.006 0.02
+slip ranks 12 0.025 0.006 0.02
+same medium ranks 1e-6
 slip multipliers 12 0.025 0.006 0.02 --set "Contact/Enforcement=lagrange multipliers"
 same medium multipliers 1e-6
 slip augmented 12 0.025 0.006 0.02 --set "Contact/Enforcement=augmented lagrange"
