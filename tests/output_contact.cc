@@ -47,6 +47,7 @@ main(int argc, char **argv)
           point.pressure           = 10. * pair + node;
           point.traction           = point.pressure * point.normal;
           point.gap                = 0.;
+          point.slip_length        = 3. * node;
           point.area               = 1.;
           point.status             = ContactStatus::slip;
           points.push_back(point);
@@ -71,7 +72,7 @@ main(int argc, char **argv)
     if (last && !root)
       if (point.pressure != 10. * key.first + key.second ||
           point.reference_position[2] != double(key.first) || point.node != key.second ||
-          point.status != ContactStatus::slip)
+          point.slip_length != 3. * key.second || point.status != ContactStatus::slip)
         std::cout << "wrong point" << std::endl;
 
   ContactOutput output(folder);

@@ -35,11 +35,8 @@ namespace Touchstone
       if (!row.friction)
         return ContactStatus::slip;
       const FrictionState &f = *row.friction;
-      FrictionInput        input;
-      input.normal_force = std::max(-row.stiffness * row.gap, 0.);
-      input.area         = row.area;
-      input.slip_length  = f.slip_length;
-      return (f.start - row.stiffness * f.slip).norm() > f.law->limit(input).force
+      return (f.start - row.stiffness * f.slip).norm() >
+                 f.cone(-row.stiffness * row.gap, /*sliding=*/false).force
                ? ContactStatus::slip
                : ContactStatus::stick;
     }

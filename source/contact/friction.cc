@@ -9,12 +9,41 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  Tensor<2, dim>
+  tangential_projector(const Tensor<1, dim> &normal)
+  {
+    return Tensor<2, dim>(unit_symmetric_tensor<dim>()) - outer_product(normal, normal);
+  }
+
+
+
   void
   FrictionState::clear_force()
   {
     base = direction = last_direction = rest = coupling = turn = Vec();
     slope = last_slope = Mat();
     limit = excess = 0.;
+  }
+
+
+
+  FrictionLimit
+  FrictionState::cone(const double normal_force, const bool sliding) const
+  {
+    FrictionInput input;
+    input.normal_force = std::max(normal_force, 0.);
+    input.area         = area;
+    input.slip_length  = slip_length;
+    input.sliding      = sliding;
+    return law->limit(input);
+  }
+
+
+
+  FrictionState::Vec
+  FrictionState::irreversible_slip(const Vec &force) const
+  {
+    return carried ? slip - (start - force) / c : slip;
   }
 
 
@@ -58,18 +87,12 @@ namespace Touchstone
         row.force = row.lambda * row.normal;
         return;
       }
-    using Vec              = FrictionState::Vec;
-    using Mat              = FrictionState::Mat;
-    FrictionState &f       = *row.friction;
-    const bool     slipped = row.status == ContactStatus::slip;
-    const Mat      tangential =
-      Mat(unit_symmetric_tensor<dim>()) - outer_product(row.normal, row.normal);
-    FrictionInput input;
-    input.normal_force        = std::max(row.lambda, 0.);
-    input.area                = f.area;
-    input.slip_length         = f.slip_length;
-    input.sliding             = slipped;
-    const FrictionLimit limit = f.law->limit(input);
+    using Vec                      = FrictionState::Vec;
+    using Mat                      = FrictionState::Mat;
+    FrictionState      &f          = *row.friction;
+    const bool          slipped    = row.status == ContactStatus::slip;
+    const Mat           tangential = tangential_projector(row.normal);
+    const FrictionLimit limit      = f.cone(row.lambda, slipped);
 
     // An exact slip force has no state of its own but its direction: that of the
     // last linearisation, corrected by the slip across it.
@@ -100,7 +123,7 @@ namespace Touchstone
         force               = limit.force * direction;
         f.direction         = direction;
         f.coupling          = limit.slope * direction;
-        f.rest              = (limit.force - limit.slope * input.normal_force) * direction;
+        f.rest              = (limit.force - limit.slope * std::max(row.lambda, 0.)) * direction;
         const double room   = f.carried ? size : std::max(f.excess, 0.);
         const double kappa  = limit.force < stiffest * row.stiffness / f.c * room
                                 ? limit.force * f.c / room

@@ -7,17 +7,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  namespace
-  {
-    Tensor<2, dim>
-    tangential_part(const Tensor<1, dim> &normal)
-    {
-      return Tensor<2, dim>(unit_symmetric_tensor<dim>()) - outer_product(normal, normal);
-    }
-  } // namespace
-
-
-
   Tensor<1, dim>
   Contact::position(const Index node) const
   {
@@ -59,7 +48,7 @@ namespace Touchstone
           if (!row.friction || row.status == ContactStatus::no_partner)
             continue;
           FrictionState       &f          = *row.friction;
-          const Tensor<2, dim> tangential = tangential_part(row.normal);
+          const Tensor<2, dim> tangential = tangential_projector(row.normal);
           Tensor<1, dim>       direction;
           for (const StencilEntry &entry : pairs[p].tangents[k])
             direction += entry.weight * position(entry.node);
@@ -97,7 +86,7 @@ namespace Touchstone
     // Slip is the way of the node from the material point that it faces now, seen
     // in a frame that turns with the surface: no rotation of both bodies changes
     // it. Small sliding: the way of the gap vector. Obstacle: the point of its
-    // surface moves with it.
+    // surface moves with it. What an open node has yet to go is no slip.
     FrictionState &f = *row.friction;
     f.has_anchor     = true;
     f.area           = row.area;
@@ -109,9 +98,36 @@ namespace Touchstone
       f.anchor_offset = row.position - row.gap_vector - row.shift;
     else
       f.anchor = row.stencil;
+    f.anchor_gap             = row.gap;
     const Tensor<1, dim> way = way_from_anchor(row);
-    f.anchor_way             = {{way * f.frame[0], way * f.frame[1]}};
+    for (unsigned int i = 0; i < 2; ++i)
+      f.anchor_way[i] = way * f.frame[i] + f.way_to_touch[i];
   }
+
+
+
+  namespace
+  {
+    /**
+     * The tangential way that an open node has yet to go until it touches, if it
+     * goes on as it came in this step: no friction acts on it so far. A node that
+     * comes in flatter than 45 degrees slides rather than lands, and one without a
+     * past is taken to come along the normal.
+     */
+    std::array<double, 2>
+    way_to_touch(const ContactRow &row)
+    {
+      const FrictionState &f       = *row.friction;
+      const double         closing = f.anchor_gap - row.gap;
+      if (row.active() || row.gap <= 0. || closing <= 0.)
+        return {};
+      const Tensor<1, dim> way = f.slip + f.carry(f.way_to_touch);
+      if (way.norm() > closing)
+        return {};
+      const double steps = row.gap / closing;
+      return {{steps * (way * f.frame[0]), steps * (way * f.frame[1])}};
+    }
+  } // namespace
 
 
 
@@ -122,16 +138,21 @@ namespace Touchstone
     f.stored         = {};
     if (row.status == ContactStatus::no_partner)
       {
-        f.has_anchor = false;
+        f.has_anchor   = false;
+        f.way_to_touch = {};
         return;
       }
+    f.way_to_touch = way_to_touch(row);
     if (row.active())
       {
         const Tensor<1, dim> force = row.force - row.lambda * row.normal;
         f.stored                   = {{force * f.frame[0], force * f.frame[1]}};
-        f.work -= force * f.slip;
         if (row.status == ContactStatus::slip)
-          f.slip_length += f.slip.norm();
+          {
+            const Tensor<1, dim> slip = f.irreversible_slip(force);
+            f.work -= force * slip;
+            f.slip_length += slip.norm();
+          }
       }
     set_anchor(row);
   }
@@ -143,7 +164,7 @@ namespace Touchstone
   {
     FrictionState                      &f          = *row.friction;
     const RowDerivative                &d          = *row.derivative;
-    const Tensor<2, dim>                tangential = tangential_part(row.normal);
+    const Tensor<2, dim>                tangential = tangential_projector(row.normal);
     std::map<Index, FrictionState::Mat> slip;
     std::map<Index, FrictionState::Vec> spin;
 

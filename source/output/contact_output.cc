@@ -7,12 +7,19 @@ namespace Touchstone
 {
   namespace
   {
-    /** Values at a node: 4 scalars, then 4 vectors. */
-    constexpr unsigned int n_scalars = 4, n_vectors = 4;
+    /** Values at a node: 5 scalars, then 4 vectors. */
+    constexpr unsigned int n_scalars = 5, n_vectors = 4;
     constexpr unsigned int n_values = n_scalars + dim * n_vectors;
 
-    const std::array<std::string, n_scalars + n_vectors> names = {
-      {"status", "gap", "pressure", "pair", "normal", "traction", "slip", "displacement"}};
+    const std::array<std::string, n_scalars + n_vectors> names = {{"status",
+                                                                   "gap",
+                                                                   "pressure",
+                                                                   "pair",
+                                                                   "slip_length",
+                                                                   "normal",
+                                                                   "traction",
+                                                                   "slip",
+                                                                   "displacement"}};
 
     std::array<double, n_values>
     values_at(const ContactPoint &point)
@@ -20,7 +27,8 @@ namespace Touchstone
       std::array<double, n_values> values = {{static_cast<double>(static_cast<int>(point.status)),
                                               point.gap,
                                               point.pressure,
-                                              static_cast<double>(point.pair)}};
+                                              static_cast<double>(point.pair),
+                                              point.slip_length}};
       for (unsigned int d = 0; d < dim; ++d)
         {
           values[n_scalars + d]           = point.normal[d];
@@ -62,11 +70,12 @@ namespace Touchstone
     unpack(const Index node, const Parcel &parcel)
     {
       ContactPoint point;
-      point.node     = node;
-      point.status   = static_cast<ContactStatus>(static_cast<int>(parcel[0]));
-      point.gap      = parcel[1];
-      point.pressure = parcel[2];
-      point.pair     = static_cast<unsigned int>(parcel[3]);
+      point.node        = node;
+      point.status      = static_cast<ContactStatus>(static_cast<int>(parcel[0]));
+      point.gap         = parcel[1];
+      point.pressure    = parcel[2];
+      point.pair        = static_cast<unsigned int>(parcel[3]);
+      point.slip_length = parcel[4];
       for (unsigned int d = 0; d < dim; ++d)
         {
           point.normal[d]             = parcel[n_scalars + d];

@@ -15,6 +15,10 @@ namespace Touchstone
 {
   struct ContactRow;
 
+  /** @brief I - n n, what is left of a vector in the plane of the unit normal n. */
+  dealii::Tensor<2, dim>
+  tangential_projector(const dealii::Tensor<1, dim> &normal);
+
   /**
    * @brief Friction of one slave node: its history, its present slip, and the
    * response that enters the linear system.
@@ -52,11 +56,16 @@ namespace Touchstone
     Stencil               anchor;
     Vec                   anchor_offset;
     std::array<double, 2> anchor_way{};
+    /** The gap then, and the tangential way that an open node had yet to go until
+     * it touches, which is no slip: part of anchor_way. */
+    double                anchor_gap = 0.;
+    std::array<double, 2> way_to_touch{};
     /** Tributary area there: a law that takes it sees it constant in a step. */
     double area = 0.;
     /** Tangential force in the frame that moves with the slave surface. */
     std::array<double, 2> stored{};
-    /** Slip path, length, and work done against friction. */
+    /** Slip path, length, and work done against friction: of the slip that is
+     * not elastic. */
     double slip_length = 0., work = 0.;
     /** @} */
 
@@ -107,6 +116,16 @@ namespace Touchstone
     {
       return components[0] * frame[0] + components[1] * frame[1];
     }
+
+    /** @brief The cone of the law under a normal force. */
+    FrictionLimit
+    cone(double normal_force, bool sliding) const;
+
+    /** @brief The slip of the present step without its elastic part, the change of
+     * the springs that regularised friction stores its force in.
+     * @param force The present tangential force. */
+    Vec
+    irreversible_slip(const Vec &force) const;
 
     /** @brief Take the regularised formulation. */
     void

@@ -52,7 +52,8 @@ namespace Touchstone
    * @brief Pictures of the contact surfaces: contact.pvd.
    *
    * Shown on the undeformed slave faces: status (see ContactStatus), gap,
-   * pressure, pair number, normal, traction, slip and displacement.
+   * pressure, pair number, length of the slip path, normal, traction, slip of the
+   * last step and displacement.
    */
   class ContactOutput
   {
