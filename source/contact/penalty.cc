@@ -71,13 +71,11 @@ namespace Touchstone
                 // The force after the iteration is lambda_k - epsilon (g + dg),
                 // and the condition's value is -g.
                 const double         epsilon   = factor * row.stiffness;
-                const Tensor<1, dim> direction = condition.force_direction.norm_square() > 0.
-                                                   ? condition.force_direction
-                                                   : condition.direction;
+                const Tensor<1, dim> direction = condition.force();
                 const double         augmented =
                   row.tied ? row.augmented * direction : row.augmented_lambda;
                 terms.add_load(row, (augmented + epsilon * condition.value) * direction);
-                terms.add_stiffness(row, epsilon * direction, gradient(condition));
+                terms.add_stiffness(row, epsilon * direction, condition.motion_form());
               }
         terms.finish();
       }

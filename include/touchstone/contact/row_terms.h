@@ -5,14 +5,10 @@
 #include <touchstone/algebra/linear_system.h>
 #include <touchstone/contact/row.h>
 
-#include <utility>
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief A linear form of the displacements of some nodes. */
-  using NodalForm = std::vector<std::pair<Index, dealii::Tensor<1, dim>>>;
-
   /**
    * @brief The conditions that an active row puts on the displacement increment:
    * along the normal if it is free to slide, in all directions if it is held; none
@@ -29,10 +25,6 @@ namespace Touchstone
   std::vector<Condition>
   elastic_stick(const ContactRow &row);
 
-  /** @brief Coefficients of a condition by node. */
-  NodalForm
-  gradient(const Condition &condition);
-
   /** @brief Matrix terms and loads at nodes, which may belong to any rank. */
   class RowTerms
   {
@@ -46,8 +38,12 @@ namespace Touchstone
     void
     add_load(const ContactRow &row, const dealii::Tensor<1, dim> &force);
 
-    /** @brief Add the stiffness -d(M^T f) where f changes by -@p force times the
-     * form: M^T force form. */
+    /** @brief Add the stiffness -d(M^T f) where f changes by -@p change du. */
+    void
+    add_stiffness(const ContactRow &row, const NodalMatrices &change);
+
+    /** @brief The same where f changes by -@p force times the form: M^T force
+     * form. */
     void
     add_stiffness(const ContactRow             &row,
                   const dealii::Tensor<1, dim> &force,
