@@ -231,13 +231,27 @@ namespace Touchstone
             diagonal = std::max(diagonal, std::abs(entry.second));
         const double product = condensation.expand(row, expanded);
         replaced[i]          = 1;
+        merge(expanded);
         condensation.scatter(global, expanded, system.rhs(global) - product);
       }
-    for (const MatrixTerm &term : system.terms)
+    // Row by row: neighbouring conditions, and the terms of one row of contact, refer to
+    // the same unknowns again and again. What they say is added up before it is
+    // multiplied, or dense conditions would take most of the time of an assembly.
+    std::vector<MatrixTerm> terms(system.terms);
+    std::stable_sort(terms.begin(), terms.end(), [](const MatrixTerm &a, const MatrixTerm &b) {
+      return a.row < b.row;
+    });
+    for (auto term = terms.begin(); term != terms.end();)
       {
+        const Index i = term->row;
+        row.clear();
         expanded.clear();
-        const double product = condensation.expand({{term.column, term.value}}, expanded);
-        condensation.scatter(term.row, expanded, -product);
+        for (; term != terms.end() && term->row == i; ++term)
+          row.emplace_back(term->column, term->value);
+        merge(row);
+        const double product = condensation.expand(row, expanded);
+        merge(expanded);
+        condensation.scatter(i, expanded, -product);
       }
     for (Index k = 0; k < system.n_extra; ++k)
       condensation.values[system.first_extra + k] += system.extra_rhs[k];
