@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace Touchstone
 {
@@ -13,7 +14,8 @@ namespace Touchstone
     /**
      * Springs between slave node and master surface, lambda = lambda_k - epsilon g:
      * with lambda_k = 0 the penalty method, with lambda_k following the forces the
-     * augmented Lagrangian. The system stays symmetric positive definite.
+     * augmented Lagrangian. Without friction and with frozen normals the system stays
+     * symmetric positive definite.
      * Alart and Curnier (1991), Comput. Methods Appl. Mech. Engng 92;
      * Laursen (2002), Computational Contact and Impact Mechanics.
      */
@@ -45,6 +47,12 @@ namespace Touchstone
       {
         // The system starts from the forces after augmentation, the residual has
         // been judged with those before.
+        Vector residual;
+        if (system.keep_symmetric)
+          {
+            residual = system.rhs;
+            contact.add_forces(residual);
+          }
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
             if (row.active() && row.friction)
@@ -54,6 +62,8 @@ namespace Touchstone
                 evaluate(row);
                 row.force  = force;
                 row.lambda = lambda;
+                if (system.keep_symmetric)
+                  lag_friction(row, balancing_force(row, residual, graph));
               }
 
         RowTerms terms(system);
@@ -81,9 +91,24 @@ namespace Touchstone
       }
 
       void
-      update(Contact &, const std::vector<double> &) override
+      update(Contact &contact, const std::vector<double> &) override
       {
         solved = true;
+        before.clear();
+        for (const auto &pair_rows : contact.rows)
+          for (const ContactRow &row : pair_rows)
+            before.emplace_back(row.augmented_lambda, row.augmented);
+      }
+
+      void
+      shorten(Contact &contact, const double) override
+      {
+        // The increment has been augmented with, which is taken back.
+        solved = true;
+        auto k = before.begin();
+        for (auto &pair_rows : contact.rows)
+          for (ContactRow &row : pair_rows)
+            std::tie(row.augmented_lambda, row.augmented) = *k++;
       }
 
       double
@@ -114,6 +139,24 @@ namespace Touchstone
     private:
       const double factor;
       bool         solved = false;
+      /** Augmented forces of all rows before the last increment. */
+      std::vector<std::pair<double, Tensor<1, dim>>> before;
+
+      /**
+       * The normal force that would balance the slave node: what the last linear
+       * solution meant it to be. The spring itself turns the error of a gap that
+       * normals and weights have changed under the linearisation into a force, and
+       * friction lagged with that force would push the nodes along by it, to the next
+       * such error: with stiff springs on warped faces for ever.
+       */
+      static double
+      balancing_force(const ContactRow &row, const Vector &residual, const ConstraintGraph &graph)
+      {
+        Tensor<1, dim> rest;
+        for (unsigned int d = 0; d < dim; ++d)
+          rest[d] = residual(dim * row.slave + d);
+        return row.lambda - graph.free_part(row.slave, rest) * row.normal;
+      }
 
       /** Forces of an active row from its gap and slip. */
       void

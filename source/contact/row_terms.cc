@@ -88,7 +88,7 @@ namespace Touchstone
     condition.value     = -row.gap;
     if (row.derivative && !keep_symmetric)
       condition.gradient = gap_gradient(row);
-    if (row.friction && !keep_symmetric && row.friction->coupling.norm_square() > 0.)
+    if (row.friction && row.friction->coupling.norm_square() > 0.)
       condition.force_direction = row.normal + row.friction->coupling;
     conditions.push_back(condition);
     if (row.held())
@@ -103,6 +103,23 @@ namespace Touchstone
           conditions.push_back(condition);
         }
     return conditions;
+  }
+
+
+
+  void
+  lag_friction(ContactRow &row, const double lambda)
+  {
+    if (!row.friction || !row.active() || row.tied)
+      return;
+    const Tensor<1, dim> force   = row.force;
+    const double         present = row.lambda;
+    row.lambda                   = std::max(lambda, 0.);
+    respond(row);
+    row.friction->rest += row.lambda * row.friction->coupling;
+    row.friction->coupling = Tensor<1, dim>();
+    row.force              = force;
+    row.lambda             = present;
   }
 
 
@@ -190,8 +207,7 @@ namespace Touchstone
     FrictionState &f = *row.friction;
     f.last_direction = f.direction;
     f.last_slope     = f.slope;
-    // Lagged, the friction of the present normal force stays.
-    add_load(row, system.keep_symmetric ? f.rest + row.lambda * f.coupling : f.rest);
+    add_load(row, f.rest);
     if (f.slope.norm_square() > 0.)
       {
         NodalMatrices change;

@@ -25,6 +25,17 @@ namespace Touchstone
   std::vector<Condition>
   elastic_stick(const ContactRow &row);
 
+  /**
+   * @brief Let the friction of a row stay what it is at the normal force @p lambda,
+   * so that it changes with its slip only and the system stays symmetric.
+   *
+   * Where @p lambda comes from decides whether the iteration converges: it should be
+   * the force that balances the slave node, and not a stiff spring times what a
+   * linearisation has left of the gap.
+   */
+  void
+  lag_friction(ContactRow &row, double lambda);
+
   /** @brief Matrix terms and loads at nodes, which may belong to any rank. */
   class RowTerms
   {
