@@ -3,8 +3,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <map>
-
 namespace Touchstone
 {
   using namespace dealii;
@@ -84,21 +82,18 @@ namespace Touchstone
       void
       update(Contact &, const std::vector<double> &extra) override
       {
-        before.clear();
-        after.clear();
+        for (const Multiplier &multiplier : multipliers)
+          multiplier.row->force = Tensor<1, dim>();
         for (unsigned int k = 0; k < multipliers.size(); ++k)
+          multipliers[k].row->force -=
+            multipliers[k].scale * extra[k] * multipliers[k].condition.direction;
+        for (const Multiplier &multiplier : multipliers)
           {
-            ContactRow *row = multipliers[k].row;
-            before.emplace(row, row->force);
-            after[row] -= multipliers[k].scale * extra[k] * multipliers[k].condition.direction;
+            ContactRow &row = *multiplier.row;
+            row.lambda      = row.force * row.normal;
+            if (row.friction && row.held())
+              row.friction->base = row.force - row.lambda * row.normal;
           }
-        take(1.);
-      }
-
-      void
-      shorten(Contact &, const double fraction) override
-      {
-        take(fraction);
       }
 
     private:
@@ -109,21 +104,6 @@ namespace Touchstone
         double      scale;
       };
       std::vector<Multiplier> multipliers;
-      /** Forces of the rows before and after the last increment. */
-      std::map<ContactRow *, Tensor<1, dim>> before, after;
-
-      /** Take the part @p fraction of the way from the forces before to those after. */
-      void
-      take(const double fraction) const
-      {
-        for (const auto &[row, force] : after)
-          {
-            row->force  = fraction * force + (1. - fraction) * before.at(row);
-            row->lambda = row->force * row->normal;
-            if (row->friction && row->held())
-              row->friction->base = row->force - row->lambda * row->normal;
-          }
-      }
     };
 
     const EnforcementRegistry::Entry<LagrangeMultipliers>

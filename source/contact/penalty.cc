@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace Touchstone
 {
@@ -91,24 +90,9 @@ namespace Touchstone
       }
 
       void
-      update(Contact &contact, const std::vector<double> &) override
+      update(Contact &, const std::vector<double> &) override
       {
         solved = true;
-        before.clear();
-        for (const auto &pair_rows : contact.rows)
-          for (const ContactRow &row : pair_rows)
-            before.emplace_back(row.augmented_lambda, row.augmented);
-      }
-
-      void
-      shorten(Contact &contact, const double) override
-      {
-        // The increment has been augmented with, which is taken back.
-        solved = true;
-        auto k = before.begin();
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            std::tie(row.augmented_lambda, row.augmented) = *k++;
       }
 
       double
@@ -139,8 +123,6 @@ namespace Touchstone
     private:
       const double factor;
       bool         solved = false;
-      /** Augmented forces of all rows before the last increment. */
-      std::vector<std::pair<double, Tensor<1, dim>>> before;
 
       /**
        * The normal force that would balance the slave node: what the last linear

@@ -56,13 +56,6 @@ namespace Touchstone
     /** @brief Take the values of this rank's extra unknowns. */
     virtual void
     update(Contact &contact, const std::vector<double> &extra) = 0;
-
-    /** @brief Only the part @p fraction of the last increment is taken, 1 all of it
-     * again: forces that the last update() led to follow. */
-    virtual void
-    shorten(Contact &, const double)
-    {
-    }
   };
 
   using EnforcementRegistry = Registry<Enforcement, const ContactParameters &>;
