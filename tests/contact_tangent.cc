@@ -313,7 +313,7 @@ end
           columns.insert(term.column);
       for_each_condition(
         [&](unsigned int, const ContactRow &, unsigned int, const Condition &condition) {
-          for (const auto &[node, coefficients] : gradient(condition))
+          for (const auto &[node, coefficients] : condition.motion_form())
             for (unsigned int d = 0; d < dim; ++d)
               columns.insert(dim * node + d);
         });
@@ -347,9 +347,8 @@ end
           const auto &conditions = graph.accepted();
           for (unsigned int k = 0; k < conditions.size(); ++k)
             {
-              const Condition     &c = conditions[k];
-              const Tensor<1, dim> direction =
-                c.force_direction.norm_square() > 0. ? c.force_direction : c.direction;
+              const Condition     &c         = conditions[k];
+              const Tensor<1, dim> direction = c.force();
               for (unsigned int d = 0; d < dim; ++d)
                 {
                   unknowns.push_back(dim * c.node + d);
@@ -509,7 +508,7 @@ end
                                  const Condition   &condition) {
           const std::size_t r     = &row - &c.rows()[0];
           double            value = 0.;
-          for (const auto &[node, coefficients] : gradient(condition))
+          for (const auto &[node, coefficients] : condition.motion_form())
             for (unsigned int d = 0; d < dim; ++d)
               value += coefficients[d] * v(dim * node + d);
           const double exact =
@@ -562,9 +561,9 @@ end
     c.for_each_condition(
       [&](const unsigned int k, const ContactRow &, unsigned int, const Condition &condition) {
         Tensor<1, dim> own, used;
-        for (const auto &[node, coefficients] : gradient(condition))
+        for (const auto &[node, coefficients] : condition.motion_form())
           own += coefficients;
-        for (const auto &[node, coefficients] : gradient(c.graph.accepted()[k]))
+        for (const auto &[node, coefficients] : c.graph.accepted()[k].motion_form())
           used += coefficients;
         good = good && (own - used).norm() < 1e-12;
       });

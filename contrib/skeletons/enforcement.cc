@@ -64,12 +64,10 @@ namespace Touchstone
                   system.symmetric = false;
                 // TODO: the condition's part in the linear system; its value is -g.
                 // Where friction drags along, its force has a direction of its own.
-                const dealii::Tensor<1, dim> direction =
-                  condition.force_direction.norm_square() > 0. ? condition.force_direction
-                                                               : condition.direction;
+                const dealii::Tensor<1, dim> direction = condition.force();
                 const double lambda = row.tied ? row.augmented * direction : row.augmented_lambda;
                 terms.add_load(row, (lambda + epsilon(row) * condition.value) * direction);
-                terms.add_stiffness(row, epsilon(row) * direction, gradient(condition));
+                terms.add_stiffness(row, epsilon(row) * direction, condition.motion_form());
               }
         terms.finish(); // collective
       }

@@ -54,6 +54,20 @@ namespace Touchstone
 
 
 
+  ConstraintGraph::Side::Side(const Index node, const NodalForm &form, const double value)
+    : value(value)
+  {
+    for (const auto &[other, coefficients] : form)
+      if (other == node)
+        direction += coefficients;
+      else
+        for (unsigned int d = 0; d < dim; ++d)
+          if (coefficients[d] != 0.)
+            others[dim * other + d] += coefficients[d];
+  }
+
+
+
   void
   ConstraintGraph::clear()
   {
@@ -106,32 +120,10 @@ namespace Touchstone
   ConstraintGraph::accept(const Condition &condition, const Treatment treatment)
   {
     ReducedCondition reduced;
-    reduced.treatment       = treatment;
-    reduced.symmetric       = condition.symmetric();
-    reduced.force.direction = condition.force_direction.norm_square() > 0.
-                                ? condition.force_direction
-                                : condition.direction;
-    for (const StencilEntry &entry : condition.stencil)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (reduced.force.direction[d] != 0. && entry.weight != 0.)
-          reduced.force.others[dim * entry.node + d] -= entry.weight * reduced.force.direction[d];
-    if (condition.gradient.empty())
-      {
-        reduced.motion.direction = condition.direction;
-        for (const StencilEntry &entry : condition.stencil)
-          for (unsigned int d = 0; d < dim; ++d)
-            if (condition.direction[d] != 0. && entry.weight != 0.)
-              reduced.motion.others[dim * entry.node + d] -= entry.weight * condition.direction[d];
-      }
-    else
-      for (const auto &[node, coefficients] : condition.gradient)
-        if (node == condition.node)
-          reduced.motion.direction += coefficients;
-        else
-          for (unsigned int d = 0; d < dim; ++d)
-            if (coefficients[d] != 0.)
-              reduced.motion.others[dim * node + d] += coefficients[d];
-    reduced.motion.value = condition.value;
+    reduced.treatment = treatment;
+    reduced.symmetric = condition.symmetric();
+    reduced.motion    = Side(condition.node, condition.motion_form(), condition.value);
+    reduced.force     = Side(condition.node, condition.force_form(), 0.);
     reduce(condition.node, reduced);
 
     // The pivot must do for both sides.

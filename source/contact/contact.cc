@@ -294,6 +294,17 @@ namespace Touchstone
     for (Pair &pair : pairs)
       if (!pair.small)
         pair.pairing->commit_positions(ghosted);
+    // What belongs to the linearisation is made anew in each iteration.
+    for (auto &pair_rows : rows)
+      for (ContactRow &row : pair_rows)
+        {
+          row.derivative.reset();
+          if (row.friction)
+            {
+              row.friction->slip_gradient.clear();
+              row.friction->spin_gradient.clear();
+            }
+        }
     committed = rows;
   }
 

@@ -39,21 +39,12 @@ namespace Touchstone
         const auto active = active_slaves(contact, system.rhs.get_mpi_communicator());
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
-            for (Condition &condition : start_row(row, system.keep_symmetric))
-              {
-                // Slave nodes whose conditions refer to each other cannot all be
-                // eliminated: each takes its neighbours to move like itself.
-                Tensor<1, dim> lagged;
-                for (auto &[node, coefficients] : condition.gradient)
-                  if (node != row.slave && active.count({row.pair, node}) > 0)
-                    {
-                      lagged += coefficients;
-                      coefficients = Tensor<1, dim>();
-                    }
-                if (lagged.norm_square() > 0.)
-                  condition.gradient.emplace_back(row.slave, lagged);
-                row.take(graph.accept(condition));
-              }
+            {
+              if (system.keep_symmetric)
+                lag_friction(row, row.lambda);
+              for (Condition &condition : start_row(row, system.keep_symmetric))
+                offer(row, condition, active, graph);
+            }
       }
 
       void
@@ -62,9 +53,29 @@ namespace Touchstone
       }
 
     private:
+      using Slaves = std::set<std::pair<unsigned int, Index>>;
+
+      /** Offer a condition to the graph. Slave nodes whose conditions refer to each
+       * other cannot all be eliminated: each takes its neighbours to move like
+       * itself. */
+      static void
+      offer(ContactRow &row, Condition &condition, const Slaves &active, ConstraintGraph &graph)
+      {
+        Tensor<1, dim> lagged;
+        for (auto &[node, coefficients] : condition.gradient)
+          if (node != row.slave && active.count({row.pair, node}) > 0)
+            {
+              lagged += coefficients;
+              coefficients = Tensor<1, dim>();
+            }
+        if (lagged.norm_square() > 0.)
+          condition.gradient.emplace_back(row.slave, lagged);
+        row.take(graph.accept(condition));
+      }
+
       /** Pairs and slave nodes of all active rows, if any of this rank's rows has a
        * derivative. Collective. */
-      static std::set<std::pair<unsigned int, Index>>
+      static Slaves
       active_slaves(const Contact &contact, const MPI_Comm communicator)
       {
         int                                         needed = 0;
@@ -76,7 +87,7 @@ namespace Touchstone
                 mine.emplace_back(row.pair, row.slave);
                 needed |= (row.derivative != nullptr);
               }
-        std::set<std::pair<unsigned int, Index>> all;
+        Slaves all;
         if (Utilities::MPI::max(needed, communicator) == 1)
           for (const auto &of_rank : Utilities::MPI::all_gather(communicator, mine))
             all.insert(of_rank.begin(), of_rank.end());
@@ -85,6 +96,6 @@ namespace Touchstone
     };
 
     const EnforcementRegistry::Entry<Elimination>
-      entry("elimination", "slave components condensed out; positive definite, any solver");
+      entry("elimination", "slave components condensed out; any solver");
   } // namespace
 } // namespace Touchstone

@@ -65,19 +65,13 @@ namespace Touchstone
             // Scaled to the size of the stiffness, so that neither block is lost
             // in the other's round-off.
             const double scale = multipliers[k].scale;
-            for (const auto &[node, coefficients] : gradient(condition))
+            for (const auto &[node, coefficients] : condition.motion_form())
               for (unsigned int d = 0; d < dim; ++d)
                 if (coefficients[d] != 0.)
                   system.terms.push_back({extra, dim * node + d, scale * coefficients[d]});
-            Condition force = condition;
             if (!condition.symmetric())
-              {
-                system.symmetric = false;
-                force.gradient.clear();
-                if (force.force_direction.norm_square() > 0.)
-                  force.direction = force.force_direction;
-              }
-            for (const auto &[node, coefficients] : gradient(force))
+              system.symmetric = false;
+            for (const auto &[node, coefficients] : condition.force_form())
               for (unsigned int d = 0; d < dim; ++d)
                 if (coefficients[d] != 0.)
                   system.terms.push_back({dim * node + d, extra, scale * coefficients[d]});

@@ -14,7 +14,8 @@ namespace Touchstone
     /**
      * Springs between slave node and master surface, lambda = lambda_k - epsilon g:
      * with lambda_k = 0 the penalty method, with lambda_k following the forces the
-     * augmented Lagrangian. The system stays symmetric positive definite.
+     * augmented Lagrangian. Without friction and with frozen normals the system stays
+     * symmetric positive definite.
      * Alart and Curnier (1991), Comput. Methods Appl. Mech. Engng 92;
      * Laursen (2002), Computational Contact and Impact Mechanics.
      */
@@ -48,6 +49,12 @@ namespace Touchstone
       {
         // The system starts from the forces after augmentation, the residual has
         // been judged with those before.
+        Vector residual;
+        if (system.keep_symmetric)
+          {
+            residual = system.rhs;
+            contact.add_forces(residual);
+          }
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
             if (row.active() && row.friction)
@@ -57,6 +64,8 @@ namespace Touchstone
                 evaluate(row);
                 row.force  = force;
                 row.lambda = lambda;
+                if (system.keep_symmetric)
+                  lag_friction(row, balancing_force(row, residual, graph));
               }
 
         RowTerms terms(system);
@@ -73,13 +82,11 @@ namespace Touchstone
                 // The force after the iteration is lambda_k - epsilon (g + dg),
                 // and the condition's value is -g.
                 const double         epsilon   = factor * row.stiffness;
-                const Tensor<1, dim> direction = condition.force_direction.norm_square() > 0.
-                                                   ? condition.force_direction
-                                                   : condition.direction;
+                const Tensor<1, dim> direction = condition.force();
                 const double         augmented =
                   row.tied ? row.augmented * direction : row.augmented_lambda;
                 terms.add_load(row, (augmented + epsilon * condition.value) * direction);
-                terms.add_stiffness(row, epsilon * direction, gradient(condition));
+                terms.add_stiffness(row, epsilon * direction, condition.motion_form());
               }
         terms.finish();
       }
@@ -131,6 +138,22 @@ namespace Touchstone
     private:
       const double factor;
       bool         solved = false;
+
+      /**
+       * The normal force that would balance the slave node: what the last linear
+       * solution meant it to be. The spring itself turns the error of a gap that
+       * normals and weights have changed under the linearisation into a force, and
+       * friction lagged with that force would push the nodes along by it, to the next
+       * such error: with stiff springs on warped faces for ever.
+       */
+      static double
+      balancing_force(const ContactRow &row, const Vector &residual, const ConstraintGraph &graph)
+      {
+        Tensor<1, dim> rest;
+        for (unsigned int d = 0; d < dim; ++d)
+          rest[d] = residual(dim * row.slave + d);
+        return row.lambda - graph.free_part(row.slave, rest) * row.normal;
+      }
 
       /** Forces of an active row from its gap and slip. */
       void

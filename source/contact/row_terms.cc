@@ -8,16 +8,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Coefficients of a relative motion along @p direction. */
-    NodalForm
-    product_form(const Index slave, const Stencil &stencil, const Tensor<1, dim> &direction)
-    {
-      NodalForm form{{slave, direction}};
-      for (const StencilEntry &entry : stencil)
-        form.emplace_back(entry.node, -entry.weight * direction);
-      return form;
-    }
-
     /** d gap / d x_a, where normal and stencil change. */
     NodalForm
     gap_gradient(const ContactRow &row)
@@ -40,12 +30,7 @@ namespace Touchstone
         form.emplace_back(node, direction * matrix);
       return form;
     }
-  } // namespace
 
-
-
-  namespace
-  {
     /** A condition of the row without direction and value. */
     Condition
     blank_condition(const ContactRow &row)
@@ -82,7 +67,7 @@ namespace Touchstone
   start_row(ContactRow &row, const bool keep_symmetric)
   {
     row.accepted = row.refused = 0;
-    row.normal_accepted         = true;
+    row.normal_accepted        = true;
     if (!row.active())
       return {};
     Condition              condition = blank_condition(row);
@@ -103,7 +88,7 @@ namespace Touchstone
     condition.value     = -row.gap;
     if (row.derivative && !keep_symmetric)
       condition.gradient = gap_gradient(row);
-    if (row.friction && !keep_symmetric && row.friction->coupling.norm_square() > 0.)
+    if (row.friction && row.friction->coupling.norm_square() > 0.)
       condition.force_direction = row.normal + row.friction->coupling;
     conditions.push_back(condition);
     if (row.held())
@@ -122,12 +107,19 @@ namespace Touchstone
 
 
 
-  NodalForm
-  gradient(const Condition &condition)
+  void
+  lag_friction(ContactRow &row, const double lambda)
   {
-    return condition.gradient.empty()
-             ? product_form(condition.node, condition.stencil, condition.direction)
-             : condition.gradient;
+    if (!row.friction || !row.active() || row.tied)
+      return;
+    const Tensor<1, dim> force   = row.force;
+    const double         present = row.lambda;
+    row.lambda                   = std::max(lambda, 0.);
+    respond(row);
+    row.friction->rest += row.lambda * row.friction->coupling;
+    row.friction->coupling = Tensor<1, dim>();
+    row.force              = force;
+    row.lambda             = present;
   }
 
 
@@ -135,7 +127,7 @@ namespace Touchstone
   void
   RowTerms::add_load(const ContactRow &row, const Tensor<1, dim> &force)
   {
-    for (const auto &[node, part] : product_form(row.slave, row.stencil, force))
+    for (const auto &[node, part] : relative_motion(row.slave, row.stencil, force))
       for (unsigned int d = 0; d < dim; ++d)
         {
           unknowns.push_back(dim * node + d);
@@ -146,16 +138,29 @@ namespace Touchstone
 
 
   void
+  RowTerms::add_stiffness(const ContactRow &row, const NodalMatrices &change)
+  {
+    const auto add = [&](const Index node, const double weight) {
+      for (const auto &[other, matrix] : change)
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = 0; e < dim; ++e)
+            if (weight * matrix[d][e] != 0.)
+              system.terms.push_back({dim * node + d, dim * other + e, weight * matrix[d][e]});
+    };
+    add(row.slave, 1.);
+    for (const StencilEntry &entry : row.stencil)
+      add(entry.node, -entry.weight);
+  }
+
+
+
+  void
   RowTerms::add_stiffness(const ContactRow &row, const Tensor<1, dim> &force, const NodalForm &form)
   {
-    for (const auto &[node, part] : product_form(row.slave, row.stencil, force))
-      for (unsigned int d = 0; d < dim; ++d)
-        if (part[d] != 0.)
-          for (const auto &[other, coefficients] : form)
-            for (unsigned int e = 0; e < dim; ++e)
-              if (coefficients[e] != 0.)
-                system.terms.push_back(
-                  {dim * node + d, dim * other + e, part[d] * coefficients[e]});
+    NodalMatrices change;
+    for (const auto &[node, coefficients] : form)
+      change.emplace_back(node, outer_product(force, coefficients));
+    add_stiffness(row, change);
   }
 
 
@@ -166,18 +171,12 @@ namespace Touchstone
     // f = lambda n + t with t turning with the normal: df = lambda dn - n (t . dn).
     const RowDerivative &derivative = *row.derivative;
     const Tensor<1, dim> tangential = row.force - row.lambda * row.normal;
-    Tensor<2, dim>       turn       = outer_product(row.normal, tangential);
-    for (unsigned int d = 0; d < dim; ++d)
-      turn[d][d] -= row.lambda;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        Tensor<1, dim> e;
-        e[d] = 1.;
-        NodalForm form;
-        for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
-          form.emplace_back(derivative.nodes[a], turn[d] * derivative.normal[a]);
-        add_stiffness(row, e, form);
-      }
+    const Tensor<2, dim> turn       = outer_product(row.normal, tangential) -
+                                row.lambda * Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    NodalMatrices change;
+    for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+      change.emplace_back(derivative.nodes[a], turn * derivative.normal[a]);
+    add_stiffness(row, change);
     // Master nodes take -w_m f.
     for (std::size_t m = 0; m < row.stencil.size(); ++m)
       for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
@@ -208,19 +207,21 @@ namespace Touchstone
     FrictionState &f = *row.friction;
     f.last_direction = f.direction;
     f.last_slope     = f.slope;
-    // Lagged, the friction of the present normal force stays.
-    add_load(row, system.keep_symmetric ? f.rest + row.lambda * f.coupling : f.rest);
+    add_load(row, f.rest);
     if (f.slope.norm_square() > 0.)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          Tensor<1, dim> e;
-          e[d] = 1.;
-          add_stiffness(row,
-                        e,
-                        f.slip_gradient.empty() || system.keep_symmetric
-                          ? product_form(row.slave, row.stencil, f.slope[d])
-                          : slip_form(row, f.slope[d]));
-        }
+      {
+        NodalMatrices change;
+        if (f.slip_gradient.empty() || system.keep_symmetric)
+          {
+            change.emplace_back(row.slave, f.slope);
+            for (const StencilEntry &entry : row.stencil)
+              change.emplace_back(entry.node, -entry.weight * f.slope);
+          }
+        else
+          for (const auto &[node, matrix] : f.slip_gradient)
+            change.emplace_back(node, f.slope * matrix);
+        add_stiffness(row, change);
+      }
     if (!f.spin_gradient.empty() && !system.keep_symmetric && f.turn.norm_square() > 0.)
       add_stiffness(row, f.turn, f.spin_gradient);
   }

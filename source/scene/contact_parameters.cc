@@ -241,7 +241,7 @@ namespace Touchstone
     prm.add_parameter("Enforcement",
                       enforcement,
                       "How contact is enforced: 'elimination' of the slave unknowns, which "
-                      "leaves a symmetric positive definite system for any linear solver; "
+                      "leaves a system for any linear solver; "
                       "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
                       "'augmented lagrange', springs whose forces grow until the gaps close; "
                       "or 'penalty', springs that leave a penetration.",

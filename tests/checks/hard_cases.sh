@@ -69,6 +69,11 @@ hard "slave edge along a master edge" base 0.3 1 edge_on_edge
 hard "warped master faces" base 0.3 1 warped_master
 hard "ten times too large a step" base 0.3 1 large_step
 hard "all contact lost" base 0.3 1 lift_off
+for ranks in 1 2; do
+  hard "friction lagged beside stiff springs" base 0.3 $ranks warped_master \
+    --set "Linear solver/Type=Belos CG" --set "Contact/Enforcement=augmented lagrange" \
+    --set "$pair/Pairing=pointwise"
+done
 for ranks in 2 3 4; do
   hard "off the edge and back" base 0.3 $ranks edge_and_back
   same "off_the_edge_and_back_1" "off_the_edge_and_back_$ranks" 1e-8

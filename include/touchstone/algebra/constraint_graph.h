@@ -38,9 +38,12 @@ namespace Touchstone
     /** Direction of the force; zero: d. */
     dealii::Tensor<1, dim> force_direction;
     /** All coefficients of the condition by node; empty: those of d and stencil. */
-    std::vector<std::pair<Index, dealii::Tensor<1, dim>>> gradient;
+    NodalForm gradient;
     /** Body of the node, and of the stencil. */
     unsigned int body = 0, master_body = 0;
+    /** Position of the node and of the stencil's point, for rigid-body modes. */
+    dealii::Tensor<1, dim> position, master_position;
+
     /** @brief The force meets the condition along its own coefficients. */
     bool
     symmetric() const
@@ -48,8 +51,26 @@ namespace Touchstone
       return force_direction.norm_square() == 0. && gradient.empty();
     }
 
-    /** Position of the node and of the stencil's point, for rigid-body modes. */
-    dealii::Tensor<1, dim> position, master_position;
+    /** @brief The direction of the force on the node. */
+    const dealii::Tensor<1, dim> &
+    force() const
+    {
+      return force_direction.norm_square() > 0. ? force_direction : direction;
+    }
+
+    /** @brief What of the displacement increment the condition prescribes. */
+    NodalForm
+    motion_form() const
+    {
+      return gradient.empty() ? relative_motion(node, stencil, direction) : gradient;
+    }
+
+    /** @brief What the force of the condition does work on. */
+    NodalForm
+    force_form() const
+    {
+      return relative_motion(node, stencil, force());
+    }
   };
 
   /**
@@ -155,6 +176,9 @@ namespace Touchstone
       dealii::Tensor<1, dim>  direction;
       std::map<Index, double> others;
       double                  value = 0.;
+
+      Side() = default;
+      Side(Index node, const NodalForm &form, double value);
     };
 
     struct ReducedCondition

@@ -5,14 +5,10 @@
 #include <touchstone/algebra/linear_system.h>
 #include <touchstone/contact/row.h>
 
-#include <utility>
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief A linear form of the displacements of some nodes. */
-  using NodalForm = std::vector<std::pair<Index, dealii::Tensor<1, dim>>>;
-
   /**
    * @brief The conditions that an active row puts on the displacement increment:
    * along the normal if it is free to slide, in all directions if it is held; none
@@ -29,9 +25,16 @@ namespace Touchstone
   std::vector<Condition>
   elastic_stick(const ContactRow &row);
 
-  /** @brief Coefficients of a condition by node. */
-  NodalForm
-  gradient(const Condition &condition);
+  /**
+   * @brief Let the friction of a row stay what it is at the normal force @p lambda,
+   * so that it changes with its slip only and the system stays symmetric.
+   *
+   * Where @p lambda comes from decides whether the iteration converges: it should be
+   * the force that balances the slave node, and not a stiff spring times what a
+   * linearisation has left of the gap.
+   */
+  void
+  lag_friction(ContactRow &row, double lambda);
 
   /** @brief Matrix terms and loads at nodes, which may belong to any rank. */
   class RowTerms
@@ -46,8 +49,12 @@ namespace Touchstone
     void
     add_load(const ContactRow &row, const dealii::Tensor<1, dim> &force);
 
-    /** @brief Add the stiffness -d(M^T f) where f changes by -@p force times the
-     * form: M^T force form. */
+    /** @brief Add the stiffness -d(M^T f) where f changes by -@p change du. */
+    void
+    add_stiffness(const ContactRow &row, const NodalMatrices &change);
+
+    /** @brief The same where f changes by -@p force times the form: M^T force
+     * form. */
     void
     add_stiffness(const ContactRow             &row,
                   const dealii::Tensor<1, dim> &force,

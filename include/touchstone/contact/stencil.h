@@ -3,6 +3,9 @@
 
 #include <touchstone/types.h>
 
+#include <deal.II/base/tensor.h>
+
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -16,6 +19,23 @@ namespace Touchstone
   };
 
   using Stencil = std::vector<StencilEntry>;
+
+  /** @brief A linear form of the displacements of some nodes: coefficients by node. */
+  using NodalForm = std::vector<std::pair<Index, dealii::Tensor<1, dim>>>;
+
+  /** @brief A vector that depends linearly on the displacements of some nodes. */
+  using NodalMatrices = std::vector<std::pair<Index, dealii::Tensor<2, dim>>>;
+
+  /** @brief The motion of @p node relative to what it faces by @p stencil, along
+   * @p direction. */
+  inline NodalForm
+  relative_motion(const Index node, const Stencil &stencil, const dealii::Tensor<1, dim> &direction)
+  {
+    NodalForm form{{node, direction}};
+    for (const StencilEntry &entry : stencil)
+      form.emplace_back(entry.node, -entry.weight * direction);
+    return form;
+  }
 } // namespace Touchstone
 
 #endif
