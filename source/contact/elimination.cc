@@ -107,6 +107,13 @@ namespace Touchstone
       {
       }
 
+      /** Whatever is not round-off must not lead back. */
+      double
+      smallest_circle() const override
+      {
+        return 1e-12;
+      }
+
     private:
       /** Pairs and slave nodes of all active rows, if any of this rank's rows has a
        * derivative. Collective. */
