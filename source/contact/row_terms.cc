@@ -82,7 +82,7 @@ namespace Touchstone
   start_row(ContactRow &row, const bool keep_symmetric)
   {
     row.accepted = row.refused = 0;
-    row.normal_accepted         = true;
+    row.normal_accepted        = true;
     if (!row.active())
       return {};
     if (row.closes_circle)

@@ -75,9 +75,9 @@ namespace Touchstone
     /** Visit the quadrature points of all loaded faces of cells that are owned, or also
      * of ghost cells. */
     void
-    for_each_point(double                                    t,
-                   const Vector                             &u,
-                   bool                                      with_ghosts,
+    for_each_point(double                                           t,
+                   const Vector                                    &u,
+                   bool                                             with_ghosts,
                    const std::function<void(const dealii::FEFaceValues<dim> &,
                                             unsigned int              q,
                                             const std::vector<Index> &dofs,
