@@ -15,21 +15,59 @@ using namespace dealii;
 
 namespace
 {
-  const std::string upper = "set Lower corner = 0.12, 0.1, 1\n"
-                            "set Upper corner = 0.88, 0.9, 2\n"
-                            "set Cells        = 2, 3, 1";
+  const std::string blocks = R"(
+set Bodies        = lower, upper
+set Contact pairs = pair
+subsection Body lower
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Cells = 3, 2, 1
+  end
+end
+subsection Body upper
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Lower corner = 0.12, 0.1, 1
+    set Upper corner = 0.88, 0.9, 2
+    set Cells        = 2, 3, 1
+  end
+end
+subsection Contact pair pair
+  set Slave body        = upper
+  set Slave boundaries  = bottom
+  set Master body       = lower
+  set Master boundaries = top
+  set Contact geometry  = faceted
+end
+)";
 
-  const std::string blocks = two_bodies("lower",
-                                        "set Cells = 3, 2, 1",
-                                        "upper",
-                                        upper,
-                                        slave_and_master("upper", "bottom", "lower", "top") +
-                                          "\nset Contact geometry = faceted");
-
-  const std::string obstacle =
-    "set Bodies = lower, upper\nset Obstacles = rigid\nset Contact pairs = pair\n" +
-    body_section("lower", "set Upper corner = 1, 1, 0.1\nset Cells = 1, 1, 1") +
-    body_section("upper", upper) + R"(
+  const std::string obstacle = R"(
+set Bodies        = lower, upper
+set Obstacles     = rigid
+set Contact pairs = pair
+subsection Body lower
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Upper corner = 1, 1, 0.1
+    set Cells = 1, 1, 1
+  end
+end
+subsection Body upper
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Geometry
+    set Lower corner = 0.12, 0.1, 1
+    set Upper corner = 0.88, 0.9, 2
+    set Cells        = 2, 3, 1
+  end
+end
 subsection Obstacle rigid
   set Shape  = sphere
   set Point  = 0.4, 0.45, -1
