@@ -8,104 +8,42 @@ using namespace dealii;
 
 namespace
 {
-  const std::string blocks = R"(
-set Bodies        = lower, upper
-set Contact pairs = pair
-subsection Body lower
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-    set Cells = 4, 3, 2
-  end
-end
-subsection Body upper
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-    set Lower corner = 0.07, 0.03, 1
-    set Upper corner = 0.93, 0.95, 2
-    set Cells        = 5, 4, 2
-  end
-end
-subsection Contact pair pair
-  set Slave body        = upper
-  set Slave boundaries  = bottom
-  set Master body       = lower
-  set Master boundaries = top
-end
-)";
+  const std::string blocks = two_bodies("lower",
+                                        "set Cells = 4, 3, 2",
+                                        "upper",
+                                        "set Lower corner = 0.07, 0.03, 1\n"
+                                        "set Upper corner = 0.93, 0.95, 2\n"
+                                        "set Cells        = 5, 4, 2",
+                                        slave_and_master("upper", "bottom", "lower", "top"));
 
   // The upper block stands over the edges and a corner of the lower one.
-  const std::string overhang = R"(
-set Bodies        = lower, upper
-set Contact pairs = pair
-subsection Body lower
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-    set Cells = 3, 4, 2
-  end
-end
-subsection Body upper
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-    set Lower corner = 0.57, 0.61, 1
-    set Upper corner = 1.13, 1.15, 2
-    set Cells        = 4, 5, 2
-  end
-end
-subsection Contact pair pair
-  set Slave body        = upper
-  set Slave boundaries  = bottom
-  set Master body       = lower
-  set Master boundaries = top, right, back
-end
-)";
+  const std::string overhang =
+    two_bodies("lower",
+               "set Cells = 3, 4, 2",
+               "upper",
+               "set Lower corner = 0.57, 0.61, 1\n"
+               "set Upper corner = 1.13, 1.15, 2\n"
+               "set Cells        = 4, 5, 2",
+               slave_and_master("upper", "bottom", "lower", "top, right, back"));
 
-  const std::string tubes = R"(
-set Bodies        = outer, inner
-set Contact pairs = pair
-subsection Body outer
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-    set Type         = tube
-    set Axis         = x
-    set Start        = 0.1
-    set End          = 0.9
-    set Inner radius = 1
-    set Outer radius = 1.5
-    set Cells        = 1, 5, 4
-  end
-end
-subsection Body inner
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-    set Type         = tube
-    set Axis         = x
-    set Start        = 0
-    set End          = 1
-    set Inner radius = 0.5
-    set Outer radius = 1
-    set Outer slope  = 0.01
-    set Cells        = 1, 6, 3
-  end
-end
-subsection Contact pair pair
-  set Slave body        = outer
-  set Slave boundaries  = inner
-  set Master body       = inner
-  set Master boundaries = outer
-end
-)";
+  const std::string tubes = two_bodies("outer",
+                                       "set Type         = tube\n"
+                                       "set Axis         = x\n"
+                                       "set Start        = 0.1\n"
+                                       "set End          = 0.9\n"
+                                       "set Inner radius = 1\n"
+                                       "set Outer radius = 1.5\n"
+                                       "set Cells        = 1, 5, 4",
+                                       "inner",
+                                       "set Type         = tube\n"
+                                       "set Axis         = x\n"
+                                       "set Start        = 0\n"
+                                       "set End          = 1\n"
+                                       "set Inner radius = 0.5\n"
+                                       "set Outer radius = 1\n"
+                                       "set Outer slope  = 0.01\n"
+                                       "set Cells        = 1, 6, 3",
+                                       slave_and_master("outer", "inner", "inner", "outer"));
 
   const std::string obstacle = R"(
 set Bodies        = upper

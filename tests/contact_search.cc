@@ -9,27 +9,6 @@ using namespace dealii;
 
 namespace
 {
-  const std::string material = "\n  subsection Material\n    set Young modulus = 1\n  end\n";
-
-  std::string
-  scene(const std::string &geometry, const std::string &boundaries)
-  {
-    return "set Bodies = body, other\nset Contact pairs = pair\nsubsection Body body" + material +
-           "  subsection Geometry\n" + geometry + "\n  end\nend\nsubsection Body other" + material +
-           R"(
-  subsection Geometry
-    set Lower corner = 5, 5, 5
-    set Upper corner = 6, 6, 6
-  end
-end
-subsection Contact pair pair
-  set Slave body        = other
-  set Slave boundaries  = bottom
-  set Master body       = body
-  set Master boundaries = )" +
-           boundaries + "\nend\n";
-  }
-
   bool
   first()
   {
@@ -59,7 +38,7 @@ subsection Contact pair pair
                    const Point<dim>  &lower,
                    const Point<dim>  &upper)
   {
-    PairOfScene pair(scene(geometry, boundaries));
+    PairOfScene pair(master_only(geometry, boundaries, ""));
     move(pair, [&](const Point<dim> &x, unsigned int) { return warp * scattered(x, 5); });
     const double            reach = 10.;
     Search                  search(*pair.master, reach, 1., MasterNormal::averaged, MPI_COMM_WORLD);
@@ -115,7 +94,7 @@ subsection Contact pair pair
   {
     if (first())
       std::cout << name << '\n';
-    PairOfScene pair(scene(geometry, boundaries));
+    PairOfScene pair(master_only(geometry, boundaries, ""));
     for (const Move &m : moves)
       {
         move(pair, [&](const Point<dim> &, unsigned int) { return m.master; });
@@ -145,7 +124,7 @@ subsection Contact pair pair
   void
   stay()
   {
-    PairOfScene pair(scene("set Cells = 4, 4, 4", "top, right"));
+    PairOfScene pair(master_only("set Cells = 4, 4, 4", "top, right", ""));
     move(pair, [](const Point<dim> &, unsigned int) { return Tensor<1, dim>(); });
     const Tensor<1, dim> normal = Tensor<1, dim>({-1., 0., -1.}) / std::sqrt(2.);
     Search               search(*pair.master, 1., 0.01, MasterNormal::averaged, MPI_COMM_WORLD);

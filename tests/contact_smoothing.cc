@@ -8,39 +8,6 @@ using namespace dealii;
 
 namespace
 {
-  std::string
-  scene(const std::string &geometry, const std::string &boundary)
-  {
-    return R"(
-set Bodies        = body, other
-set Contact pairs = pair
-subsection Body body
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-)" + geometry +
-           R"(
-  end
-end
-subsection Body other
-  subsection Material
-    set Young modulus = 1
-  end
-  subsection Geometry
-    set Lower corner = 5, 5, 5
-    set Upper corner = 6, 6, 6
-  end
-end
-subsection Contact pair pair
-  set Slave body        = other
-  set Slave boundaries  = bottom
-  set Master body       = body
-  set Contact geometry  = faceted
-  set Master boundaries = )" +
-           boundary + "\nend\n";
-  }
-
   struct Ride
   {
     double normal_jump = 0., gap_jump = 0., weight_jump = 0., gap_error = 0.;
@@ -117,7 +84,8 @@ subsection Contact pair pair
     std::map<MasterNormal, double> coarse;
     for (const unsigned int cells : {1, 2, 4})
       {
-        const PairOfScene  pair(scene(geometry(cells), boundary));
+        const PairOfScene pair(
+          master_only(geometry(cells), boundary, "set Contact geometry = faceted"));
         Touchstone::Vector zero(pair.solid.owned, pair.solid.relevant, MPI_COMM_WORLD);
         pair.master->move(zero);
         for (const std::string kind : {"face", "averaged", "smoothed"})

@@ -11,6 +11,50 @@
 
 namespace Touchstone
 {
+  /** A body of a scene; the material does not matter. @param geometry Lines. */
+  inline std::string
+  body_section(const std::string &name, const std::string &geometry)
+  {
+    return "subsection Body " + name +
+           "\n  subsection Material\n    set Young modulus = 1\n  end\n  subsection Geometry\n" +
+           geometry + "\n  end\nend\n";
+  }
+
+  /** A scene of two bodies with the contact pair "pair". @param pair Its lines. */
+  inline std::string
+  two_bodies(const std::string &first,
+             const std::string &geometry_of_first,
+             const std::string &second,
+             const std::string &geometry_of_second,
+             const std::string &pair)
+  {
+    return "set Bodies = " + first + ", " + second + "\nset Contact pairs = pair\n" +
+           body_section(first, geometry_of_first) + body_section(second, geometry_of_second) +
+           "subsection Contact pair pair\n" + pair + "\nend\n";
+  }
+
+  /** The lines of a contact pair. */
+  inline std::string
+  slave_and_master(const std::string &slave,
+                   const std::string &slave_boundaries,
+                   const std::string &master,
+                   const std::string &master_boundaries)
+  {
+    return "set Slave body = " + slave + "\nset Slave boundaries = " + slave_boundaries +
+           "\nset Master body = " + master + "\nset Master boundaries = " + master_boundaries;
+  }
+
+  /** A body and its boundaries as master, with a slave that is far away. */
+  inline std::string
+  master_only(const std::string &geometry, const std::string &boundaries, const std::string &more)
+  {
+    return two_bodies("body",
+                      geometry,
+                      "other",
+                      "set Lower corner = 5, 5, 5\nset Upper corner = 6, 6, 6",
+                      slave_and_master("other", "bottom", "body", boundaries) + "\n" + more);
+  }
+
   /** The first contact pair of a scene, without the rest of the program. */
   class PairOfScene
   {

@@ -16,6 +16,9 @@ namespace Touchstone
      * go what is within 0.06 degrees of being determined already. */
     constexpr double dependent = 1e-3;
 
+    /** Coefficients of round-off are left out of lines: they could lead in a circle. */
+    constexpr double negligible = 1e-12;
+
     /** side <- side - factor * other */
     template <class Side>
     void
@@ -200,10 +203,10 @@ namespace Touchstone
           auto       &entries = lines.back().entries;
           const Side &known   = condition.*side;
           for (unsigned int d = 0; d < dim; ++d)
-            if (d != condition.pivot && known.direction[d] != 0.)
+            if (d != condition.pivot && std::abs(known.direction[d]) > negligible)
               entries.emplace_back(dim * node + d, -known.direction[d]);
           for (const auto &[unknown, coefficient] : known.others)
-            if (coefficient != 0.)
+            if (std::abs(coefficient) > negligible)
               entries.emplace_back(unknown, -coefficient);
           lines.back().inhomogeneity = known.value;
         }

@@ -25,12 +25,12 @@ namespace Touchstone
 
       double   mass[n][n] = {}, q[n][n_columns] = {};
       Gradient d_mass[n][n] = {}, d_q[n][n_columns] = {};
-      /** Of normal and gap with respect to the nodal normals of the master face. */
-      Tensor<2, dim> normal_normal[n][n], gap_normal[n][n];
+      /** Of normal and gap with respect to the nodal normals of the master face, and
+       * of the gap with respect to those of the slave face. */
+      Tensor<2, dim> normal_normal[n][n], gap_normal[n][n], gap_slave_normal[n][n];
 
       void
-      add(const Face                      &slave,
-          const AnalyticSurface           *slave_exact,
+      add(const FaceDifferentiator        &slave,
           const OverlapPointDerivative<n> &point,
           const FaceDerivative            &master,
           bool                             smooth);
@@ -40,15 +40,14 @@ namespace Touchstone
 
     template <unsigned int n>
     void
-    Integrals<n>::add(const Face                      &slave,
-                      const AnalyticSurface           *slave_exact,
+    Integrals<n>::add(const FaceDifferentiator        &slave,
                       const OverlapPointDerivative<n> &point,
                       const FaceDerivative            &master,
                       const bool                       smooth)
     {
-      const FaceShapes shapes(slave.degree, point.slave);
-      const FacePoint  on_slave = evaluate(slave, slave_exact, point.slave);
-      const double     w        = point.weight;
+      const FacePosition on_slave = slave.position(point.slave);
+      const FaceShapes  &shapes   = on_slave.shapes;
+      const double       w        = point.weight;
 
       // The integrands q and their derivatives.
       double   value[n_columns];
@@ -56,7 +55,7 @@ namespace Touchstone
       value[0] = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          value[1 + d]       = on_slave.x[d] - master.point.x[d];
+          value[1 + d]       = on_slave.point.x[d] - master.point.x[d];
           value[1 + dim + d] = master.normal[d];
           Gradient &gap = d_value[1 + d], &normal = d_value[1 + dim + d];
           for (unsigned int v = 0; v < n_variable; ++v)
@@ -65,16 +64,16 @@ namespace Touchstone
               normal[v] = 0.;
               for (unsigned int a = 0; a < 2; ++a)
                 {
-                  gap[v] += on_slave.tangents[a][d] * point.d_slave[a][v] -
+                  gap[v] += on_slave.point.tangents[a][d] * point.d_slave[a][v] -
                             master.point.tangents[a][d] * point.d_master[a][v];
                   normal[v] += master.normal_xi[a][d] * point.d_master[a][v];
                 }
             }
           for (unsigned int m = 0; m < n; ++m)
             {
-              gap[dim * m + d] += shapes.value[m];
               for (unsigned int e = 0; e < dim; ++e)
                 {
+                  gap[dim * m + e] += on_slave.x_position[m][d][e];
                   gap[dim * (n + m) + e] -= master.x_position[m][d][e];
                   normal[dim * (n + m) + e] += master.normal_position[m][d][e];
                 }
@@ -119,6 +118,8 @@ namespace Touchstone
               normal_normal[j][m] += wn * master.normal_normal[m];
               if (smooth)
                 gap_normal[j][m] -= wn * master.x_normal[m];
+              if (slave.geometry.smooth())
+                gap_slave_normal[j][m] += wn * on_slave.x_normal[m];
             }
         }
     }
@@ -134,7 +135,7 @@ namespace Touchstone
     Row &entry =
       rows
         .emplace(row.slave,
-                 Row{&row, area, normal, RowDerivativeBuilder(row.stencil.size()), {}, {}, {}})
+                 Row{&row, area, normal, RowDerivativeBuilder(row.stencil.size()), {}, {}, {}, {}})
         .first->second;
     for (unsigned int m = 0; m < row.stencil.size(); ++m)
       entry.stencil[row.stencil[m].node] = m;
@@ -153,24 +154,22 @@ namespace Touchstone
 
 
   void
-  AveragedDerivative::add_face(const Face                      &slave,
-                               const AnalyticSurface           *slave_exact,
-                               const std::vector<const Face *> &near)
+  AveragedDerivative::add_face(const FaceGeometry &slave, const std::vector<const Face *> &near)
   {
-    if (slave.degree == 1)
-      add<4>(slave, slave_exact, near);
+    if (slave.face().degree == 1)
+      add<4>(slave, near);
     else
-      add<9>(slave, slave_exact, near);
+      add<9>(slave, near);
   }
 
 
 
   template <unsigned int n>
   void
-  AveragedDerivative::add(const Face                      &slave,
-                          const AnalyticSurface           *slave_exact,
-                          const std::vector<const Face *> &near)
+  AveragedDerivative::add(const FaceGeometry &geometry, const std::vector<const Face *> &near)
   {
+    const Face              &slave = geometry.face();
+    const FaceDifferentiator on_slave(geometry);
     // Integrals per master face, and all master nodes, each once.
     std::list<std::pair<const Face *, Integrals<n>>> parts;
     std::vector<Index>                               nodes;
@@ -182,8 +181,7 @@ namespace Touchstone
         const Master &master = masters.try_emplace(face, search.geometry(*face)).first->second;
         auto         &part   = parts.emplace_back(face, Integrals<n>()).second;
         for (const auto &point : points)
-          part.add(slave,
-                   slave_exact,
+          part.add(on_slave,
                    point,
                    master.differentiator.at(point.master),
                    master.geometry.smooth());
@@ -306,6 +304,9 @@ namespace Touchstone
                 {
                   by_normals.normal[m] += a * mass(i, j) * part.normal_normal[j][m];
                   by_normals.gap[m] += a * mass(i, j) * part.gap_normal[j][m];
+                  if (geometry.smooth())
+                    row.by_slave_normals[slave.key][m] +=
+                      a * mass(i, j) * part.gap_slave_normal[j][m];
                 }
           }
       }
@@ -320,9 +321,22 @@ namespace Touchstone
     for (const auto &[face, master] : masters)
       needed.push_back(face);
     const auto normal_derivatives = search.normal_derivatives(needed);
+    needed.clear();
+    if (slave_search)
+      for (const auto &[node, row] : rows)
+        for (const auto &[key, by_normals] : row.by_slave_normals)
+          needed.push_back(slave_search->face(key));
+    const auto slave_derivatives =
+      slave_search ? slave_search->normal_derivatives(needed) : decltype(normal_derivatives)();
     for (auto &[node, row] : rows)
       {
         RowDerivative &result = *row.builder.result;
+        for (const auto &[key, by_normals] : row.by_slave_normals)
+          for (const NormalDerivative &d : slave_derivatives.at(slave_search->face(key)))
+            {
+              const std::size_t to = row.builder.index(d.node);
+              result.gap_vector[to] += by_normals[d.m] * d.value;
+            }
         for (const auto &[face, by_normals] : row.by_normals)
           {
             const auto derivatives = normal_derivatives.find(face);

@@ -1,5 +1,5 @@
 #include <touchstone/contact/averaged_derivative.h>
-#include <touchstone/contact/overlap.h>
+#include <touchstone/contact/facing_faces.h>
 #include <touchstone/contact/pairing.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -35,8 +35,20 @@ namespace Touchstone
                  input.parameters->edge_tolerance,
                  master_normal(input.parameters->master_normal),
                  input.solid->communicator)
+        , facing(search)
+        , kind(master_normal(input.parameters->master_normal))
       {
+        search.commit(nullptr);
+        // Both sides of the gap are smooth or none, or it would be measured from
+        // facets that stray from their surface to one that does not. The normals of
+        // faces of ghost cells are known to their owners only.
+        if (kind == MasterNormal::smoothed)
+          slave_search = std::make_unique<Search>(
+            *input.slave, input.slave->largest_face(), 0., kind, input.solid->communicator);
       }
+
+      void
+      commit_positions(const Vector &u) override;
 
       void
       update(const Vector &u, double, std::vector<ContactRow> &rows) override;
@@ -53,15 +65,27 @@ namespace Touchstone
         Tensor<1, dim>          gap, normal;
       };
 
-      Search search;
+      Search       search;
+      FacingFaces  facing;
+      MasterNormal kind;
+      /** Only for its exchange of faces, and only if they are smoothed. */
+      std::unique_ptr<Search> slave_search;
+      /** Displacement with ghosts at the start of the step; empty: none. */
+      Vector start;
+
+      /** A slave face around an owned node, and the master faces that cover it. */
+      struct Covered
+      {
+        Face                      slave;
+        std::vector<const Face *> masters;
+      };
+
       /** Of the last update: sums by owned node, and the slave faces around them. */
       std::unordered_map<Index, Sums> sums;
-      std::vector<const Face *>       slave_faces;
+      std::vector<Covered>            slave_faces;
 
       void
-      for_each_master(const Face &slave, const std::function<void(const Face &)> &visit) const;
-      void
-      add_face(const Face &slave);
+      add_face(Covered &covered);
     };
 
     const PairingRegistry::Entry<AveragedPairing>
@@ -70,38 +94,32 @@ namespace Touchstone
 
 
     void
-    AveragedPairing::for_each_master(const Face                              &slave,
-                                     const std::function<void(const Face &)> &visit) const
+    AveragedPairing::commit_positions(const Vector &u)
     {
-      Point<dim> lower = slave.reference[0] + slave.displacement[0], upper = lower;
-      for (unsigned int m = 1; m < slave.n_nodes(); ++m)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double x = slave.reference[m][d] + slave.displacement[m][d];
-            lower[d]       = std::min(lower[d], x);
-            upper[d]       = std::max(upper[d], x);
-          }
-      search.for_each_near(BoundingBox<dim>({lower, upper}),
-                           evaluate(slave, nullptr, {{0., 0.}}).normal(),
-                           visit);
+      std::vector<const Face *> faces;
+      for (const Covered &covered : slave_faces)
+        faces.push_back(&covered.slave);
+      facing.commit(faces);
+      search.commit(&u);
+      start = u;
     }
 
 
 
     void
-    AveragedPairing::add_face(const Face &slave)
+    AveragedPairing::add_face(Covered &covered)
     {
-      const unsigned int                                         n = slave.n_nodes();
+      const Face                                                &slave = covered.slave;
+      const unsigned int                                         n     = slave.n_nodes();
       std::vector<std::pair<const FaceGeometry *, OverlapPoint>> points;
       std::list<FaceGeometry>                                    geometries;
-      for_each_master(slave, [&](const Face &master) {
-        const auto common = overlap(slave, master);
-        if (common.empty())
-          return;
-        geometries.push_back(search.geometry(master));
-        for (const OverlapPoint &point : common)
-          points.emplace_back(&geometries.back(), point);
-      });
+      for (const FacingFace &face : facing.find(slave))
+        {
+          covered.masters.push_back(face.master);
+          geometries.push_back(search.geometry(*face.master));
+          for (const OverlapPoint &point : face.points)
+            points.emplace_back(&geometries.back(), point);
+        }
       if (points.empty())
         return;
 
@@ -127,14 +145,14 @@ namespace Touchstone
         mass(i, i) += 1e-14 * trace;
       mass.gauss_jordan();
 
-      const AnalyticSurface *slave_exact = input.slave->exact_surface(slave);
+      const FaceGeometry on_slave(slave, input.slave->exact_surface(slave), kind);
       for (const auto &[master, point] : points)
         {
           const FaceShapes     slave_shapes(slave.degree, point.slave);
           const Face          &face = master->face();
           const FaceShapes     master_shapes(face.degree, point.master);
           const Tensor<1, dim> gap =
-            evaluate(slave, slave_exact, point.slave).x - master->evaluate(point.master).x;
+            on_slave.evaluate(point.slave).x - master->evaluate(point.master).x;
           const Tensor<1, dim> normal = master->normal(point.master);
           for (unsigned int i = 0; i < n; ++i)
             {
@@ -174,17 +192,36 @@ namespace Touchstone
               touches = touches || sums.count(face.nodes[m]) > 0;
             if (!touches)
               continue;
-            slave_faces.push_back(&face);
+            slave_faces.push_back({face, {}});
+            Face &slave = slave_faces.back().slave;
             for (unsigned int m = 0; m < face.n_nodes(); ++m)
-              positions.push_back(face.reference[m] + face.displacement[m]);
+              {
+                slave.committed[m] = Tensor<1, dim>();
+                if (start.size() > 0)
+                  for (unsigned int d = 0; d < dim; ++d)
+                    slave.committed[m][d] = start(dim * face.nodes[m] + d);
+                positions.push_back(face.reference[m] + face.displacement[m]);
+                positions.push_back(face.reference[m] + slave.committed[m]);
+              }
           }
-      std::sort(slave_faces.begin(), slave_faces.end(), [](const Face *a, const Face *b) {
-        return a->key < b->key;
+      std::sort(slave_faces.begin(), slave_faces.end(), [](const Covered &a, const Covered &b) {
+        return a.slave.key < b.slave.key;
       });
       search.update(positions);
+      if (slave_search)
+        {
+          slave_search->update(positions);
+          for (Covered &covered : slave_faces)
+            {
+              const Face &complete       = *slave_search->face(covered.slave.key);
+              covered.slave.normals      = complete.normals;
+              covered.slave.edge_normals = complete.edge_normals;
+              covered.slave.outer_edges  = complete.outer_edges;
+            }
+        }
       // Nodes that are not owned here get a share, too, which is not used.
-      for (const Face *face : slave_faces)
-        add_face(*face);
+      for (Covered &covered : slave_faces)
+        add_face(covered);
 
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
@@ -214,20 +251,17 @@ namespace Touchstone
     void
     AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
-      AveragedDerivative derivative(search);
+      AveragedDerivative derivative(search, slave_search.get());
       for (const ContactRow &row : rows)
         if (row.active())
           {
             const Sums &sum = sums.at(row.slave);
             derivative.add_row(row, sum.area, sum.normal);
           }
-      for (const Face *face : slave_faces)
-        if (derivative.wants(*face))
-          {
-            std::vector<const Face *> masters;
-            for_each_master(*face, [&](const Face &master) { masters.push_back(&master); });
-            derivative.add_face(*face, input.slave->exact_surface(*face), masters);
-          }
+      for (const auto &[slave, masters] : slave_faces)
+        if (derivative.wants(slave))
+          derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
+                              masters);
       derivative.finish();
       for (ContactRow &row : rows)
         row.derivative = row.active() ? derivative.result(row.slave) : nullptr;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 
 namespace Touchstone
 {
@@ -100,56 +99,12 @@ namespace Touchstone
         rows.push_back(pair_rows);
         pairs.push_back(std::move(pair));
       }
-    check_roles();
+    find_circles();
     committed = rows;
     if (with_friction)
       {
         reference_positions.reinit(solid.owned, solid.communicator);
         VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);
-      }
-  }
-
-
-
-  void
-  Contact::check_roles() const
-  {
-    // Pair p leads to pair q if master nodes of p are slave nodes of q. Rows that
-    // depend on each other in a circle cannot be eliminated, and make multipliers
-    // dependent.
-    std::vector<std::set<unsigned int>> next(pairs.size());
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      for (unsigned int q = 0; q < pairs.size(); ++q)
-        {
-          int shared = 0;
-          if (p != q && pairs[p].master)
-            {
-              std::set<Index> slaves;
-              for (const SurfaceNode &node : pairs[q].slave->owned_nodes())
-                slaves.insert(node.node);
-              for (const Face &face : pairs[p].master->owned_faces())
-                for (unsigned int m = 0; m < face.n_nodes(); ++m)
-                  shared |= slaves.count(face.nodes[m]);
-            }
-          if (Utilities::MPI::max(shared, solid.communicator))
-            next[p].insert(q);
-        }
-    const std::function<bool(unsigned int, unsigned int, std::set<unsigned int> &)> reaches =
-      [&](const unsigned int from, const unsigned int to, std::set<unsigned int> &seen) {
-        for (const unsigned int q : next[from])
-          if (q == to || (seen.insert(q).second && reaches(q, to, seen)))
-            return true;
-        return false;
-      };
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      {
-        std::set<unsigned int> seen;
-        if (reaches(p, p, seen))
-          throw InputError("Contact pair " + pairs[p].parameters->name,
-                           "Master boundaries",
-                           "",
-                           "its master surface is, over other pairs, also its slave surface",
-                           "give each surface one role around such a circle of pairs.");
       }
   }
 

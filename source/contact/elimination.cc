@@ -52,6 +52,13 @@ namespace Touchstone
       {
       }
 
+      /** Whatever is not round-off must not lead back. */
+      double
+      smallest_circle() const override
+      {
+        return 1e-12;
+      }
+
     private:
       using Slaves = std::set<std::pair<unsigned int, Index>>;
 

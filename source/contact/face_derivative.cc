@@ -164,4 +164,25 @@ namespace Touchstone
       }
     return result;
   }
+
+
+
+  FacePosition
+  FaceDifferentiator::position(const std::array<double, 2> &xi) const
+  {
+    const Face          &face = geometry.face();
+    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    FacePosition         result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
+    if (patch)
+      {
+        const GregoryPatch::Basis basis(xi);
+        for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
+          for (unsigned int m = 0; m < 8; ++m)
+            (m < 4 ? result.x_position : result.x_normal)[m % 4] += basis.value[k] * (*patch)[k][m];
+      }
+    else
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        result.x_position[m] = result.shapes.value[m] * identity;
+    return result;
+  }
 } // namespace Touchstone

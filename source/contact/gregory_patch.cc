@@ -1,4 +1,5 @@
 #include <touchstone/contact/gregory_patch.h>
+#include <touchstone/contact/vector3.h>
 
 #include <Sacado.hpp>
 
@@ -8,25 +9,6 @@ namespace Touchstone
 
   namespace
   {
-    // deal.II's Tensor does not go with numbers whose products are expression
-    // templates.
-    template <typename Number>
-    using Vector3 = std::array<Number, dim>;
-
-    template <typename Number>
-    Number
-    dot(const Vector3<Number> &a, const Vector3<Number> &b)
-    {
-      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-
-    template <typename Number>
-    Vector3<Number>
-    cross(const Vector3<Number> &a, const Vector3<Number> &b)
-    {
-      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
-    }
-
     /** Inner coefficients D_1, D_2 of the derivative across an edge, a cubic
      * between its values D_0 and D_3 at the ends of the edge: the combination
      * k g + h c' of the edge's own directions c' and g, with k and h linear.

@@ -1,4 +1,5 @@
 #include <touchstone/contact/overlap.h>
+#include <touchstone/contact/vector3.h>
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -26,6 +27,8 @@ namespace Touchstone
     {
       return {a.x - b.x, a.y - b.y};
     }
+
+    using Touchstone::cross;
 
     template <typename Number>
     Number
@@ -110,23 +113,6 @@ namespace Touchstone
           subject.swap(result);
         }
       return subject;
-    }
-
-    template <typename Number>
-    using Vector3 = std::array<Number, dim>;
-
-    template <typename Number>
-    Number
-    dot(const Vector3<Number> &a, const Vector3<Number> &b)
-    {
-      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-
-    template <typename Number>
-    Vector3<Number>
-    cross(const Vector3<Number> &a, const Vector3<Number> &b)
-    {
-      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
     }
 
     template <typename Number>

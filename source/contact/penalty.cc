@@ -183,6 +183,13 @@ namespace Touchstone
       {
       }
 
+      /** Each row has a spring of its own. */
+      double
+      smallest_circle() const override
+      {
+        return 2.;
+      }
+
     private:
       void
       grant(ContactRow &row, bool) const override

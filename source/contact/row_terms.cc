@@ -70,6 +70,11 @@ namespace Touchstone
     row.normal_accepted        = true;
     if (!row.active())
       return {};
+    if (row.closes_circle)
+      {
+        row.take(false);
+        return {};
+      }
     Condition              condition = blank_condition(row);
     std::vector<Condition> conditions;
     if (row.tied)

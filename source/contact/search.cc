@@ -100,6 +100,7 @@ namespace Touchstone
         }
 
     faces.clear();
+    by_key.clear();
     sent.clear();
     received.clear();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
@@ -180,26 +181,44 @@ namespace Touchstone
 
 
 
-  void
-  Search::for_each_near(const Box                               &box,
-                        const Tensor<1, dim>                    &slave_normal,
-                        const std::function<void(const Face &)> &visit) const
+  std::vector<const Face *>
+  Search::near(const Box &box, const Tensor<1, dim> &slave_normal) const
   {
     Box capture = box;
     capture.extend(reach);
     // In the order of their keys, so that sums do not depend on the partition.
-    std::vector<const Face *> near;
+    std::vector<const Face *> result;
     for (auto it = tree.qbegin(bgi::intersects(capture)); it != tree.qend(); ++it)
       {
         const Face &face = faces[it->second];
         if (same_way(face, master.exact_surface(face), slave_normal) < -0.1)
-          near.push_back(&face);
+          result.push_back(&face);
       }
-    std::sort(near.begin(), near.end(), [](const Face *a, const Face *b) {
+    std::sort(result.begin(), result.end(), [](const Face *a, const Face *b) {
       return a->key < b->key;
     });
-    for (const Face *face : near)
-      visit(*face);
+    return result;
+  }
+
+
+
+  const Face *
+  Search::entry(const SlavePoint &point) const
+  {
+    const auto candidate = swept ? passed(point, false) : std::nullopt;
+    return candidate ? candidate->face : nullptr;
+  }
+
+
+
+  const Face *
+  Search::face(const std::uint64_t key) const
+  {
+    if (by_key.empty())
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        by_key.emplace(faces[i].key, i);
+    const auto found = by_key.find(key);
+    return found == by_key.end() ? nullptr : &faces[found->second];
   }
 
 
@@ -215,34 +234,49 @@ namespace Touchstone
   Search::Candidate
   Search::closest(const SlavePoint &point) const
   {
-    const Point<dim> &x             = point.x;
-    double            best_distance = reach * reach, margin = 0.;
-    Candidate         best, present;
-    for (auto it = tree.qbegin(bgi::nearest(x, static_cast<unsigned int>(faces.size())));
-         it != tree.qend();
-         ++it)
+    // Boxes are asked for a few at a time: an iterator over all of them, in the order of
+    // their distance, costs more the more there are.
+    constexpr unsigned int first_try     = 16;
+    const Point<dim>      &x             = point.x;
+    double                 best_distance = 0., margin = 0.;
+    Candidate              best, present;
+    bool                   complete = false;
+    for (unsigned int n = first_try; !complete; n *= 4)
       {
-        const double distance = bg::comparable_distance(x, it->first);
-        if (distance > best_distance && std::sqrt(distance) > std::sqrt(best_distance) + margin)
-          break;
-        const Face &face = faces[it->second];
-        if (same_way(face, master.exact_surface(face), point.normal) > 0.3)
-          continue;
-        const Projection projection = closest_point_projection(x, geometry(face));
-        if (point.in_contact && point.present_face == face.key)
-          present = {&face, projection};
-        if (point.in_contact && point.present_face)
-          margin = std::max(margin, hold * size(face));
-        // Points on a common edge are equally close up to round-off: the face
-        // with the smaller key gets the node, on any number of ranks. But a node
-        // that has just slid over the edge must not be called back to it.
-        const double tie = 1e-12 * projection.distance_squared + 1e-26 * reach * reach;
-        if (projection.distance_squared < best_distance - tie ||
-            (best.face && projection.distance_squared < best_distance + tie &&
-             face.key < best.face->key))
+        std::vector<std::pair<double, std::size_t>> boxes;
+        for (auto it = tree.qbegin(bgi::nearest(x, n)); it != tree.qend(); ++it)
+          boxes.emplace_back(bg::comparable_distance(x, it->first), it->second);
+        std::sort(boxes.begin(), boxes.end());
+        complete      = boxes.size() < n;
+        best_distance = reach * reach;
+        margin        = 0.;
+        best = present = Candidate();
+        for (const auto &[distance, place] : boxes)
           {
-            best_distance = projection.distance_squared;
-            best          = {&face, projection};
+            if (distance > best_distance && std::sqrt(distance) > std::sqrt(best_distance) + margin)
+              {
+                complete = true;
+                break;
+              }
+            const Face &face = faces[place];
+            if (same_way(face, master.exact_surface(face), point.normal) > 0.3)
+              continue;
+            const Projection projection = closest_point_projection(x, geometry(face));
+            if (point.in_contact && point.present_face == face.key)
+              present = {&face, projection};
+            if (point.in_contact && point.present_face)
+              margin = std::max(margin, hold * size(face));
+            // Points on a common edge are equally close up to round-off: the face
+            // with the smaller key gets the node, on any number of ranks. But a node
+            // that has just slid over the edge must not be called back to it.
+            const double tie = 1e-12 * projection.distance_squared + 1e-26 * reach * reach;
+            if (projection.distance_squared < best_distance - tie ||
+                (best.face && projection.distance_squared < best_distance + tie &&
+                 face.key < best.face->key))
+              {
+                best_distance = projection.distance_squared;
+                best          = {&face, projection};
+              }
           }
       }
 

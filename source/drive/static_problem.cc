@@ -82,7 +82,7 @@ namespace Touchstone
   StaticProblem::begin_step(const double t)
   {
     time = t;
-    boundary_conditions.external_force(time, external);
+    boundary_conditions.external_force(time, u, external);
     stabilised.clear();
   }
 
@@ -120,6 +120,8 @@ namespace Touchstone
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
+      if (!boundary_conditions.follower_pressure().empty())
+        boundary_conditions.external_force(time, u, external);
     }
     Vector without_contact(external);
     without_contact -= internal;
@@ -199,7 +201,16 @@ namespace Touchstone
     system->keep_symmetric = solver->symmetric_only();
     if (!system->keep_symmetric && consistent(scene))
       contact.differentiate();
+    contact.drop_circles(graph, enforcement->smallest_circle());
     enforcement->enforce(contact, graph, *system);
+    if (!boundary_conditions.follower_pressure().empty())
+      {
+        boundary_conditions.follower_pressure().add_stiffness(time,
+                                                              u,
+                                                              system->keep_symmetric,
+                                                              system->terms);
+        system->symmetric = system->symmetric && system->keep_symmetric;
+      }
     RowTerms terms(*system);
     for (auto &rows : contact.rows)
       for (ContactRow &row : rows)

@@ -73,8 +73,15 @@ namespace Touchstone
     component("Traction z", traction_z, "The z " + loaded);
     component("Pressure",
               pressure,
-              "Pressure on the reference area against its outward normal." + formula +
+              "Pressure against the outward normal of the surface." + formula +
                 "empty: none. [force per area]");
+    prm.add_parameter("Pressure follows",
+                      pressure_follows,
+                      "'surface': the pressure acts on the deformed surface, along its present "
+                      "normal; 'nothing': on the reference area along the normal there (a dead "
+                      "load); 'automatic': on the deformed surface if the material has a law for "
+                      "finite strain.",
+                      Patterns::Selection("automatic|surface|nothing"));
   }
 
 
@@ -103,6 +110,12 @@ namespace Touchstone
       }
     if (!pressure.empty())
       check_expression(section, "Pressure", pressure);
+    if (pressure.empty() && pressure_follows != "automatic")
+      throw InputError(section,
+                       "Pressure follows",
+                       pressure_follows,
+                       "there is no pressure on this boundary",
+                       "remove the key, or set 'Pressure'");
     if (!pressure.empty() && all_moved)
       throw InputError(section,
                        "Pressure",

@@ -39,6 +39,7 @@ namespace Touchstone
                                          const Forest &forest,
                                          const Solid  &solid)
     : solid(solid)
+    , following(solid)
   {
     for (unsigned int b = 0; b < scene.bodies.size(); ++b)
       {
@@ -69,11 +70,15 @@ namespace Touchstone
             for (unsigned int d = 0; d < dim; ++d)
               if (displacement[d])
                 prescribe_on(id, axis(d), displacement[d], b, supports.size() - 1);
+            const auto pressure = parse(condition.pressure);
+            const bool follows  = pressure && condition.follows(body.material);
+            if (follows)
+              following.add(id, pressure);
             const Load load{id,
                             {{parse(condition.traction_x),
                               parse(condition.traction_y),
                               parse(condition.traction_z)}},
-                            parse(condition.pressure)};
+                            follows ? nullptr : pressure};
             if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
               loads.push_back(load);
           }
@@ -205,9 +210,10 @@ namespace Touchstone
 
 
   void
-  BoundaryConditions::external_force(const double t, Vector &force) const
+  BoundaryConditions::external_force(const double t, const Vector &u, Vector &force) const
   {
     force = 0.;
+    following.add_force(t, u, force);
     if (loads.empty())
       return;
     FEFaceValues<dim>  values(solid.mapping,

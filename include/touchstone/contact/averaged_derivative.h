@@ -23,8 +23,12 @@ namespace Touchstone
   class AveragedDerivative
   {
   public:
-    explicit AveragedDerivative(const Search &search)
+    /** @param search       Of the master surface.
+     * @param slave_search Of the slave surface; needed where its faces are smoothed,
+     *                     or null. Both must live as long. */
+    AveragedDerivative(const Search &search, const Search *slave_search)
       : search(search)
+      , slave_search(slave_search)
     {
     }
 
@@ -38,11 +42,9 @@ namespace Touchstone
     wants(const Face &slave) const;
 
     /** @brief Add the share of a slave face.
-     * @param masters Master faces near it. */
+     * @param masters Master faces that cover it. */
     void
-    add_face(const Face                      &slave,
-             const AnalyticSurface           *slave_exact,
-             const std::vector<const Face *> &masters);
+    add_face(const FaceGeometry &slave, const std::vector<const Face *> &masters);
 
     /** @brief All faces have been added. Collective. */
     void
@@ -71,6 +73,8 @@ namespace Touchstone
       /** Derivative of the area. */
       std::vector<dealii::Tensor<1, dim>>         d_area;
       std::unordered_map<const Face *, ByNormals> by_normals;
+      /** The gap by those of slave faces, known by their keys. */
+      std::unordered_map<std::uint64_t, NodeMatrices> by_slave_normals;
       /** Places of master nodes in the stencil. */
       std::unordered_map<Index, unsigned int> stencil;
     };
@@ -88,14 +92,13 @@ namespace Touchstone
     };
 
     const Search                            &search;
+    const Search                            *slave_search;
     std::unordered_map<Index, Row>           rows;
     std::unordered_map<const Face *, Master> masters;
 
     template <unsigned int n>
     void
-    add(const Face                      &slave,
-        const AnalyticSurface           *slave_exact,
-        const std::vector<const Face *> &near);
+    add(const FaceGeometry &slave, const std::vector<const Face *> &near);
   };
 } // namespace Touchstone
 

@@ -11,6 +11,8 @@
 
 namespace Touchstone
 {
+  class ConstraintGraph;
+
   /**
    * @brief All contact pairs of a scene: their surfaces, their rows, the active
    * set, and the one place where contact history is committed or rolled back.
@@ -58,6 +60,21 @@ namespace Touchstone
     /** @brief Add the contact forces M^T f of all rows to @p force. */
     void
     add_forces(Vector &force) const;
+
+    /**
+     * @brief Take out rows that depend on each other in a circle.
+     *
+     * The slave nodes of a row move with its master nodes, and these, if they are slaves
+     * of other active rows, with further ones. Where that leads back to a row, those
+     * of the later pair are dropped: what they ask for is what the earlier rows
+     * see to, up to the mesh size. Kept, they would make multipliers dependent, could not
+     * be eliminated, and would let the surfaces fit together only as far as both
+     * meshes represent the same functions. Collective.
+     * @param graph     The prescribed displacements: rows that these meet lead nowhere.
+     * @param threshold Components of a unit normal that are smaller make no circle.
+     */
+    void
+    drop_circles(const ConstraintGraph &graph, double threshold);
 
     /** @brief Keep the state of the rows: the step has converged. */
     void
@@ -152,8 +169,10 @@ namespace Touchstone
     set_slip_gradient(ContactRow &row, const Stencil &tangent) const;
     void
     commit_friction(ContactRow &row) const;
+    /** Pairs whose rows can depend on each other in a circle, in their order. */
+    std::vector<unsigned int> circular;
     void
-    check_roles() const;
+    find_circles();
   };
 } // namespace Touchstone
 

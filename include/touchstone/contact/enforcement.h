@@ -45,6 +45,15 @@ namespace Touchstone
     {
     }
 
+    /** @brief Contact::drop_circles() takes out rows that depend on each other in a circle
+     * by components of their normals larger than this: by default those that are about
+     * dependent, and say the same thing twice. */
+    virtual double
+    smallest_circle() const
+    {
+      return 0.3;
+    }
+
     /** @brief Force that the round-off of positions of magnitude @p length leads
      * to: the residual cannot fall below it. Of this rank's rows, squared. */
     virtual double

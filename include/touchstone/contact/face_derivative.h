@@ -41,6 +41,14 @@ namespace Touchstone
     std::array<NodeMatrices, 2> tangent_position, tangent_normal;
   };
 
+  /** @brief The part of FaceDerivative that does not need the normal. */
+  struct FacePosition
+  {
+    FaceShapes   shapes;
+    FacePoint    point;
+    NodeMatrices x_position, x_normal;
+  };
+
   /** @brief Evaluates derivatives of a FaceGeometry; keeps what all points of the
    * face share. */
   class FaceDifferentiator
@@ -51,6 +59,9 @@ namespace Touchstone
 
     FaceDerivative
     at(const std::array<double, 2> &xi) const;
+
+    FacePosition
+    position(const std::array<double, 2> &xi) const;
 
     const FaceGeometry &geometry;
 

@@ -88,6 +88,8 @@ namespace Touchstone
     /** Conditions of the row that the constraint graph took and refused: what a
      * refused one asks for is decided by others. */
     unsigned int accepted = 0, refused = 0;
+    /** Depends on itself over rows of earlier pairs, and asks for nothing. */
+    bool closes_circle = false;
     /** The first of them, along the normal, was taken. */
     bool normal_accepted = true;
     /** Gap that the enforcement grants for now: the penetration of a penalty. */

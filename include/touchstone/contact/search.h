@@ -6,7 +6,6 @@
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/numerics/rtree.h>
 
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -99,13 +98,36 @@ namespace Touchstone
     std::unordered_map<const Face *, std::vector<NormalDerivative>>
     normal_derivatives(const std::vector<const Face *> &needed) const;
 
-    /** @brief Visit the master faces within reach of a box that look the other way
-     * than @p slave_normal. Not those that are seen edge-on: their shadows on the
-     * slave surface are slivers. */
-    void
-    for_each_near(const dealii::BoundingBox<dim>          &box,
-                  const dealii::Tensor<1, dim>            &slave_normal,
-                  const std::function<void(const Face &)> &visit) const;
+    /** @brief The master faces within reach of a box that look the other way than
+     * @p slave_normal, in the order of their keys. Not those that are seen edge-on:
+     * their shadows on the slave surface are slivers. */
+    std::vector<const Face *>
+    near(const dealii::BoundingBox<dim> &box, const dealii::Tensor<1, dim> &slave_normal) const;
+
+    /** @brief The face where a point has gone into a body since the start of the step
+     * and not come out, or a neighbour of it that is closest to where the point is
+     * now; null if there is none. */
+    const Face *
+    entry(const SlavePoint &point) const;
+
+    /** @brief The face closest to a point that is reached from @p from over
+     * neighbours. */
+    const Face *
+    follow(const SlavePoint &point, const Face &from) const
+    {
+      return walk(point, from).face;
+    }
+
+    /** @brief The face with this key, null if this rank has not received it. */
+    const Face *
+    face(std::uint64_t key) const;
+
+    /** @brief Faces of the last update: of this rank, and near its slave nodes. */
+    const std::vector<Face> &
+    known_faces() const
+    {
+      return faces;
+    }
 
   private:
     using Box  = dealii::BoundingBox<dim>;
@@ -120,6 +142,9 @@ namespace Touchstone
     std::vector<Face>  faces;
     /** Of the faces where they are, and of all places where they were in this step. */
     Tree tree, swept_tree;
+
+    /** Places in `faces`, filled when a face is first asked for. */
+    mutable std::unordered_map<std::uint64_t, std::size_t> by_key;
 
     /** Displacements of this rank's faces at the start of the step. */
     std::vector<Displacements> committed;

@@ -58,8 +58,20 @@ namespace Touchstone
     std::string displacement_x, displacement_y, displacement_z;
     /** Traction components, force per reference area. */
     std::string traction_x, traction_y, traction_z;
-    /** Pressure against the outward normal, force per reference area. */
+    /** Pressure against the outward normal, force per area: of the deformed surface if
+     * it follows that. */
     std::string pressure;
+    /** What the pressure follows: "surface", "nothing", or "automatic". */
+    std::string pressure_follows = "automatic";
+
+    /** @brief The pressure acts on the deformed surface: as the key says, and if that
+     * says nothing for materials with a law for finite strain. */
+    bool
+    follows(const MaterialParameters &material) const
+    {
+      return pressure_follows == "surface" ||
+             (pressure_follows == "automatic" && material.finite_strain());
+    }
 
     void
     declare(dealii::ParameterHandler &prm);

@@ -2,7 +2,7 @@
 #define touchstone_solid_boundary_conditions_h
 
 #include <touchstone/algebra/constraint_graph.h>
-#include <touchstone/solid/solid.h>
+#include <touchstone/solid/follower_pressure.h>
 
 #include <deal.II/base/function_parser.h>
 
@@ -42,9 +42,17 @@ namespace Touchstone
      * boundary that is not plane. */
     BoundaryConditions(const Scene &scene, const Forest &forest, const Solid &solid);
 
-    /** @brief Nodal forces of tractions and pressures at time @p t. */
+    /** @brief Nodal forces of tractions and pressures at time @p t in the displacement
+     * @p u, which matters to pressures that follow the surface only. */
     void
-    external_force(double t, Vector &force) const;
+    external_force(double t, const Vector &u, Vector &force) const;
+
+    /** @brief Pressures whose forces depend on the displacement. */
+    const FollowerPressure &
+    follower_pressure() const
+    {
+      return following;
+    }
 
     /**
      * @brief Offer the prescribed displacements at time @p t, as increments from
@@ -97,6 +105,7 @@ namespace Touchstone
     const Solid            &solid;
     std::vector<Prescribed> prescribed;
     std::vector<Load>       loads;
+    FollowerPressure        following;
     std::vector<Reaction>   supports;
 
     void

@@ -1,0 +1,68 @@
+#ifndef touchstone_contact_facing_faces_h
+#define touchstone_contact_facing_faces_h
+
+#include <touchstone/contact/overlap.h>
+#include <touchstone/contact/search.h>
+
+#include <unordered_map>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief A master face with the quadrature of what it covers of a slave face. */
+  struct FacingFace
+  {
+    const Face               *master;
+    std::vector<OverlapPoint> points;
+  };
+
+  /**
+   * @brief Which master faces cover a slave face in averaged rows.
+   *
+   * All that look at it within reach do, if they hang together over common nodes: a
+   * layer. Of several layers, or where the slave face has passed through a body since the
+   * start of the step, one comes first: that which the face touched, or that its nodes
+   * and its centre went in through first; otherwise the closest. Faces of other
+   * layers that lie behind it are left out.
+   */
+  class FacingFaces
+  {
+  public:
+    /** @param search Must live as long. */
+    explicit FacingFaces(const Search &search)
+      : search(search)
+    {
+    }
+
+    /** @param slave In its present position, with `committed` of the start of the
+     * step. */
+    std::vector<FacingFace>
+    find(const Face &slave) const;
+
+    /** @brief A step ends in the present positions: each face remembers what it
+     * touches. @param faces All slave faces of this rank. */
+    void
+    commit(const std::vector<const Face *> &faces);
+
+  private:
+    const Search &search;
+    /** Key of a master face that the slave face with the given key touched. */
+    std::unordered_map<std::uint64_t, std::uint64_t> touched;
+
+    /** Master faces where @p slave has gone in since the start of the step; the last
+     * one, if @p last_touched, is that which it touched then. */
+    struct Entries
+    {
+      std::vector<const Face *> faces;
+      bool                      last_touched = false;
+    };
+
+    Entries
+    entries(const Face &slave, const dealii::Tensor<1, dim> &normal) const;
+
+    std::vector<FacingFace>
+    resolve(const Face &slave, const dealii::Tensor<1, dim> &normal, const Entries &entries) const;
+  };
+} // namespace Touchstone
+
+#endif

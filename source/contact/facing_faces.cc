@@ -1,0 +1,268 @@
+#include <touchstone/contact/facing_faces.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What moves less than this part of a face against another does not pass
+     * through a body, and what is closer touches. */
+    constexpr double small_motion = 0.1, touching = 1e-3;
+
+    /** A face lies behind another if that covers this part of it, and not beside it. */
+    constexpr double behind = 0.1;
+
+    Point<dim>
+    position(const Face &face, const unsigned int m)
+    {
+      return face.reference[m] + face.displacement[m];
+    }
+
+    BoundingBox<dim>
+    box(const Face &face)
+    {
+      BoundingBox<dim> result({position(face, 0), position(face, 0)});
+      for (unsigned int m = 1; m < face.n_nodes(); ++m)
+        result.merge_with(BoundingBox<dim>({position(face, m), position(face, m)}));
+      return result;
+    }
+
+    double
+    area(const Face &face)
+    {
+      static const QGauss<2> quadrature(3);
+      double                 sum = 0.;
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          const Point<2>  p = quadrature.point(q);
+          const FacePoint x = evaluate(face, nullptr, {{2. * p[0] - 1., 2. * p[1] - 1.}});
+          sum += 4. * quadrature.weight(q) * cross_product_3d(x.tangents[0], x.tangents[1]).norm();
+        }
+      return sum;
+    }
+
+    double
+    area(const std::vector<OverlapPoint> &points)
+    {
+      return std::accumulate(points.begin(),
+                             points.end(),
+                             0.,
+                             [](const double sum, const OverlapPoint &p) {
+                               return sum + p.weight;
+                             });
+    }
+
+    Tensor<1, dim>
+    mean_motion(const Face &face)
+    {
+      Tensor<1, dim> sum;
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        sum += face.displacement[m] - face.committed[m];
+      return sum / face.n_nodes();
+    }
+
+    /** The integral of the gap between the facets; negative where they overlap. */
+    double
+    gap(const Face &slave, const Tensor<1, dim> &normal, const FacingFace &facing)
+    {
+      double sum = 0.;
+      for (const OverlapPoint &p : facing.points)
+        sum +=
+          p.weight *
+          ((evaluate(*facing.master, nullptr, p.master).x - evaluate(slave, nullptr, p.slave).x) *
+           normal);
+      return sum;
+    }
+
+    std::vector<FacingFace>
+    cover(const Face &slave, const std::vector<const Face *> &masters)
+    {
+      std::vector<FacingFace> result;
+      for (const Face *master : masters)
+        {
+          FacingFace facing{master, overlap(slave, *master)};
+          if (!facing.points.empty())
+            result.push_back(std::move(facing));
+        }
+      return result;
+    }
+
+    /** Numbers for faces, the same for those that hang together over common nodes. */
+    std::map<const Face *, std::size_t>
+    layers(const std::vector<const Face *> &faces)
+    {
+      std::vector<std::size_t> parent(faces.size());
+      std::iota(parent.begin(), parent.end(), 0);
+      const auto root = [&](std::size_t i) {
+        while (parent[i] != i)
+          i = parent[i] = parent[parent[i]];
+        return i;
+      };
+      std::unordered_map<Index, std::size_t> first;
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        for (unsigned int m = 0; m < faces[i]->n_nodes(); ++m)
+          parent[root(i)] = root(first.emplace(faces[i]->nodes[m], i).first->second);
+      std::map<const Face *, std::size_t> result;
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        result[faces[i]] = root(i);
+      return result;
+    }
+  } // namespace
+
+
+
+  FacingFaces::Entries
+  FacingFaces::entries(const Face &slave, const Tensor<1, dim> &normal) const
+  {
+    Entries    result;
+    SlavePoint centre{{}, {}, normal, false, {}};
+    for (unsigned int m = 0; m < slave.n_nodes(); ++m)
+      {
+        const SlavePoint corner{
+          position(slave, m), slave.reference[m] + slave.committed[m], normal, false, {}};
+        centre.x += corner.x / slave.n_nodes();
+        centre.start += corner.start / slave.n_nodes();
+        if (const Face *face = search.entry(corner))
+          result.faces.push_back(face);
+      }
+    if (const Face *face = search.entry(centre))
+      result.faces.push_back(face);
+    const auto  known = touched.find(slave.key);
+    const Face *face  = known == touched.end() ? nullptr : search.face(known->second);
+    if (face != nullptr)
+      {
+        result.faces.push_back(search.follow(centre, *face));
+        result.last_touched = true;
+      }
+    return result;
+  }
+
+
+
+  std::vector<FacingFace>
+  FacingFaces::find(const Face &slave) const
+  {
+    const Tensor<1, dim>            normal  = evaluate(slave, nullptr, {{0., 0.}}).normal();
+    const std::vector<const Face *> near    = search.near(box(slave), normal);
+    std::vector<FacingFace>         all     = cover(slave, near);
+    bool                            layered = false, moved = all.empty();
+    if (all.size() > 1)
+      {
+        const std::map<const Face *, std::size_t> number = layers(near);
+        for (const FacingFace &facing : all)
+          layered = layered || number.at(facing.master) != number.at(all[0].master);
+      }
+    for (const FacingFace &facing : all)
+      moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() >
+                         small_motion * std::sqrt(area(slave));
+    if (!moved && !layered)
+      return all;
+    const Entries in    = entries(slave, normal);
+    const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {
+      return std::find(near.begin(), near.end(), face) != near.end();
+    });
+    return known && !layered ? all : resolve(slave, normal, in);
+  }
+
+
+
+  std::vector<FacingFace>
+  FacingFaces::resolve(const Face &slave, const Tensor<1, dim> &normal, const Entries &in) const
+  {
+    // What lies around the places of entry is within reach, too.
+    BoundingBox<dim> around = box(slave);
+    for (const Face *face : in.faces)
+      around.merge_with(box(*face));
+    const std::vector<const Face *> masters = search.near(around, normal);
+
+    struct Layer
+    {
+      std::vector<FacingFace> faces;
+      double                  area = 0., gap = 0.;
+      bool                    entered = false;
+    };
+    const std::map<const Face *, std::size_t> number = layers(masters);
+    std::map<std::size_t, Layer>              by_number;
+    for (FacingFace &facing : cover(slave, masters))
+      {
+        Layer &layer = by_number[number.at(facing.master)];
+        layer.area += area(facing.points);
+        layer.gap += gap(slave, normal, facing);
+        layer.faces.push_back(std::move(facing));
+      }
+    for (std::size_t i = 0; i < in.faces.size(); ++i)
+      {
+        const auto found = number.find(in.faces[i]);
+        const auto layer = found == number.end() ? by_number.end() : by_number.find(found->second);
+        // From what it touched it may just have gone away.
+        const bool only_touched = in.last_touched && i + 1 == in.faces.size();
+        if (layer != by_number.end() && (!only_touched || layer->second.gap < 0.))
+          layer->second.entered = true;
+      }
+
+    std::vector<Layer> order;
+    for (auto &[id, layer] : by_number)
+      order.push_back(std::move(layer));
+    std::sort(order.begin(), order.end(), [](const Layer &a, const Layer &b) {
+      if (a.entered != b.entered)
+        return a.entered;
+      const double of_a = std::abs(a.gap / a.area), of_b = std::abs(b.gap / b.area);
+      return of_a != of_b ? of_a < of_b : a.faces[0].master->key < b.faces[0].master->key;
+    });
+
+    std::vector<FacingFace> result;
+    for (Layer &layer : order)
+      {
+        const std::size_t before = result.size();
+        for (FacingFace &facing : layer.faces)
+          {
+            double hidden = 0.;
+            for (std::size_t i = 0; i < before; ++i)
+              hidden += area(overlap(*result[i].master, *facing.master));
+            if (hidden < behind * area(*facing.master))
+              result.push_back(std::move(facing));
+          }
+      }
+    std::sort(result.begin(), result.end(), [](const FacingFace &a, const FacingFace &b) {
+      return a.master->key < b.master->key;
+    });
+    return result;
+  }
+
+
+
+  void
+  FacingFaces::commit(const std::vector<const Face *> &faces)
+  {
+    std::unordered_map<std::uint64_t, std::uint64_t> now;
+    for (const Face *slave : faces)
+      {
+        const Tensor<1, dim>          normal = evaluate(*slave, nullptr, {{0., 0.}}).normal();
+        const std::vector<FacingFace> facing = find(*slave);
+        double                        sum = 0., largest = 0., whole = 0.;
+        const Face                   *master = nullptr;
+        for (const FacingFace &f : facing)
+          {
+            sum += gap(*slave, normal, f);
+            whole += area(f.points);
+            if (area(f.points) > (1. + 1e-9) * largest)
+              {
+                largest = area(f.points);
+                master  = f.master;
+              }
+          }
+        if (master && sum < touching * std::sqrt(whole) * whole)
+          now[slave->key] = master->key;
+      }
+    touched.swap(now);
+  }
+} // namespace Touchstone

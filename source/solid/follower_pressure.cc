@@ -1,0 +1,123 @@
+#include <touchstone/solid/follower_pressure.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  FollowerPressure::for_each_point(const double                                     t,
+                                   const Vector                                    &u,
+                                   const bool                                       with_ghosts,
+                                   const std::function<void(const FEFaceValues<dim> &,
+                                                            unsigned int,
+                                                            const std::vector<Index> &,
+                                                            const SurfacePoint &)> &visit) const
+  {
+    const FEValuesExtractors::Vector displacement(0);
+    // Exact on the faces of both degrees: a closed surface has no net force or moment.
+    FEFaceValues<dim> values(solid.mapping,
+                             solid.fe,
+                             QGauss<dim - 1>(2 * solid.fe.degree + 1),
+                             update_values | update_gradients | update_normal_vectors |
+                               update_JxW_values | update_quadrature_points);
+    Vector            ghosted(solid.owned, solid.relevant, solid.communicator);
+    ghosted = u;
+    std::vector<Index>          dofs(solid.fe.n_dofs_per_cell());
+    std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() || (with_ghosts && cell->is_ghost()))
+        for (const unsigned int f : cell->face_indices())
+          for (const Load &load : loads)
+            if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == load.boundary)
+              {
+                values.reinit(cell, f);
+                cell->get_dof_indices(dofs);
+                values[displacement].get_function_gradients(ghosted, gradients);
+                load.pressure->set_time(t);
+                for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                  {
+                    const Tensor<1, dim> n = values.normal_vector(q);
+                    unsigned int         d = 0; // the axis farthest from the normal
+                    for (unsigned int e = 1; e < dim; ++e)
+                      if (std::abs(n[e]) < std::abs(n[d]))
+                        d = e;
+                    Tensor<1, dim> axis;
+                    axis[d] = 1.;
+                    SurfacePoint point;
+                    point.pressure = load.pressure->value(values.quadrature_point(q));
+                    point.t[0]     = cross_product_3d(axis, n);
+                    point.t[0] /= point.t[0].norm();
+                    point.t[1] = cross_product_3d(n, point.t[0]);
+                    for (unsigned int a = 0; a < 2; ++a)
+                      point.moved[a] = point.t[a] + gradients[q] * point.t[a];
+                    visit(values, q, dofs, point);
+                  }
+              }
+  }
+
+
+
+  void
+  FollowerPressure::add_force(const double t, const Vector &u, Vector &force) const
+  {
+    if (loads.empty())
+      return;
+    for_each_point(
+      t,
+      u,
+      true,
+      [&](const auto &values, const unsigned int q, const auto &dofs, const SurfacePoint &point) {
+        const Tensor<1, dim> traction =
+          -point.pressure * cross_product_3d(point.moved[0], point.moved[1]);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          if (solid.owned.is_element(dofs[i]))
+            force(dofs[i]) += values.shape_value(i, q) *
+                              traction[solid.fe.system_to_component_index(i).first] * values.JxW(q);
+      });
+    force.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  FollowerPressure::add_stiffness(const double             t,
+                                  const Vector            &u,
+                                  const bool               symmetric,
+                                  std::vector<MatrixTerm> &terms) const
+  {
+    if (loads.empty())
+      return;
+    for_each_point(
+      t,
+      u,
+      false,
+      [&](const auto &values, const unsigned int q, const auto &dofs, const SurfacePoint &point) {
+        // Shapes that vanish at the point can still have a slope there.
+        for (unsigned int j = 0; j < dofs.size(); ++j)
+          {
+            const Tensor<1, dim> gradient = values.shape_grad(j, q);
+            const double         slope[2] = {gradient * point.t[0], gradient * point.t[1]};
+            if (std::abs(slope[0]) + std::abs(slope[1]) <= 1e-14 * gradient.norm())
+              continue;
+            Tensor<1, dim> e;
+            e[solid.fe.system_to_component_index(j).first] = 1.;
+            // d ((F t_1) x (F t_2)) / du_j
+            const Tensor<1, dim> change = slope[0] * cross_product_3d(e, point.moved[1]) +
+                                          slope[1] * cross_product_3d(point.moved[0], e);
+            for (unsigned int i = 0; i < dofs.size(); ++i)
+              {
+                const double value = point.pressure * values.shape_value(i, q) *
+                                     change[solid.fe.system_to_component_index(i).first] *
+                                     values.JxW(q);
+                if (value == 0.)
+                  continue;
+                terms.push_back({dofs[i], dofs[j], symmetric ? 0.5 * value : value});
+                if (symmetric)
+                  terms.push_back({dofs[j], dofs[i], 0.5 * value});
+              }
+          }
+      });
+  }
+} // namespace Touchstone
