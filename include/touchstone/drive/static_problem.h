@@ -116,7 +116,10 @@ namespace Touchstone
     std::unique_ptr<RigidBodyModes>   modes;
     dealii::AffineConstraints<double> hanging;
 
-    double                           time = 0.;
+    double time = 0., committed_time = 0.;
+    /** The motion of the last step per time; empty where it says nothing of the
+     * next one. */
+    Vector                           velocity;
     Vector                           u, committed_u, external, internal, unbalanced, increment;
     ConstraintGraph                  graph;
     std::unique_ptr<LinearSystem>    system;
