@@ -193,7 +193,7 @@ namespace Touchstone
     if (!state.prescribed || state.changes > 0)
       linear_tolerance *= getenv("TS_T") ? atof(getenv("TS_T")) : 1e-3;
     else if (state.residual > 0.)
-      linear_tolerance = std::clamp(0.3 * scene.newton.residual_tolerance / state.residual,
+      linear_tolerance = std::clamp((getenv("TS_G") ? atof(getenv("TS_G")) : 0.3) * scene.newton.residual_tolerance / state.residual,
                                     linear_tolerance,
                                     std::max(linear_tolerance, 0.1));
     return state;
