@@ -230,7 +230,9 @@ namespace Touchstone
           if (entry.first == global)
             diagonal = std::max(diagonal, std::abs(entry.second));
         const double product = condensation.expand(row, expanded);
-        replaced[i]          = 1;
+        // Each of its entries goes to all rows that this one stands for.
+        merge(expanded);
+        replaced[i] = 1;
         condensation.scatter(global, expanded, system.rhs(global) - product);
       }
     for (const MatrixTerm &term : system.terms)

@@ -33,14 +33,16 @@ namespace Touchstone
     void
     add_row(const ContactRow &row, double area, const dealii::Tensor<1, dim> &normal);
 
-    /** @brief Whether the face takes part in a row that is wanted. */
+    /** @brief Whether the face takes part in a row that is wanted.
+     * @param basis Of a face with hanging nodes, or null. */
     bool
-    wants(const Face &slave) const;
+    wants(const Face &slave, const TraceBasis *basis) const;
 
     /** @brief Add the share of a slave face.
      * @param masters Master faces near it. */
     void
     add_face(const Face                      &slave,
+             const TraceBasis                *basis,
              const AnalyticSurface           *slave_exact,
              const std::vector<const Face *> &masters);
 
@@ -94,6 +96,7 @@ namespace Touchstone
     template <unsigned int n>
     void
     add(const Face                      &slave,
+        const TraceBasis                *basis,
         const AnalyticSurface           *slave_exact,
         const std::vector<const Face *> &near);
   };
