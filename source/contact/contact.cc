@@ -362,7 +362,7 @@ namespace Touchstone
             for (unsigned int m = 0; m < face.n_nodes(); ++m)
               {
                 const Stencil follows = basis->stencil(m);
-                if (follows.size() > 1)
+                if (follows.size() != 1 || follows[0].node != face.nodes[m])
                   result.back().hanging.push_back({face.nodes[m], face.reference[m], follows});
               }
         }

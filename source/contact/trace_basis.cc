@@ -21,12 +21,21 @@ namespace Touchstone
     , nodes(face.nodes)
   {
     const auto end = nodes.begin() + n;
-    // The places of hanging nodes go to the parents that the face does not have.
+    // The places of hanging nodes go to the parents that the face does not have. With
+    // degree 2 a corner can hang as well: it follows the middle of the larger edge.
+    std::vector<unsigned int> places;
+    std::vector<Index>        parents;
     for (unsigned int i = 0; i < n; ++i)
       if (hanging.is_constrained(dim * face.nodes[i]))
-        for (const auto &entry : *hanging.get_constraint_entries(dim * face.nodes[i]))
-          if (std::find(nodes.begin(), end, entry.first / dim) == end)
-            nodes[i] = entry.first / dim;
+        {
+          places.push_back(i);
+          for (const auto &entry : *hanging.get_constraint_entries(dim * face.nodes[i]))
+            if (std::find(nodes.begin(), end, entry.first / dim) == end &&
+                std::find(parents.begin(), parents.end(), entry.first / dim) == parents.end())
+              parents.push_back(entry.first / dim);
+        }
+    for (unsigned int k = 0; k < std::min(places.size(), parents.size()); ++k)
+      nodes[places[k]] = parents[k];
     for (unsigned int i = 0; i < n; ++i)
       if (!hanging.is_constrained(dim * face.nodes[i]))
         weights[i][i] = 1.;

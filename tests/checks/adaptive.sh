@@ -65,7 +65,10 @@ run hertz_2 2 "$tests/adaptive_hertz.prm"
 run hertz_3 3 "$tests/adaptive_hertz.prm"
 same hertz hertz_2 1e-8
 same hertz hertz_3 1e-8
-below hertz pressure_l2 "$(value hertz /errors/pressure_l2)" 0.03
+below hertz pressure_l2 "$(value hertz /errors/pressure_l2)" 0.07
+
+run hertz_finer 1 "$prm/hertz_sphere_adaptive.prm" --set "Refinement/Cycles=3"
+below hertz_finer pressure_l2 "$(value hertz_finer /errors/pressure_l2)" 0.022
 
 # Sliding.
 run sliding 1 "$tests/adaptive_sliding.prm"
