@@ -80,6 +80,6 @@ for direction in 1 3; do
   below sliding "reaction $direction against a fine mesh" \
     "$(echo "$(value sliding /results/reactions/block/top $direction)" \
       "$(value sliding_fine /results/reactions/block/top $direction)" |
-      awk '{ d = $1 / $2 - 1; print d < 0 ? -d : d }')" 0.03
+      awk '{ d = $1 / $2 - 1; print d < 0 ? -d : d }')" 0.01
 done
 finish
