@@ -34,6 +34,10 @@ run two_tubes
 render two_tubes --unit MPa --camera "0.5 0.75 0.9" --up "0 1 0" --zoom 0.95 \
   --contact-camera "0.5 -0.6 -0.6" --contact-up "0 1 0"
 
+run hertz_sphere_adaptive
+render hertz_sphere_adaptive --unit MPa --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.05" --zoom 6 \
+  --contact-camera "-0.4 -0.8 1.6" --contact-zoom 9
+
 run hertz_sphere
 render hertz_sphere --unit MPa --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.05" --zoom 6 \
   --contact-camera "-0.4 -0.8 1.6" --contact-zoom 9 --points "$runs/hertz_sphere.txt"

@@ -123,6 +123,47 @@ namespace Touchstone
             }
         }
     }
+
+    /** Multiply the first index of all integrals, and the second of the mass matrix,
+     * by the transposed weights of a basis: integrals with its functions. */
+    void
+    to_trace_basis(const TraceBasis    &basis,
+                   FullMatrix<double>  &mass,
+                   FullMatrix<double>  &q,
+                   std::vector<double> &d_mass,
+                   std::vector<double> &d_q,
+                   const unsigned int   n_variables)
+    {
+      const unsigned int  n = basis.n, n_columns = q.n();
+      std::vector<double> result;
+      // [block][j][column], rows first.
+      const auto rows = [&](double *const block, const unsigned int columns) {
+        result.assign(n * columns, 0.);
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int p = 0; p < n; ++p)
+            if (basis.weights[j][p] != 0.)
+              for (unsigned int c = 0; c < columns; ++c)
+                result[p * columns + c] += basis.weights[j][p] * block[j * columns + c];
+        std::copy(result.begin(), result.end(), block);
+      };
+      const auto columns = [&](double *const block) {
+        result.assign(n * n, 0.);
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int k = 0; k < n; ++k)
+            for (unsigned int p = 0; p < n; ++p)
+              result[j * n + p] += basis.weights[k][p] * block[j * n + k];
+        std::copy(result.begin(), result.end(), block);
+      };
+      rows(&mass(0, 0), n);
+      columns(&mass(0, 0));
+      rows(&q(0, 0), n_columns);
+      for (unsigned int v = 0; v < n_variables; ++v)
+        {
+          rows(&d_mass[v * n * n], n);
+          columns(&d_mass[v * n * n]);
+          rows(&d_q[v * n * n_columns], n_columns);
+        }
+    }
   } // namespace
 
 
@@ -144,29 +185,34 @@ namespace Touchstone
 
 
   bool
-  AveragedDerivative::wants(const Face &slave) const
+  AveragedDerivative::wants(const Face &slave, const TraceBasis *basis) const
   {
-    return std::any_of(slave.nodes.begin(),
-                       slave.nodes.begin() + slave.n_nodes(),
-                       [this](const Index node) { return rows.count(node) > 0; });
+    const auto &nodes = basis ? basis->nodes : slave.nodes;
+    return std::any_of(nodes.begin(), nodes.begin() + slave.n_nodes(), [this](const Index node) {
+      return rows.count(node) > 0;
+    });
   }
 
 
 
   void
-  AveragedDerivative::add_face(const FaceGeometry &slave, const std::vector<const Face *> &near)
+  AveragedDerivative::add_face(const FaceGeometry              &slave,
+                               const TraceBasis                *basis,
+                               const std::vector<const Face *> &near)
   {
     if (slave.face().degree == 1)
-      add<4>(slave, near);
+      add<4>(slave, basis, near);
     else
-      add<9>(slave, near);
+      add<9>(slave, basis, near);
   }
 
 
 
   template <unsigned int n>
   void
-  AveragedDerivative::add(const FaceGeometry &geometry, const std::vector<const Face *> &near)
+  AveragedDerivative::add(const FaceGeometry              &geometry,
+                          const TraceBasis                *basis,
+                          const std::vector<const Face *> &near)
   {
     const Face              &slave = geometry.face();
     const FaceDifferentiator on_slave(geometry);
@@ -234,6 +280,8 @@ namespace Touchstone
           for (unsigned int v = 0; v < n_variables; ++v)
             d_mass[(v * n + k) * n + j] = d_mass[(v * n + j) * n + k];
         }
+    if (basis)
+      to_trace_basis(*basis, mass, q, d_mass, d_q, n_variables);
     // As in the pairing: regular on slivers.
     constexpr double regularisation = 1e-14;
     const double     trace          = mass.trace();
@@ -254,7 +302,7 @@ namespace Touchstone
     std::vector<double> d(n_columns);
     for (unsigned int i = 0; i < n; ++i)
       {
-        const auto wanted = rows.find(slave.nodes[i]);
+        const auto wanted = rows.find(basis ? basis->nodes[i] : slave.nodes[i]);
         if (wanted == rows.end())
           continue;
         Row                      &row    = wanted->second;
@@ -282,19 +330,26 @@ namespace Touchstone
                 for (unsigned int c = 0; c < n_columns; ++c)
                   d[c] += dual * dq[c] - taken * solution(j, c);
               }
-            const Index        node = v < n * dim ? slave.nodes[v / dim] : nodes[v / dim - n];
-            const std::size_t  to   = row.builder.index(node);
-            const unsigned int e    = v % dim;
-            row.d_area.resize(result.nodes.size());
-            row.d_area[to][e] += d[0];
-            for (unsigned int c = 0; c < dim; ++c)
+            // A hanging node moves with those that it follows: if its row referred to
+            // it, conditions would depend on each other in a circle.
+            const unsigned int k = v / dim, e = v % dim;
+            const Stencil      moved = k >= n  ? Stencil{{nodes[k - n], 1.}}
+                                       : basis ? basis->stencil(k)
+                                               : Stencil{{slave.nodes[k], 1.}};
+            for (const auto &[node, weight] : moved)
               {
-                result.gap_vector[to][c][e] += d[1 + c];
-                result.normal[to][c][e] += d[1 + dim + c];
+                const std::size_t to = row.builder.index(node);
+                row.d_area.resize(result.nodes.size());
+                row.d_area[to][e] += weight * d[0];
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    result.gap_vector[to][c][e] += weight * d[1 + c];
+                    result.normal[to][c][e] += weight * d[1 + dim + c];
+                  }
+                for (unsigned int m = 0; m < nodes.size(); ++m)
+                  if (stencil[m] != numbers::invalid_unsigned_int)
+                    result.weights[stencil[m]][to][e] += weight * d[n_fixed + m];
               }
-            for (unsigned int m = 0; m < nodes.size(); ++m)
-              if (stencil[m] != numbers::invalid_unsigned_int)
-                result.weights[stencil[m]][to][e] += d[n_fixed + m];
           }
         for (const auto &[face, part] : parts)
           {

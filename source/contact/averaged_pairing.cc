@@ -19,6 +19,8 @@ namespace Touchstone
      * the master shapes, weighted with the dual basis of its slave faces. With
      * int psi_s N_t = delta_st int N_s the gap of the slave side is that of the
      * node alone, so a row keeps its form.
+     * A face with hanging nodes takes the basis of the continuous displacements
+     * instead of its shape functions, and rows go to the nodes that these follow.
      * Wohlmuth (2000), SIAM J. Numer. Anal. 38; on faces that are covered only in
      * part the basis is dual on the covered part: Popp, Seitz, Gee and Wall (2013),
      * Comput. Methods Appl. Mech. Engng 264.
@@ -123,17 +125,23 @@ namespace Touchstone
       if (points.empty())
         return;
 
+      const TraceBasis *basis  = input.slave->trace(slave);
+      const auto        values = [&](const OverlapPoint &point) {
+        const FaceShapes shapes(slave.degree, point.slave);
+        return basis ? basis->apply(shapes.value) : shapes.value;
+      };
+
       // The dual basis psi = D M^-1 N of the covered part.
       FullMatrix<double>  mass(n, n);
       std::vector<double> area(n, 0.);
       for (const auto &[master, point] : points)
         {
-          const FaceShapes shapes(slave.degree, point.slave);
+          const auto shapes = values(point);
           for (unsigned int i = 0; i < n; ++i)
             {
-              area[i] += point.weight * shapes.value[i];
+              area[i] += point.weight * shapes[i];
               for (unsigned int j = 0; j < n; ++j)
-                mass(i, j) += point.weight * shapes.value[i] * shapes.value[j];
+                mass(i, j) += point.weight * shapes[i] * shapes[j];
             }
         }
       // A sliver of coverage leaves the mass matrix singular to working precision:
@@ -148,8 +156,8 @@ namespace Touchstone
       const FaceGeometry on_slave(slave, input.slave->exact_surface(slave), kind);
       for (const auto &[master, point] : points)
         {
-          const FaceShapes     slave_shapes(slave.degree, point.slave);
-          const Face          &face = master->face();
+          const auto           slave_shapes = values(point);
+          const Face          &face         = master->face();
           const FaceShapes     master_shapes(face.degree, point.master);
           const Tensor<1, dim> gap =
             on_slave.evaluate(point.slave).x - master->evaluate(point.master).x;
@@ -158,8 +166,8 @@ namespace Touchstone
             {
               double psi = 0.;
               for (unsigned int j = 0; j < n; ++j)
-                psi += area[i] * mass(i, j) * slave_shapes.value[j];
-              Sums &sum = sums[slave.nodes[i]];
+                psi += area[i] * mass(i, j) * slave_shapes[j];
+              Sums &sum = sums[basis ? basis->nodes[i] : slave.nodes[i]];
               psi *= point.weight;
               sum.area += psi;
               sum.gap += psi * gap;
@@ -187,9 +195,10 @@ namespace Touchstone
       for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
         for (const Face &face : *list)
           {
-            bool touches = false;
+            bool              touches = false;
+            const TraceBasis *basis   = input.slave->trace(face);
             for (unsigned int m = 0; m < face.n_nodes(); ++m)
-              touches = touches || sums.count(face.nodes[m]) > 0;
+              touches = touches || sums.count(basis ? basis->nodes[m] : face.nodes[m]) > 0;
             if (!touches)
               continue;
             slave_faces.push_back({face, {}});
@@ -259,8 +268,9 @@ namespace Touchstone
             derivative.add_row(row, sum.area, sum.normal);
           }
       for (const auto &[slave, masters] : slave_faces)
-        if (derivative.wants(slave))
+        if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
           derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
+                              basis,
                               masters);
       derivative.finish();
       for (ContactRow &row : rows)

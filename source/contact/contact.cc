@@ -100,6 +100,14 @@ namespace Touchstone
         pairs.push_back(std::move(pair));
       }
     find_circles();
+    IndexSet seen = solid.relevant;
+    for (const Pair &pair : pairs)
+      seen.add_indices(pair.slave->far_unknowns().begin(), pair.slave->far_unknowns().end());
+    for (const Pair &pair : pairs)
+      if (pair.master)
+        seen.add_indices(pair.master->far_unknowns().begin(), pair.master->far_unknowns().end());
+    seen.compress();
+    ghosted.reinit(solid.owned, seen, solid.communicator);
     committed = rows;
     if (with_friction)
       {
@@ -113,7 +121,8 @@ namespace Touchstone
   void
   Contact::make_reference(Pair &pair, std::vector<ContactRow> &pair_rows, const double time)
   {
-    Vector zero(solid.owned, solid.relevant, solid.communicator);
+    Vector zero;
+    zero.reinit(ghosted);
     pair.slave->move(zero);
     if (pair.master)
       pair.master->move(zero);
@@ -235,6 +244,7 @@ namespace Touchstone
               }
     force.add(unknowns, values);
     force.compress(VectorOperation::add);
+    solid.condense(force); // master nodes can hang
   }
 
 
@@ -312,7 +322,16 @@ namespace Touchstone
     std::vector<ContactFace> result;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       for (const Face &face : pairs[p].slave->owned_faces())
-        result.push_back({p, face.degree, face.nodes});
+        {
+          result.push_back({p, face.degree, face.nodes});
+          if (const TraceBasis *basis = pairs[p].slave->trace(face))
+            for (unsigned int m = 0; m < face.n_nodes(); ++m)
+              {
+                const Stencil follows = basis->stencil(m);
+                if (follows.size() != 1 || follows[0].node != face.nodes[m])
+                  result.back().hanging.push_back({face.nodes[m], face.reference[m], follows});
+              }
+        }
     return result;
   }
 

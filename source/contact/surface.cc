@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <map>
 
 namespace Touchstone
@@ -13,14 +14,19 @@ namespace Touchstone
   namespace
   {
     /** A number for the face of a cell that does not depend on the partition:
-     * the path to the cell in the forest. */
+     * the path to the cell in the forest, in 30 bits for ten levels; the level, which
+     * tells a cell from its first child; and the face. */
     std::uint64_t
     face_key(const CellId &id, const unsigned int face)
     {
+      constexpr unsigned int max_level = 10;
+      const auto             path      = id.get_child_indices();
+      AssertThrow(path.size() <= max_level && id.get_coarse_cell_id() < (1u << 27),
+                  ExcMessage("The mesh has more than 10 levels or 2^27 coarse cells."));
       std::uint64_t key = id.get_coarse_cell_id();
-      for (const std::uint8_t child : id.get_child_indices())
-        key = key * 8 + child;
-      return key * 6 + face;
+      for (unsigned int level = 0; level < max_level; ++level)
+        key = key * 8 + (level < path.size() ? path[level] : 0);
+      return (key * 16 + path.size()) * 8 + face;
     }
 
     /** Area of the face's shape functions, by Gauss quadrature on the facet. */
@@ -52,23 +58,24 @@ namespace Touchstone
       constexpr double cosine_of_sharp_edge = 0.64;
       return part * own > cosine_of_sharp_edge * part.norm() * own.norm();
     }
-
-    /** The four edges of a face as pairs of corner nodes, in the order of the
-     * bits of Face::outer_edges. */
-    std::array<std::pair<Index, Index>, 4>
-    edges(const Face &face)
-    {
-      const unsigned int p    = face.degree;
-      const Index        c[4] = {face.nodes[0],
-                                 face.nodes[p],
-                                 face.nodes[(p + 1) * p],
-                                 face.nodes[(p + 1) * (p + 1) - 1]};
-      const auto         pair = [](const Index a, const Index b) {
-        return std::make_pair(std::min(a, b), std::max(a, b));
-      };
-      return {{pair(c[0], c[2]), pair(c[1], c[3]), pair(c[0], c[1]), pair(c[2], c[3])}};
-    }
   } // namespace
+
+
+
+  std::array<Surface::Edge, 4>
+  Surface::edges(const Face &face)
+  {
+    // In the order of the bits of Face::outer_edges.
+    const unsigned int p    = face.degree;
+    const Index        c[4] = {face.nodes[0],
+                               face.nodes[p],
+                               face.nodes[(p + 1) * p],
+                               face.nodes[(p + 1) * (p + 1) - 1]};
+    const auto         pair = [](const Index a, const Index b) {
+      return std::make_pair(std::min(a, b), std::max(a, b));
+    };
+    return {{pair(c[0], c[2]), pair(c[1], c[3]), pair(c[0], c[1]), pair(c[2], c[3])}};
+  }
 
 
 
@@ -78,10 +85,12 @@ namespace Touchstone
                    const std::set<types::boundary_id> &boundaries,
                    const bool                          exact)
     : forest(forest)
+    , ids(boundaries)
     , exact(exact)
   {
-    const unsigned int p = solid.fe.degree;
-    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    const unsigned int                                p = solid.fe.degree;
+    std::vector<Index>                                dofs(solid.fe.n_dofs_per_cell());
+    std::vector<std::pair<Edge, std::array<Edge, 2>>> halves;
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       {
         if (cell->is_artificial() || cell->material_id() != body)
@@ -113,28 +122,53 @@ namespace Touchstone
                   face.nodes[m]     = dofs[i] / dim;
                   face.reference[m] = solid.mapping.transform_unit_to_real_cell(cell, unit);
                 }
+            if (TraceBasis::needed(face, solid.hanging))
+              traces.emplace(face.key, TraceBasis(face, solid.hanging));
             (cell->is_locally_owned() ? faces : ghost_faces).push_back(face);
+
+            for (unsigned int l = 0; l < GeometryInfo<2>::lines_per_cell; ++l)
+              {
+                const auto line = cell->face(f)->line(l);
+                if (!line->has_children())
+                  continue;
+                const auto node = [](const auto &line, const unsigned int v) {
+                  return line->vertex_dof_index(v, 0) / dim;
+                };
+                const Index a = node(line, 0), b = node(line, 1), m = node(line->child(0), 1);
+                halves.push_back(
+                  {{std::min(a, b), std::max(a, b)},
+                   {{{std::min(a, m), std::max(a, m)}, {std::min(m, b), std::max(m, b)}}}});
+              }
           }
       }
-    mark_outer_edges();
+    mark_outer_edges(halves);
+    if (solid.has_hanging_nodes())
+      exchange_far_faces(solid);
 
     std::map<Index, SurfaceNode> found;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
         {
-          const auto areas = nodal_areas(face);
-          double     area  = 0.;
+          auto   areas = nodal_areas(face);
+          double area  = 0.;
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
             area += areas[m];
+          const TraceBasis *basis = trace(face);
+          if (basis)
+            areas = basis->apply(areas);
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            if (solid.owned.is_element(dim * face.nodes[m]))
-              {
-                SurfaceNode &node = found[face.nodes[m]];
-                node.node         = face.nodes[m];
-                node.reference    = face.reference[m];
-                node.area += areas[m];
-                node.size = std::max(node.size, std::sqrt(area) / p);
-              }
+            {
+              const Index index = basis ? basis->nodes[m] : face.nodes[m];
+              if (!solid.owned.is_element(dim * index))
+                continue;
+              SurfaceNode &node = found[index];
+              node.node         = index;
+              node.area += areas[m];
+              if (index != face.nodes[m])
+                continue; // the place of a node that this face does not have
+              node.reference = face.reference[m];
+              node.size      = std::max(node.size, std::sqrt(area) / p);
+            }
           const unsigned int last = face.n_nodes() - 1;
           diagonal                = std::max({diagonal,
                                               face.reference[0].distance(face.reference[last]),
@@ -148,13 +182,24 @@ namespace Touchstone
 
 
   void
-  Surface::mark_outer_edges()
+  Surface::mark_outer_edges(const std::vector<std::pair<Edge, std::array<Edge, 2>>> &halves)
   {
-    std::map<std::pair<Index, Index>, unsigned int> count;
+    std::map<Edge, unsigned int> count;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
-        for (const auto &edge : edges(face))
+        for (const Edge &edge : edges(face))
           ++count[edge];
+    // A larger face and its two neighbours on one side of it meet without sharing
+    // an edge.
+    for (const auto &[whole, parts] : halves)
+      for (const Edge &part : parts)
+        {
+          const auto found = count.find(part);
+          if (found == count.end())
+            continue;
+          ++found->second;
+          ++count[whole];
+        }
     for (Face &face : faces)
       {
         const auto all = edges(face);
@@ -162,6 +207,68 @@ namespace Touchstone
           if (count[all[e]] == 1)
             face.outer_edges |= 1u << e;
       }
+  }
+
+
+
+  void
+  Surface::exchange_far_faces(const Solid &solid)
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(solid.communicator);
+    if (n_ranks == 1)
+      return;
+    // Ranks own consecutive unknowns.
+    const Index first =
+      solid.owned.n_elements() > 0 ? solid.owned.nth_index_in_set(0) : numbers::invalid_dof_index;
+    const auto firsts = Utilities::MPI::all_gather(solid.communicator, first);
+    const auto owner  = [&](const Index node) {
+      unsigned int rank = 0;
+      for (unsigned int r = 0; r < n_ranks; ++r)
+        if (firsts[r] != numbers::invalid_dof_index && firsts[r] <= dim * node)
+          rank = r;
+      return rank;
+    };
+
+    struct Package
+    {
+      Face       face;
+      TraceBasis basis;
+    };
+    std::map<unsigned int, std::vector<char>> packages;
+    for (const Face &face : faces)
+      if (const TraceBasis *basis = trace(face))
+        {
+          std::set<unsigned int> ranks;
+          for (unsigned int m = 0; m < basis->n; ++m)
+            if (basis->nodes[m] != face.nodes[m] && !solid.owned.is_element(dim * basis->nodes[m]))
+              ranks.insert(owner(basis->nodes[m]));
+          const Package package{face, *basis};
+          for (const unsigned int rank : ranks)
+            {
+              auto             &to   = packages[rank];
+              const std::size_t size = to.size();
+              to.resize(size + sizeof(Package));
+              std::memcpy(to.data() + size, static_cast<const void *>(&package), sizeof(Package));
+            }
+        }
+
+    std::set<std::uint64_t> known;
+    for (const Face &face : ghost_faces)
+      known.insert(face.key);
+    for (const auto &[rank, data] : Utilities::MPI::some_to_some(solid.communicator, packages))
+      for (std::size_t at = 0; at < data.size(); at += sizeof(Package))
+        {
+          Package package;
+          std::memcpy(static_cast<void *>(&package), data.data() + at, sizeof(Package));
+          // This rank may see the face, but not all that its nodes follow.
+          traces[package.face.key] = package.basis;
+          if (!known.insert(package.face.key).second)
+            continue;
+          ghost_faces.push_back(package.face);
+          for (unsigned int m = 0; m < package.face.n_nodes(); ++m)
+            for (unsigned int d = 0; d < dim; ++d)
+              far.push_back(dim * package.face.nodes[m] + d);
+        }
   }
 
 
@@ -196,9 +303,16 @@ namespace Touchstone
         const auto &[face, corner] = first.at(node.node);
         const FaceShapes shapes(face->degree, node_coordinates(*face, corner));
         result.emplace_back();
+        // Conditions on the slip must not refer to nodes that follow the slave node.
+        std::array<double, Face::max_nodes> weights{};
         for (unsigned int m = 0; m < face->n_nodes(); ++m)
-          if (shapes.gradient[m][0] != 0.)
-            result.back().push_back({face->nodes[m], shapes.gradient[m][0]});
+          weights[m] = shapes.gradient[m][0];
+        const TraceBasis *basis = trace(*face);
+        if (basis)
+          weights = basis->apply(weights);
+        for (unsigned int m = 0; m < face->n_nodes(); ++m)
+          if (weights[m] != 0.)
+            result.back().push_back({basis ? basis->nodes[m] : face->nodes[m], weights[m]});
       }
     return result;
   }

@@ -50,7 +50,8 @@ namespace Touchstone
     , log(folder, terminal)
     , forest(scene, folder_of_scene, communicator)
     , solid(scene, forest, communicator)
-    , problem(scene, forest, solid, timer)
+    , problem(std::make_unique<StaticProblem>(scene, forest, solid, timer))
+    , refinement(scene, forest, solid)
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
     , volume_output(solid, folder)
@@ -70,16 +71,53 @@ namespace Touchstone
   unsigned int
   Simulation::solve_step(const double time)
   {
-    problem.begin_step(time);
+    problem->begin_step(time);
     const Newton newton(scene.newton);
     // Iterations of attempts that fail count as well.
     return newton.solve(
-      problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
+      *problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
         progress.iteration(
           {iteration, state.residual, state.gap, state.active, state.changes, linear});
         ++summary.iterations.newton;
         summary.iterations.contact += (state.changes > 0);
       });
+  }
+
+
+
+  unsigned int
+  Simulation::adapt(const unsigned int step, const double time)
+  {
+    unsigned int       newton = 0;
+    const unsigned int cycles =
+      step == 1 ? scene.refinement.cycles : scene.refinement.cycles_per_step;
+    if (!scene.refinement.active())
+      return 0;
+    for (unsigned int cycle = 0;; ++cycle)
+      {
+        std::vector<Vector> fields;
+        {
+          TimerOutput::Scope scope(timer, "refinement");
+          const double       error = refinement.estimate(*problem);
+          summary.meshes.push_back({step, summary.cells, summary.unknowns, error});
+          if (cycle == cycles || error < scene.refinement.tolerance ||
+              !refinement.mark(*problem, time))
+            return newton;
+          fields = refinement.execute(problem->carry_over());
+          volume_output.reinit();
+        }
+        auto next = std::make_unique<StaticProblem>(scene, forest, solid, timer);
+        next->count_on(*problem);
+        problem = std::move(next);
+        problem->start();
+        problem->adopt(fields, committed_time, time);
+        summary.cells    = forest.triangulation.n_global_active_cells();
+        summary.unknowns = solid.dof_handler.n_dofs();
+        log.line("  mesh " + std::to_string(summary.meshes.size() + 1) + ": " +
+                 std::to_string(summary.cells) + " cells, " + std::to_string(summary.unknowns) +
+                 " unknowns");
+        newton += solve_step(time);
+      }
   }
 
 
@@ -91,10 +129,10 @@ namespace Touchstone
       return;
     TimerOutput::Scope scope(timer, "output");
     last_picture   = step;
-    const Vector u = problem.ghosted_displacement();
+    const Vector u = problem->ghosted_displacement();
     volume_output.write(u, step, time);
-    contact_output.write(problem.contact_state().faces(),
-                         problem.contact_state().points(u),
+    contact_output.write(problem->contact_state().faces(),
+                         problem->contact_state().points(u),
                          step,
                          time);
   }
@@ -108,25 +146,26 @@ namespace Touchstone
                           const unsigned int newton,
                           const unsigned int cuts)
   {
-    const Vector u       = problem.ghosted_displacement();
-    const auto   results = problem.contact_state().results(u);
+    const Vector u       = problem->ghosted_displacement();
+    const auto   results = problem->contact_state().results(u);
     StepRecord   record;
     record.step              = step;
     record.time              = time;
     record.step_size         = size;
     record.newton_iterations = newton;
-    record.linear_iterations = problem.linear_counts().iterations - summary.iterations.linear_total;
-    record.cuts              = cuts;
-    summary.iterations.linear_total = problem.linear_counts().iterations;
+    record.linear_iterations =
+      problem->linear_counts().iterations - summary.iterations.linear_total;
+    record.cuts                     = cuts;
+    summary.iterations.linear_total = problem->linear_counts().iterations;
     for (unsigned int p = 0; p < results.size(); ++p)
       record.pairs[scene.pairs[p].name] = summary.contact[scene.pairs[p].name] = results[p];
     summary.reactions.clear();
-    for (const Reaction &reaction : problem.reactions())
+    for (const Reaction &reaction : problem->reactions())
       {
         record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
         summary.reactions[reaction.body][reaction.boundary]       = reaction.force;
       }
-    record.energies["strain"] = problem.strain_energy();
+    record.energies["strain"] = problem->strain_energy();
     for (const ContactPairParameters &pair : scene.pairs)
       if (pair.friction)
         record.energies["friction"] += summary.contact[pair.name].friction_work;
@@ -160,12 +199,13 @@ namespace Touchstone
         progress.begin_step(step, expected, next);
         try
           {
-            const unsigned int newton  = solve_step(next);
-            const std::string  remarks = problem.remarks();
+            unsigned int newton = solve_step(next);
+            newton += adapt(step, next);
+            const std::string remarks = problem->remarks();
             if (!remarks.empty())
               log.line("  " + remarks);
-            problem.commit();
-            time = next;
+            problem->commit();
+            committed_time = time = next;
             progress.end_step(newton);
             record_step(step, time, size, newton, cuts);
             log.check();
@@ -180,8 +220,8 @@ namespace Touchstone
           }
         catch (const NonConvergence &failure)
           {
-            const std::string reason = failure.what() + problem.suspicion();
-            problem.rollback();
+            const std::string reason = failure.what() + problem->suspicion();
+            problem->rollback();
             if (cuts >= parameters.maximum_cuts)
               {
                 summary.failure = reason + " (step " + std::to_string(step) + " at time " +
@@ -211,7 +251,7 @@ namespace Touchstone
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
              std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement + ", " +
              scene.linear_solver.type);
-    for (const std::string &line : problem.start())
+    for (const std::string &line : problem->start())
       log.line(line);
     load_stepping();
     finish_summary();
@@ -236,25 +276,25 @@ namespace Touchstone
   {
     if (summary.converged)
       {
-        const Vector   u = problem.ghosted_displacement();
+        const Vector   u = problem->ghosted_displacement();
         ReferenceInput input;
         input.solid                      = &solid;
         input.displacement               = &u;
-        input.points                     = problem.contact_state().points(u);
-        input.pair_results               = problem.contact_state().results(u);
+        input.points                     = problem->contact_state().points(u);
+        input.pair_results               = problem->contact_state().results(u);
         input.communicator               = communicator;
         const ReferenceComparison result = reference->compare(input);
         summary.errors                   = result.errors;
         comparison_lines                 = result.lines;
       }
-    const LinearSolverCounts &counts = problem.linear_counts();
-    summary.iterations.linear_total  = counts.iterations;
+    const LinearSolverCounts counts = problem->linear_counts();
+    summary.iterations.linear_total = counts.iterations;
     summary.iterations.linear_mean =
       counts.solves > 0 ? double(counts.iterations) / counts.solves : 0.;
-    summary.counts.assemblies            = problem.n_assemblies();
+    summary.counts.assemblies            = problem->n_assemblies();
     summary.counts.factorisations        = counts.factorisations;
     summary.counts.preconditioner_setups = counts.preconditioner_setups;
-    summary.counts.searches              = problem.contact_state().n_searches();
+    summary.counts.searches              = problem->n_searches();
 
     auto seconds                  = timer.get_summary_data(TimerOutput::total_wall_time);
     summary.seconds.assembly      = seconds["assembly"];

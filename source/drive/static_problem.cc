@@ -3,7 +3,6 @@
 #include <touchstone/drive/static_problem.h>
 #include <touchstone/scene/input_error.h>
 
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
@@ -47,7 +46,6 @@ namespace Touchstone
     , contact(scene, forest, solid)
     , enforcement(EnforcementRegistry::make(scene.contact.enforcement, scene.contact))
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
-    , hanging(solid.relevant)
     , u(solid.owned, solid.communicator)
     , committed_u(u)
     , external(u)
@@ -55,8 +53,6 @@ namespace Touchstone
     , unbalanced(u)
     , increment(u)
   {
-    DoFTools::make_hanging_node_constraints(solid.dof_handler, hanging);
-    hanging.close();
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.assemble();
@@ -126,6 +122,65 @@ namespace Touchstone
 
 
 
+  std::vector<Vector>
+  StaticProblem::carry_over() const
+  {
+    std::vector<Vector> result;
+    for (const bool of_committed : {true, false})
+      {
+        result.push_back(of_committed ? committed_u : u);
+        for (Vector &field : contact.fields(of_committed))
+          result.push_back(std::move(field));
+      }
+    return result;
+  }
+
+
+
+  void
+  StaticProblem::adopt(const std::vector<Vector> &fields,
+                       const double               committed_time,
+                       const double               t)
+  {
+    const auto middle = fields.begin() + fields.size() / 2;
+    // Before the first step there is no history but what start() makes.
+    if (committed_time > 0.)
+      {
+        committed_u = u = fields.front();
+        contact.update(u, committed_time);
+        contact.adopt({fields.begin() + 1, middle}, true);
+      }
+    u = *middle;
+    contact.update(u, t);
+    contact.adopt({middle + 1, fields.end()}, false);
+  }
+
+
+
+  void
+  StaticProblem::count_on(const StaticProblem &before)
+  {
+    earlier          = before.linear_counts();
+    earlier_searches = before.n_searches();
+    assemblies += before.assemblies;
+  }
+
+
+
+  LinearSolverCounts
+  StaticProblem::linear_counts() const
+  {
+    LinearSolverCounts        sum = earlier;
+    const LinearSolverCounts &now = solver->counts();
+    sum.solves += now.solves;
+    sum.iterations += now.iterations;
+    sum.factorisations += now.factorisations;
+    sum.preconditioner_setups += now.preconditioner_setups;
+    return sum;
+  }
+
+
+
   NewtonState
   StaticProblem::residual(const unsigned int caution)
   {
@@ -145,6 +200,7 @@ namespace Touchstone
     }
     Vector without_contact(external);
     without_contact -= internal;
+    solid.condense(without_contact);
     enforcement->recover(contact, without_contact, graph);
 
     Vector contact_force(solid.owned, solid.communicator);
@@ -154,7 +210,6 @@ namespace Touchstone
 
     // Only what supports do not carry is out of balance.
     Vector free(unbalanced);
-    hanging.set_zero(free);
     for (Index k = 0; k < solid.owned.n_elements() / dim; ++k)
       {
         const Index    node = solid.owned.nth_index_in_set(dim * k) / dim;
@@ -188,12 +243,13 @@ namespace Touchstone
     // A solve that goes far below what Newton needs in the end is wasted. But one
     // that moves supports has a right-hand side much larger than the forces that
     // it leads to, and one that leads to wrong signs of contact forces costs
-    // further iterations: these get three digits more.
+    // further iterations: these get two digits more. The last one should be the
+    // last: it aims well below the residual that Newton asks for.
     linear_tolerance = scene.linear_solver.tolerance;
     if (!state.prescribed || state.changes > 0)
-      linear_tolerance *= getenv("TS_T") ? atof(getenv("TS_T")) : 1e-3;
+      linear_tolerance *= 1e-2;
     else if (state.residual > 0.)
-      linear_tolerance = std::clamp((getenv("TS_G") ? atof(getenv("TS_G")) : 0.3) * scene.newton.residual_tolerance / state.residual,
+      linear_tolerance = std::clamp(0.03 * scene.newton.residual_tolerance / state.residual,
                                     linear_tolerance,
                                     std::max(linear_tolerance, 0.1));
     return state;
@@ -246,14 +302,14 @@ namespace Touchstone
           far.insert(i);
     IndexSet needed = solid.relevant;
     needed.add_indices(far.begin(), far.end());
-    system->constraints   = graph.constraints(hanging, solid.owned, needed, solid.communicator);
+    system->constraints = graph.constraints(solid.hanging, solid.owned, needed, solid.communicator);
     const auto everywhere = [&](const bool here) {
       return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
     };
     if (!everywhere(graph.symmetric()))
       {
         system->test_constraints =
-          graph.test_constraints(hanging, solid.owned, needed, solid.communicator);
+          graph.test_constraints(solid.hanging, solid.owned, needed, solid.communicator);
         system->symmetric = false;
       }
     system->symmetric = everywhere(system->symmetric);

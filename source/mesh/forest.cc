@@ -78,10 +78,9 @@ namespace Touchstone
                       Triangulation<dim>::limit_level_difference_at_vertices))
   {
     // Whole powers of two are left to the manifolds, which refine any mesh.
-    double       factor      = scene.discretisation.refinement_factor;
-    unsigned int refinements = 0;
+    double factor = scene.discretisation.refinement_factor;
     for (; factor >= 2.; factor /= 2.)
-      ++refinements;
+      ++level;
 
     BodyMesh all;
     for (unsigned int body = 0; body < scene.bodies.size(); ++body)
@@ -105,7 +104,7 @@ namespace Touchstone
       }
 
     create_triangulation(all, triangulation);
-    triangulation.refine_global(refinements);
+    triangulation.refine_global(level);
   }
 
 

@@ -1,6 +1,7 @@
 #include <touchstone/output/contact_output.h>
 
 #include <array>
+#include <optional>
 #include <set>
 
 namespace Touchstone
@@ -87,6 +88,35 @@ namespace Touchstone
       point.area = parcel[n_values + dim];
       return point;
     }
+    /** The result at a hanging node, if those that it follows are known. */
+    std::optional<ContactPoint>
+    followed(const unsigned int              pair,
+             const ContactFace::HangingNode &hanging,
+             const ContactPointMap          &map)
+    {
+      ContactPoint result{};
+      double       largest = 0.;
+      for (const auto &[node, weight] : hanging.follows)
+        {
+          const auto found = map.find({pair, node});
+          if (found == map.end())
+            return {};
+          const ContactPoint &point = found->second;
+          result.displacement += weight * point.displacement;
+          result.normal += weight * point.normal;
+          result.gap += weight * point.gap;
+          result.pressure += weight * point.pressure;
+          result.traction += weight * point.traction;
+          result.slip += weight * point.slip;
+          if (weight > largest)
+            result.status = point.status;
+          largest = std::max(largest, weight);
+        }
+      result.pair               = pair;
+      result.node               = hanging.node;
+      result.reference_position = hanging.reference_position;
+      return result;
+    }
   } // namespace
 
 
@@ -103,10 +133,18 @@ namespace Touchstone
     // Only nodes at the edges of the partitions are missing, so that it does not
     // hurt to ask everybody and to tell everybody.
     std::set<std::pair<unsigned int, Index>> missing;
+    const auto                               want = [&](const unsigned int pair, const Index node) {
+      if (map.find({pair, node}) == map.end())
+        missing.insert({pair, node});
+    };
     for (const ContactFace &face : faces)
-      for (unsigned int i = 0; i < nodes_per_face(face); ++i)
-        if (map.find({face.pair, face.nodes[i]}) == map.end())
-          missing.insert({face.pair, face.nodes[i]});
+      {
+        for (unsigned int i = 0; i < nodes_per_face(face); ++i)
+          want(face.pair, face.nodes[i]);
+        for (const ContactFace::HangingNode &hanging : face.hanging)
+          for (const StencilEntry &entry : hanging.follows)
+            want(face.pair, entry.node);
+      }
 
     const auto requests = dealii::Utilities::MPI::all_gather(
       communicator, std::vector<std::pair<unsigned int, Index>>(missing.begin(), missing.end()));
@@ -126,6 +164,13 @@ namespace Touchstone
           const ContactPoint point = unpack(node, parcel);
           if (missing.count({point.pair, node}) > 0)
             map[{point.pair, node}] = point;
+        }
+    for (const ContactFace &face : faces)
+      for (const ContactFace::HangingNode &hanging : face.hanging)
+        {
+          const auto result = followed(face.pair, hanging, map);
+          if (result)
+            map[{face.pair, hanging.node}] = *result;
         }
     return map;
   }

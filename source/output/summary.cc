@@ -84,14 +84,24 @@ namespace Touchstone
     for (const auto &[name, error] : errors)
       relative_errors.set(name, error);
 
-    return Json::object()
-      .set("title", title)
-      .set("version", version)
-      .set("converged", converged)
-      .set("ranks", ranks)
-      .set("cells", cells)
-      .set("unknowns", unknowns)
-      .set("steps", steps)
+    Json all_meshes = Json::array();
+    for (const Mesh &mesh : meshes)
+      all_meshes.append(Json::object()
+                          .set("step", mesh.step)
+                          .set("cells", mesh.cells)
+                          .set("unknowns", mesh.unknowns)
+                          .set("estimated_error", mesh.estimated_error));
+
+    Json result = Json::object()
+                    .set("title", title)
+                    .set("version", version)
+                    .set("converged", converged)
+                    .set("ranks", ranks)
+                    .set("cells", cells)
+                    .set("unknowns", unknowns);
+    if (!meshes.empty())
+      result.set("meshes", all_meshes);
+    return result.set("steps", steps)
       .set("iterations",
            Json::object()
              .set("newton", iterations.newton)

@@ -13,6 +13,14 @@ namespace Touchstone
     , node_dofs(solid.dof_handler.get_triangulation())
     , pictures(folder, "solution")
   {
+    reinit();
+  }
+
+
+
+  void
+  VolumeOutput::reinit()
+  {
     node_dofs.distribute_dofs(node_fe);
     node_volume = make_node_field();
 

@@ -164,6 +164,7 @@ namespace Touchstone
       }
     declare_in("Contact", contact);
     declare_in("Discretisation", discretisation);
+    declare_in("Refinement", refinement);
     declare_in("Load stepping", load_stepping);
     declare_in("Newton", newton);
     declare_in("Linear solver", linear_solver);

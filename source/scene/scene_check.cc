@@ -50,6 +50,7 @@ namespace Touchstone
     for (const ContactPairParameters &pair : pairs)
       check_pair(pair);
     contact.check("Contact");
+    refinement.check("Refinement");
     load_stepping.check("Load stepping");
     newton.check("Newton");
     linear_solver.check("Linear solver");

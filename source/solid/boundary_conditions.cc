@@ -147,7 +147,8 @@ namespace Touchstone
               cell->get_dof_indices(dofs);
               for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
                 if (fe.system_to_component_index(i).first == 0 && fe.has_support_on_face(i, f) &&
-                    solid.owned.is_element(dofs[i]) && seen.insert(dofs[i]).second)
+                    solid.owned.is_element(dofs[i]) && !solid.hanging.is_constrained(dofs[i]) &&
+                    seen.insert(dofs[i]).second)
                   prescribed.push_back(
                     {dofs[i] / dim,
                      direction,

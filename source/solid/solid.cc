@@ -20,9 +20,22 @@ namespace Touchstone
     , communicator(communicator)
     , scene(scene)
   {
+    reinit();
+  }
+
+
+
+  void
+  Solid::reinit()
+  {
+    finite.reset();
     dof_handler.distribute_dofs(fe);
     owned = dof_handler.locally_owned_dofs();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
+    hanging.reinit(relevant);
+    DoFTools::make_hanging_node_constraints(dof_handler, hanging);
+    hanging.close();
+    any_hanging = Utilities::MPI::max(hanging.n_constraints(), communicator) > 0;
 
     // Contact counts nodes, not unknowns: three consecutive unknowns are a node.
     std::vector<Index> dofs(fe.n_dofs_per_cell());
@@ -48,6 +61,31 @@ namespace Touchstone
         }
     matrix.reinit(owned, owned, pattern, communicator);
     finite = std::make_unique<FiniteStrainCells>(scene, fe, mapping, dof_handler, matrix);
+  }
+
+
+
+  void
+  Solid::condense(Vector &force) const
+  {
+    if (!any_hanging)
+      return;
+    std::vector<Index>  unknowns;
+    std::vector<double> values;
+    for (const auto &line : hanging.get_lines())
+      if (owned.is_element(line.index))
+        {
+          for (const auto &[parent, weight] : line.entries)
+            {
+              unknowns.push_back(parent);
+              values.push_back(weight * force(line.index));
+            }
+          unknowns.push_back(line.index);
+          values.push_back(-force(line.index));
+        }
+    force.add(unknowns, values);
+    force.compress(VectorOperation::add);
+    hanging.set_zero(force);
   }
 
 

@@ -37,14 +37,17 @@ namespace Touchstone
     void
     add_row(const ContactRow &row, double area, const dealii::Tensor<1, dim> &normal);
 
-    /** @brief Whether the face takes part in a row that is wanted. */
+    /** @brief Whether the face takes part in a row that is wanted.
+     * @param basis Of a face with hanging nodes, or null. */
     bool
-    wants(const Face &slave) const;
+    wants(const Face &slave, const TraceBasis *basis) const;
 
     /** @brief Add the share of a slave face.
      * @param masters Master faces that cover it. */
     void
-    add_face(const FaceGeometry &slave, const std::vector<const Face *> &masters);
+    add_face(const FaceGeometry              &slave,
+             const TraceBasis                *basis,
+             const std::vector<const Face *> &masters);
 
     /** @brief All faces have been added. Collective. */
     void
@@ -98,7 +101,7 @@ namespace Touchstone
 
     template <unsigned int n>
     void
-    add(const FaceGeometry &slave, const std::vector<const Face *> &near);
+    add(const FaceGeometry &slave, const TraceBasis *basis, const std::vector<const Face *> &near);
   };
 } // namespace Touchstone
 

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <set>
 #include <vector>
 
 namespace Touchstone
@@ -83,6 +84,37 @@ namespace Touchstone
     /** @brief Go back to the last committed state: the step is repeated. */
     void
     rollback();
+
+    /**
+     * @brief What a change of the mesh carries over, as fields over the unknowns:
+     * per pair the contact traction; whether a node is active, sticks, and nothing;
+     * slip length and work against friction per area, and nothing.
+     *
+     * Densities, and not forces of nodes, so that they can be interpolated: a new
+     * node takes its share by its own area.
+     * @param of_committed Of the last committed state instead of the present one.
+     */
+    std::vector<Vector>
+    fields(bool of_committed) const;
+
+    /**
+     * @brief Take state and forces of the rows from fields of the same kind over
+     * new unknowns, in the displacement of the last update().
+     * @param history Take slip and work, too, and let this be the committed state:
+     *                a step begins here.
+     */
+    void
+    adopt(const std::vector<Vector> &fields, bool history);
+
+    /** @brief Boundaries of the slave and of the master surface of each pair, by
+     * body; empty for an obstacle. */
+    struct PairBoundaries
+    {
+      unsigned int                         slave_body, master_body;
+      std::set<dealii::types::boundary_id> slave, master;
+    };
+    std::vector<PairBoundaries>
+    boundaries() const;
 
     /** @brief Results at this rank's slave nodes in displacement @p u. */
     std::vector<ContactPoint>

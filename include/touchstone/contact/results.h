@@ -42,6 +42,15 @@ namespace Touchstone
     unsigned int         pair;
     unsigned int         degree;
     std::array<Index, 9> nodes;
+
+    /** @brief A node that has no result of its own: it follows others. */
+    struct HangingNode
+    {
+      Index              node;
+      dealii::Point<dim> reference_position;
+      Stencil            follows;
+    };
+    std::vector<HangingNode> hanging = {};
   };
 
   /** @brief Sums over the slave nodes of one pair, over all ranks. */

@@ -3,6 +3,7 @@
 
 #include <touchstone/contact/face_derivative.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/contact/trace_basis.h>
 #include <touchstone/solid/solid.h>
 
 #include <set>
@@ -27,7 +28,9 @@ namespace Touchstone
    * given boundary ids, as far as this rank sees them.
    *
    * Faces of owned and of ghost cells are kept, so areas and averaged normals of
-   * the nodes of owned faces are complete without communication.
+   * the nodes of owned faces are complete without communication. A hanging node
+   * has no row and no area of its own; both belong to the nodes that it follows. So
+   * the owner of these also gets the faces with hanging nodes that are farther away.
    */
   class Surface
   {
@@ -47,7 +50,7 @@ namespace Touchstone
     void
     move(const Vector &u);
 
-    /** @brief Nodes that this rank owns, in ascending order. */
+    /** @brief Nodes that this rank owns and that do not hang, in ascending order. */
     const std::vector<SurfaceNode> &
     owned_nodes() const
     {
@@ -61,11 +64,27 @@ namespace Touchstone
       return faces;
     }
 
-    /** @brief Faces of ghost cells. */
+    /** @brief Faces of ghost cells, and others whose hanging nodes follow nodes of
+     * this rank. */
     const std::vector<Face> &
     neighbour_faces() const
     {
       return ghost_faces;
+    }
+
+    /** @brief The continuous basis of a face with hanging nodes, or null. */
+    const TraceBasis *
+    trace(const Face &face) const
+    {
+      const auto found = traces.find(face.key);
+      return found != traces.end() ? &found->second : nullptr;
+    }
+
+    /** @brief Unknowns of the faces that lie beyond the ghost cells. */
+    const std::vector<Index> &
+    far_unknowns() const
+    {
+      return far;
     }
 
     /** @brief Averaged unit outward normal at a node of an owned face or at an
@@ -94,6 +113,13 @@ namespace Touchstone
     std::vector<NormalDerivative>
     normal_derivative(const Face &face) const;
 
+    /** @brief The boundaries that it is made of. */
+    const std::set<dealii::types::boundary_id> &
+    boundaries() const
+    {
+      return ids;
+    }
+
     /** @brief Longest diagonal of any face, over all ranks; length. */
     double
     largest_face() const
@@ -102,11 +128,19 @@ namespace Touchstone
     }
 
   private:
-    const Forest            &forest;
-    const bool               exact;
-    std::vector<Face>        faces, ghost_faces;
-    std::vector<SurfaceNode> nodes;
-    double                   diagonal = 0.;
+    const Forest                              &forest;
+    const std::set<dealii::types::boundary_id> ids;
+    const bool                                 exact;
+    std::vector<Face>                          faces, ghost_faces;
+    std::vector<SurfaceNode>                   nodes;
+    std::vector<Index>                         far;
+    double                                     diagonal = 0.;
+
+    /** By the keys of faces with hanging nodes. */
+    std::unordered_map<std::uint64_t, TraceBasis> traces;
+
+    /** An edge as a pair of its corner nodes, the smaller first. */
+    using Edge = std::pair<Index, Index>;
 
     std::unordered_map<Index, dealii::Tensor<1, dim>> normals;
 
@@ -114,8 +148,14 @@ namespace Touchstone
      * their normals are summed. Filled when derivatives are first asked for. */
     mutable std::unordered_map<Index, std::vector<std::pair<const Face *, unsigned int>>> around;
 
+    static std::array<Edge, 4>
+    edges(const Face &face);
+    /** @param halves Edges of faces that have a node in the middle, which smaller
+     *               neighbours share, with the two halves. */
     void
-    mark_outer_edges();
+    mark_outer_edges(const std::vector<std::pair<Edge, std::array<Edge, 2>>> &halves);
+    void
+    exchange_far_faces(const Solid &solid);
   };
 } // namespace Touchstone
 

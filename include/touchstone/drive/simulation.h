@@ -1,6 +1,7 @@
 #ifndef touchstone_drive_simulation_h
 #define touchstone_drive_simulation_h
 
+#include <touchstone/drive/refinement.h>
 #include <touchstone/drive/static_problem.h>
 #include <touchstone/output/contact_output.h>
 #include <touchstone/output/folder.h>
@@ -56,7 +57,8 @@ namespace Touchstone
     Log                                log;
     Forest                             forest;
     Solid                              solid;
-    StaticProblem                      problem;
+    std::unique_ptr<StaticProblem>     problem;
+    Refinement                         refinement;
     Progress                           progress;
     Statistics                         statistics;
     VolumeOutput                       volume_output;
@@ -64,11 +66,17 @@ namespace Touchstone
     std::shared_ptr<ReferenceSolution> reference;
     RunSummary                         summary;
     std::vector<std::string>           comparison_lines;
-    unsigned int                       last_picture = dealii::numbers::invalid_unsigned_int;
+    /** Time of the last step that was kept. */
+    double       committed_time = 0.;
+    unsigned int last_picture   = dealii::numbers::invalid_unsigned_int;
 
     /** Solve the step to @p time. @return Newton iterations. */
     unsigned int
     solve_step(double time);
+    /** Refine the mesh by the state at @p time, solve the step again, and so on.
+     * @return Newton iterations. */
+    unsigned int
+    adapt(unsigned int step, double time);
     void
     record_step(unsigned int step,
                 double       time,

@@ -78,16 +78,38 @@ namespace Touchstone
       return contact;
     }
 
-    const LinearSolverCounts &
-    linear_counts() const
-    {
-      return solver->counts();
-    }
+    /**
+     * @brief What a change of the mesh carries over: displacement and contact of the
+     * committed state, and of the present one, as fields over the unknowns. Collective.
+     */
+    std::vector<Vector>
+    carry_over() const;
+
+    /**
+     * @brief Go on from fields like those of carry_over() on a new mesh: the step to
+     * time @p t will begin from the committed state at time @p committed_time, and its
+     * first iteration at the other one.
+     */
+    void
+    adopt(const std::vector<Vector> &fields, double committed_time, double t);
+
+    /** @brief Count on from what another problem has counted. */
+    void
+    count_on(const StaticProblem &before);
+
+    LinearSolverCounts
+    linear_counts() const;
 
     unsigned int
     n_assemblies() const
     {
       return assemblies;
+    }
+
+    unsigned int
+    n_searches() const
+    {
+      return earlier_searches + contact.n_searches();
     }
 
     /** @brief Why the present step may not converge: bodies that nothing but
@@ -106,15 +128,14 @@ namespace Touchstone
     remarks() const;
 
   private:
-    const Scene                      &scene;
-    Solid                            &solid;
-    dealii::TimerOutput              &timer;
-    BoundaryConditions                boundary_conditions;
-    Contact                           contact;
-    std::shared_ptr<Enforcement>      enforcement;
-    std::shared_ptr<LinearSolver>     solver;
-    std::unique_ptr<RigidBodyModes>   modes;
-    dealii::AffineConstraints<double> hanging;
+    const Scene                    &scene;
+    Solid                          &solid;
+    dealii::TimerOutput            &timer;
+    BoundaryConditions              boundary_conditions;
+    Contact                         contact;
+    std::shared_ptr<Enforcement>    enforcement;
+    std::shared_ptr<LinearSolver>   solver;
+    std::unique_ptr<RigidBodyModes> modes;
 
     double time = 0., committed_time = 0.;
     /** The motion of the last step per time; empty where it says nothing of the
@@ -126,7 +147,10 @@ namespace Touchstone
     std::unique_ptr<CondensedSystem> condensed;
     std::vector<double>              extra;
     unsigned int                     assemblies = 0;
-    std::string                      stabilised;
+    /** Of problems before a change of the mesh. */
+    LinearSolverCounts earlier;
+    unsigned int       earlier_searches = 0;
+    std::string        stabilised;
     /** Relative residual that the next linear solve needs. */
     double linear_tolerance = 1e-3;
 

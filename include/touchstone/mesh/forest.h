@@ -24,6 +24,14 @@ namespace Touchstone
 
     dealii::parallel::distributed::Triangulation<dim> triangulation;
 
+    /** @brief Level of the cells that the scene asks for; cells are not coarsened
+     * beyond it. */
+    unsigned int
+    first_level() const
+    {
+      return level;
+    }
+
     unsigned int
     n_bodies() const;
 
@@ -43,6 +51,7 @@ namespace Touchstone
     surface(dealii::types::boundary_id id) const;
 
   private:
+    unsigned int level = 0;
     /** Boundary names of each body, with ids that are unique in the forest. */
     std::vector<std::map<std::string, dealii::types::boundary_id>>               names;
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;

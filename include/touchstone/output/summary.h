@@ -8,6 +8,7 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace Touchstone
 {
@@ -21,6 +22,18 @@ namespace Touchstone
     std::uint64_t unknowns  = 0;
     /** Load steps that converged. */
     unsigned int steps = 0;
+
+    /** @brief A mesh on which a step was solved. */
+    struct Mesh
+    {
+      unsigned int  step     = 0;
+      std::uint64_t cells    = 0;
+      std::uint64_t unknowns = 0;
+      /** Relative error of the stress in the energy norm, estimated; no unit. */
+      double estimated_error = 0.;
+    };
+    /** Those that were estimated, in their order; empty without refinement. */
+    std::vector<Mesh> meshes;
 
     struct Iterations
     {

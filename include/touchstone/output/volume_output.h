@@ -24,6 +24,10 @@ namespace Touchstone
     /** @param solid, folder Must outlive this object. Collective. */
     VolumeOutput(const Solid &solid, const OutputFolder &folder);
 
+    /** @brief Begin anew after the mesh has changed. Collective. */
+    void
+    reinit();
+
     /** @brief Write the picture of one step.
      * @param displacement With ghosts.
      * @throws OutputError on all ranks. Collective. */

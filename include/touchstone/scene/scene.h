@@ -29,6 +29,7 @@ namespace Touchstone
     std::vector<ContactPairParameters> pairs;
     DiscretisationParameters           discretisation;
     ContactParameters                  contact;
+    RefinementParameters               refinement;
     LoadSteppingParameters             load_stepping;
     NewtonParameters                   newton;
     LinearSolverParameters             linear_solver;

@@ -10,6 +10,7 @@
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/affine_constraints.h>
 
 #include <functional>
 #include <memory>
@@ -34,6 +35,25 @@ namespace Touchstone
     /** Owned unknowns and those of ghost cells. */
     dealii::IndexSet relevant;
     const MPI_Comm   communicator;
+    /** Nodes on edges and faces of larger neighbours, which follow these. */
+    dealii::AffineConstraints<double> hanging;
+
+    /** @brief Begin anew after the mesh has changed: unknowns and matrix; assemble()
+     * comes next. Collective. */
+    void
+    reinit();
+
+    /** @brief Whether a node of any rank hangs. */
+    bool
+    has_hanging_nodes() const
+    {
+      return any_hanging;
+    }
+
+    /** @brief Hand nodal forces on hanging nodes over to the nodes that these
+     * follow: only there do forces balance. @p force has no ghosts; collective. */
+    void
+    condense(Vector &force) const;
 
     /** @brief Whether the bodies are linear, so that the stiffness never changes. */
     bool
@@ -96,6 +116,7 @@ namespace Touchstone
   private:
     const Scene &scene;
     Matrix       matrix;
+    bool         any_hanging = false;
     /** Sum of the absolute entries of each owned row. */
     std::vector<double> row_sums;
     /** Behind a pointer: its kernels are scratch space of const functions. */

@@ -1,0 +1,76 @@
+#ifndef touchstone_drive_refinement_h
+#define touchstone_drive_refinement_h
+
+#include <touchstone/drive/static_problem.h>
+#include <touchstone/mesh/forest.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/lac/vector.h>
+
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Decides where the mesh becomes finer or coarser, changes it, and carries
+   * nodal fields over.
+   *
+   * Refined are the cells with the largest estimated errors (bulk criterion, Doerfler
+   * (1996), SIAM J. Numer. Anal. 33), and by the same rule the slave faces over which
+   * the contact pressure varies most, which are those at the edge of the contact; with
+   * them the master faces that they meet, if these are not smaller already.
+   */
+  class Refinement
+  {
+  public:
+    Refinement(const Scene &scene, Forest &forest, Solid &solid);
+
+    /**
+     * @brief Estimate the errors of the present state of @p problem.
+     * @return that of the stress, relative in the energy norm; no unit; 0 without an
+     * estimator. Collective.
+     */
+    double
+    estimate(const StaticProblem &problem);
+
+    /**
+     * @brief Mark cells by what estimate() found in the same state.
+     * @return whether the mesh is going to change. Collective.
+     */
+    bool
+    mark(const StaticProblem &problem, double time);
+
+    /**
+     * @brief Change the mesh as marked, share it out to the ranks, and begin the solid
+     * anew: nothing that refers to its unknowns may live on.
+     * @param fields Over the unknowns before. @return The same over those after.
+     */
+    std::vector<Vector>
+    execute(const std::vector<Vector> &fields);
+
+  private:
+    using Values = dealii::Vector<double>;
+
+    const Scene                                 &scene;
+    Forest                                      &forest;
+    Solid                                       &solid;
+    std::unique_ptr<dealii::FunctionParser<dim>> region;
+    /** Of the last estimate(), by cells: squared error, and the squared variation of
+     * the pressure over their slave faces. */
+    Values errors, variation;
+
+    /** @param fields Of Contact::fields(). */
+    Values
+    pressure_variation(const std::vector<Vector>                  &fields,
+                       const std::vector<Contact::PairBoundaries> &pairs) const;
+    /** Add the master faces that the marked slave faces meet. */
+    void
+    mark_masters(const StaticProblem &problem, std::vector<bool> &marked) const;
+    /** The value down to which the largest @p values make up a share of their sum. */
+    double
+    bulk_threshold(const Values &values, double fraction) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,127 @@
+#include <touchstone/solid/error_estimator.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/lac/la_parallel_vector.h>
+#include <deal.II/numerics/error_estimator.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  dealii::Vector<double>
+  jump_errors(const Scene &scene, const Solid &solid, const Vector &u)
+  {
+    const auto            &triangulation = solid.dof_handler.get_triangulation();
+    dealii::Vector<double> result(triangulation.n_active_cells());
+    // Bodies share no faces, so that they need not be told apart.
+    dealii::Vector<float> errors(triangulation.n_active_cells());
+    KellyErrorEstimator<dim>::estimate(
+      solid.mapping, solid.dof_handler, QGauss<dim - 1>(solid.fe.degree + 1), {}, u, errors);
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const double error = errors(cell->active_cell_index());
+          result(cell->active_cell_index()) =
+            scene.bodies[cell->material_id()].material.young_modulus * error * error;
+        }
+    return result;
+  }
+
+
+
+  dealii::Vector<double>
+  recovery_errors(const Scene &scene, const Solid &solid, const Vector &u)
+  {
+    using NodeField                     = LinearAlgebra::distributed::Vector<double>;
+    constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
+
+    const auto     &triangulation = solid.dof_handler.get_triangulation();
+    const FE_Q<dim> node_fe(solid.fe.degree);
+    DoFHandler<dim> nodes(triangulation);
+    nodes.distribute_dofs(node_fe);
+    IndexSet relevant;
+    DoFTools::extract_locally_relevant_dofs(nodes, relevant);
+    AffineConstraints<double> hanging(relevant);
+    DoFTools::make_hanging_node_constraints(nodes, hanging);
+    hanging.close();
+
+    // Averages, weighted with the volumes: int N sigma over int N, a projection with
+    // lumped mass. What belongs to hanging nodes goes to those that they follow.
+    NodeField volume(nodes.locally_owned_dofs(), relevant, solid.communicator);
+    std::array<NodeField, n_components> stress;
+    for (NodeField &field : stress)
+      field.reinit(volume);
+    FEValues<dim>                        values(solid.mapping,
+                         node_fe,
+                         QGauss<dim>(solid.fe.degree + 1),
+                         update_values | update_JxW_values);
+    const unsigned int                   n_points = values.n_quadrature_points;
+    std::vector<Index>                   dofs(node_fe.n_dofs_per_cell());
+    std::vector<SymmetricTensor<2, dim>> point_stress;
+    std::vector<double>                  point_volume;
+    solid.for_each_stress(u,
+                          [&](const unsigned int,
+                              const Point<dim> &,
+                              const SymmetricTensor<2, dim> &sigma,
+                              const double                   v) {
+                            point_stress.push_back(sigma);
+                            point_volume.push_back(v);
+                          });
+    std::size_t            at = 0;
+    dealii::Vector<double> local(node_fe.n_dofs_per_cell());
+    for (const auto &cell : nodes.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          values.reinit(cell);
+          cell->get_dof_indices(dofs);
+          for (unsigned int c = 0; c <= n_components; ++c)
+            {
+              local = 0.;
+              for (unsigned int q = 0; q < n_points; ++q)
+                for (unsigned int i = 0; i < dofs.size(); ++i)
+                  local(i) += values.shape_value(i, q) * point_volume[at + q] *
+                              (c < n_components ? point_stress[at + q].access_raw_entry(c) : 1.);
+              hanging.distribute_local_to_global(local,
+                                                 dofs,
+                                                 c < n_components ? stress[c] : volume);
+            }
+          at += n_points;
+        }
+    volume.compress(VectorOperation::add);
+    for (NodeField &field : stress)
+      {
+        field.compress(VectorOperation::add);
+        for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
+          if (volume.local_element(i) != 0.)
+            field.local_element(i) /= volume.local_element(i);
+        hanging.distribute(field);
+        field.update_ghost_values();
+      }
+
+    dealii::Vector<double>           result(triangulation.n_active_cells());
+    std::vector<std::vector<double>> recovered(n_components, std::vector<double>(n_points));
+    at = 0;
+    for (const auto &cell : nodes.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const MaterialParameters &material = scene.bodies[cell->material_id()].material;
+          const double              E = material.young_modulus, nu = material.poisson_ratio;
+          values.reinit(cell);
+          for (unsigned int c = 0; c < n_components; ++c)
+            values.get_function_values(stress[c], recovered[c]);
+          for (unsigned int q = 0; q < n_points; ++q, ++at)
+            {
+              SymmetricTensor<2, dim> e;
+              for (unsigned int c = 0; c < n_components; ++c)
+                e.access_raw_entry(c) = recovered[c][q] - point_stress[at].access_raw_entry(c);
+              const double t = trace(e);
+              result(cell->active_cell_index()) +=
+                ((1. + nu) * (e * e) - nu * t * t) / E * point_volume[at];
+            }
+        }
+    return result;
+  }
+} // namespace Touchstone
