@@ -288,7 +288,11 @@ namespace Touchstone
     std::stable_sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
       return a.target < b.target;
     });
-    for (std::size_t begin = 0; begin < parts.size();)
+    // Most rows of A T are needed once, and together they are large.
+    std::vector<unsigned int> uses(sources.size(), 0);
+    for (const Part &part : parts)
+      ++uses[part.source];
+    for (std::size_t begin = 0, end = 0; begin < parts.size(); begin = end)
       {
         const int row = parts[begin].target;
         if (!replaced[row])
@@ -300,8 +304,11 @@ namespace Touchstone
             for (int k = 0; k < n; ++k)
               accumulator.add(column[k], value[k]);
           }
-        begin     = sum(begin, values[row]);
+        end       = sum(begin, values[row]);
         rows[row] = accumulator.take();
+        for (std::size_t k = begin; k < end; ++k)
+          if (--uses[parts[k].source] == 0)
+            SparseRow().swap(sources[parts[k].source]);
       }
   }
 } // namespace Touchstone

@@ -77,8 +77,7 @@ namespace Touchstone
             n      = static_cast<int>(found->second.size());
             column = storage->columns.data() + begin;
             value  = storage->values.data() + begin;
-            found->second.clear();
-            found->second.shrink_to_fit();
+            SparseRow().swap(found->second);
           }
         const int error = storage->matrix->InsertMyValues(i, n, value, column);
         AssertThrow(error == 0, dealii::ExcMessage("A row does not fit into the matrix."));

@@ -1,6 +1,7 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/contact/row_terms.h>
 #include <touchstone/drive/static_problem.h>
+#include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -53,6 +54,7 @@ namespace Touchstone
     , unbalanced(u)
     , increment(u)
   {
+    return_free_memory();
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.assemble();
@@ -317,6 +319,7 @@ namespace Touchstone
       system->basis_change =
         graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
     condensed = std::make_unique<CondensedSystem>(*system);
+    return_free_memory();
   }
 
 

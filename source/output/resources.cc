@@ -2,6 +2,9 @@
 
 #include <deal.II/base/utilities.h>
 
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
 #include <sys/resource.h>
 
 namespace Touchstone
@@ -25,5 +28,15 @@ namespace Touchstone
     dealii::Utilities::System::get_memory_stats(stats);
     // The kernel's kB are 1024 bytes.
     return dealii::Utilities::MPI::sum(1024e-6 * stats.VmHWM, communicator);
+  }
+
+
+
+  void
+  return_free_memory()
+  {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
   }
 } // namespace Touchstone
