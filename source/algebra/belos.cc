@@ -155,22 +155,10 @@ namespace Touchstone
       list.set("aggregation: type", "Uncoupled");
       list.set("aggregation: threshold", 0.01);
       list.set("smoother: type", "Chebyshev");
-      list.set("smoother: sweeps", 2);
+      list.set("smoother: sweeps", 3);
       list.set("smoother: Chebyshev alpha", 20.);
       list.set("coarse: type", "Amesos-KLU");
       list.set("coarse: max size", 1000);
-      if (getenv("TS_ALPHA"))
-        list.set("smoother: Chebyshev alpha", atof(getenv("TS_ALPHA")));
-      if (getenv("TS_THR"))
-        list.set("aggregation: threshold", atof(getenv("TS_THR")));
-      if (getenv("TS_SW"))
-        list.set("smoother: sweeps", atoi(getenv("TS_SW")));
-      if (getenv("TS_DAMP"))
-        list.set("aggregation: damping factor", atof(getenv("TS_DAMP")));
-      if (getenv("TS_LOW"))
-        list.set("low memory usage", true);
-      if (getenv("TS_VERB"))
-        list.set("ML output", 10);
       list.set("null space: type", "pre-computed");
       list.set("null space: dimension", modes.NumVectors());
       list.set("null space: vectors", null_space.data());
