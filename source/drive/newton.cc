@@ -6,9 +6,87 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <vector>
 
 namespace Touchstone
 {
+  namespace
+  {
+    /**
+     * Judges increments by the out-of-balance force that they lead to. It may rise
+     * for one iteration, as it often does with finite strains before it falls for
+     * good, but not much above the highest of the last two.
+     * Grippo, Lampariello and Lucidi (1986), SIAM J. Numer. Anal. 23.
+     */
+    class LineSearch
+    {
+    public:
+      explicit LineSearch(const NewtonParameters &parameters)
+        : parameters(parameters)
+        , on(parameters.line_search == "automatic")
+      {
+      }
+
+      /** A state from which the next increment starts. Forces compare while the
+       * active set and the prescribed displacements stay what they are. */
+      void
+      start_from(const NewtonState &state)
+      {
+        if (!state.prescribed || state.changes > 0 || state.signature != last.signature)
+          forces.clear();
+        if (state.prescribed && state.changes == 0)
+          forces.push_back(state.force);
+        last = state;
+      }
+
+      /** Whether the increment to @p state has made things much worse. What was in
+       * balance can only get out of it; gaps that close may take forces along; and
+       * near the tolerance it is round-off that rises. */
+      bool
+      failed(const NewtonState &state, const double factor = much_worse) const
+      {
+        if (!on || forces.size() < memory || !state.prescribed || state.changes > 0 ||
+            state.signature != last.signature || balanced(last, parameters) ||
+            state.residual <= 100. * parameters.residual_tolerance ||
+            (last.gap > parameters.gap_tolerance && state.gap < last.gap))
+          return false;
+        // A force that is no number has failed as well.
+        const double highest = *std::max_element(forces.end() - memory, forces.end());
+        return !(state.force <= factor * highest);
+      }
+
+      /** Halve the increment until the force is not above the highest before; all of it, for the
+       * rest of the step, if no part is: then its direction is wrong and not its length. */
+      NewtonState
+      shorten(NonlinearProblem &problem, const unsigned int caution)
+      {
+        NewtonState state;
+        for (double fraction : {0.5, 0.25, 0.125, 0.0625})
+          {
+            problem.shorten(fraction);
+            state          = problem.residual(caution);
+            state.fraction = fraction;
+            if (!failed(state, 1.))
+              return state;
+          }
+        on = false;
+        problem.shorten(1.);
+        return problem.residual(caution);
+      }
+
+    private:
+      const NewtonParameters &parameters;
+      bool                    on;
+      /** Forces that count, and the factor by which they may rise. */
+      static constexpr std::size_t memory     = 2;
+      static constexpr double      much_worse = 2.;
+      NewtonState                  last;
+      std::vector<double>          forces;
+    };
+  } // namespace
+
+
+
   unsigned int
   Newton::solve(NonlinearProblem &problem, const Observer &observer) const
   {
@@ -18,9 +96,12 @@ namespace Touchstone
     NewtonState             state;
     double                  best  = std::numeric_limits<double>::max();
     unsigned int            stuck = 0;
+    LineSearch              line_search(parameters);
     for (unsigned int iteration = 0; iteration <= parameters.maximum_iterations; ++iteration)
       {
         state = problem.residual(caution);
+        if (iteration > 0 && line_search.failed(state))
+          state = line_search.shorten(problem, caution);
         if (iteration > 0)
           observer(iteration, state, linear);
         if (!std::isfinite(state.residual) || !std::isfinite(state.gap))
@@ -46,6 +127,7 @@ namespace Touchstone
             ++caution > 2 + parameters.maximum_iterations / 4)
           throw ActiveSetCycle("the active set goes in circles: " + std::to_string(state.changes) +
                                " rows keep changing their state");
+        line_search.start_from(state);
         problem.linearize();
         linear = problem.solve();
         problem.update();

@@ -78,6 +78,12 @@ namespace Touchstone
       *problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
         progress.iteration(
           {iteration, state.residual, state.gap, state.active, state.changes, linear});
+        if (state.fraction < 1.)
+          {
+            ++summary.iterations.damped;
+            log.line("             with " + std::to_string(state.fraction).substr(0, 6) +
+                     " of the increment: all of it had made things worse");
+          }
         ++summary.iterations.newton;
         summary.iterations.contact += (state.changes > 0);
       });

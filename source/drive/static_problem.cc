@@ -53,6 +53,7 @@ namespace Touchstone
     , internal(u)
     , unbalanced(u)
     , increment(u)
+    , before_increment(u)
   {
     return_free_memory();
     {
@@ -224,7 +225,8 @@ namespace Touchstone
       }
     const double scale =
       std::max({internal.l2_norm(), external.l2_norm(), contact_force.l2_norm()});
-    state.residual = scale > 0. ? free.l2_norm() / scale : 0.;
+    state.force    = free.l2_norm();
+    state.residual = scale > 0. ? state.force / scale : 0.;
     if (scale > 0.)
       state.round_off =
         (solid.round_off(u) +
@@ -416,6 +418,9 @@ namespace Touchstone
   {
     // What turns a cell inside out has no energy. The multipliers are those of the
     // end of the increment and stay.
+    if (scene.newton.line_search != "none")
+      before_rows = contact.rows;
+    admissible_part = 1.;
     Vector trial(u);
     trial += increment;
     for (unsigned int halvings = 0; !solid.admissible(trial); ++halvings)
@@ -424,11 +429,39 @@ namespace Touchstone
           throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
                               "increment");
         increment *= 0.5;
+        admissible_part *= 0.5;
         trial = u;
         trial += increment;
       }
-    u = trial;
+    before_increment = u;
+    u                = trial;
     enforcement->update(contact, extra);
+  }
+
+
+
+  void
+  StaticProblem::shorten(const double fraction)
+  {
+    u = before_increment;
+    u.add(fraction, increment);
+    // Forces that are unknowns go the same part of their way. Springs and
+    // elimination make forces from the displacement, from the rows as they were.
+    contact.rows = before_rows;
+    enforcement->update(contact, extra);
+    const double part =
+      fraction < 1. ? fraction * admissible_part : 1.; // all of it: as update() had it
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (std::size_t k = 0; k < contact.rows[p].size(); ++k)
+        {
+          ContactRow       &row    = contact.rows[p][k];
+          const ContactRow &before = before_rows[p][k];
+          row.force                = before.force + part * (row.force - before.force);
+          row.lambda               = before.lambda + part * (row.lambda - before.lambda);
+          if (row.friction)
+            row.friction->base =
+              before.friction->base + part * (row.friction->base - before.friction->base);
+        }
   }
 
 

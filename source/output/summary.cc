@@ -106,6 +106,7 @@ namespace Touchstone
            Json::object()
              .set("newton", iterations.newton)
              .set("contact", iterations.contact)
+             .set("damped", iterations.damped)
              .set("linear_total", iterations.linear_total)
              .set("linear_mean", iterations.linear_mean))
       .set("counts",
@@ -144,7 +145,10 @@ namespace Touchstone
         force_scale = std::max(force_scale, largest_component(force));
 
     out << (converged ? "Converged" : "NOT CONVERGED") << ": " << steps << " steps, "
-        << iterations.newton << " Newton iterations\n";
+        << iterations.newton << " Newton iterations";
+    if (iterations.damped > 0)
+      out << ", " << iterations.damped << " with a shorter increment";
+    out << '\n';
     if (!failure.empty())
       out << "  " << failure << '\n';
 

@@ -76,7 +76,7 @@ same() {
     { x = $4 * ($1 in factor && FILENAME == ARGV[1] ? factor[$1] : 1) }
     FILENAME == ARGV[1] { value[$2, $3] = x; kind[$2, $3] = $1
                           if (abs(x) > scale[$1]) scale[$1] = abs(x); ++count; next }
-    $1 == "max_penetration" || $1 == "contact" || $1 ~ /^linear/ { --count; next }
+    $1 == "max_penetration" || $1 == "contact" || $1 == "damped" || $1 ~ /^linear/ { --count; next }
     $1 == "newton" && !("newton" in factor) { --count; next }
     { --count; ++compared
       if (!(($2, $3) in value)) { print "  " $2 " is new"; bad = 1; next }

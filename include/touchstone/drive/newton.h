@@ -14,6 +14,8 @@ namespace Touchstone
   {
     /** Out-of-balance force relative to the forces that act; no unit. */
     double residual = 0.;
+    /** The same as a force: far from a solution the forces that act grow with it. */
+    double force = 0.;
     /** Residual that round-off alone can make; no unit. */
     double round_off = 0.;
     /** Largest violation of a gap relative to the faces, and whether prescribed
@@ -25,6 +27,8 @@ namespace Touchstone
     unsigned int  active    = 0;
     unsigned int  changes   = 0;
     std::uint64_t signature = 0;
+    /** Part of the last increment that was taken; no unit. */
+    double fraction = 1.;
   };
 
   /** @brief Whether the forces of a state are in balance. */
@@ -60,6 +64,12 @@ namespace Touchstone
     /** @brief Go to the next state. */
     virtual void
     update() = 0;
+
+    /** @brief Take the part @p fraction of the last increment, of displacements and
+     * of contact forces, instead of what has been taken of it: 1 all of it. The
+     * active set is again that of the last linear system. */
+    virtual void
+    shorten(double fraction) = 0;
   };
 
   /**
@@ -68,6 +78,14 @@ namespace Touchstone
    * Converged when residual, gap and prescribed displacements are met and the
    * active set did not change; a residual that round-off holds within 100 times
    * its tolerance, for three iterations, counts as met.
+   *
+   * Line search: the next residual tells whether an increment was good, so that none
+   * is evaluated for that purpose alone. If the out-of-balance force is more than twice the
+   * highest of the two before, and no row or support has moved it, the increment is
+   * halved, up to four times. Should none of the parts help, the increment
+   * is not too long but wrong in its direction; then all of it is taken, and for the rest of
+   * the step.
+   * Grippo, Lampariello and Lucidi (1986), SIAM J. Numer. Anal. 23.
    * Hueeber and Wohlmuth (2005), Comput. Methods Appl. Mech. Engng 194.
    */
   class Newton

@@ -50,6 +50,8 @@ namespace Touchstone
     solve() override;
     void
     update() override;
+    void
+    shorten(double fraction) override;
 
     /** @brief Displacement without ghosts, length. */
     const Vector &
@@ -140,8 +142,15 @@ namespace Touchstone
     double time = 0., committed_time = 0.;
     /** The motion of the last step per time; empty where it says nothing of the
      * next one. */
-    Vector                           velocity;
-    Vector                           u, committed_u, external, internal, unbalanced, increment;
+    Vector velocity;
+    Vector u, committed_u, external, internal, unbalanced, increment;
+    /** @name What shorten() goes back to: displacement and rows before the last
+     * update(), and the part of the increment that left all cells admissible */
+    /** @{ */
+    Vector                               before_increment;
+    std::vector<std::vector<ContactRow>> before_rows;
+    double                               admissible_part = 1.;
+    /** @} */
     ConstraintGraph                  graph;
     std::unique_ptr<LinearSystem>    system;
     std::unique_ptr<CondensedSystem> condensed;

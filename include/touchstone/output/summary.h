@@ -39,7 +39,9 @@ namespace Touchstone
     {
       unsigned int newton = 0;
       /** Iterations in which the contact state changed. */
-      unsigned int contact      = 0;
+      unsigned int contact = 0;
+      /** Iterations of which the line search took a part only. */
+      unsigned int damped       = 0;
       unsigned int linear_total = 0;
       /** Per linear solve. */
       double linear_mean = 0.;

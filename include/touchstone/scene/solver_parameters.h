@@ -81,6 +81,9 @@ namespace Touchstone
     /** Gap or penetration relative to the size of the slave faces; no unit. */
     double       gap_tolerance      = 1e-8;
     unsigned int maximum_iterations = 40;
+    /** Take back a part of increments that make things worse: "automatic" or
+     * "none". */
+    std::string line_search = "automatic";
 
     void
     declare(dealii::ParameterHandler &prm);
