@@ -158,7 +158,8 @@ namespace Touchstone
         displacements.set(support, list);
 
       Vector force(solid.owned, solid.communicator);
-      conditions.external_force(time, force);
+      // Of the reference configuration: other programs apply pressures themselves.
+      conditions.external_force(time, Vector(solid.owned, solid.communicator), force);
       const double largest = force.linfty_norm();
       Json         forces  = Json::array();
       for (Index node = 0; node < solid.dof_handler.n_dofs() / dim; ++node)
