@@ -21,9 +21,14 @@ namespace
   }
 
   Scene
-  make_scene(const std::string &text, const std::string &factor)
+  make_scene(const std::string &text,
+             const std::string &factor,
+             const std::string &partitioner = "p4est")
   {
-    return Scene(text, "test.prm", {"Discretisation/Refinement factor=" + factor});
+    return Scene(text,
+                 "test.prm",
+                 {"Discretisation/Refinement factor=" + factor,
+                  "Discretisation/Partitioner=" + partitioner});
   }
 
   /** Cells and vertices of all ranks, and how far boundary vertices are from the
@@ -31,11 +36,12 @@ namespace
   void
   print_counts(const std::string              &title,
                const std::string              &text,
-               const std::vector<std::string> &factors)
+               const std::vector<std::string> &factors,
+               const std::string              &partitioner = "p4est")
   {
     for (const std::string &factor : factors)
       {
-        const Scene   scene = make_scene(text, factor);
+        const Scene   scene = make_scene(text, factor, partitioner);
         const Forest  forest(scene, ".", MPI_COMM_WORLD);
         const FE_Q<3> fe(1);
         DoFHandler<3> vertices(forest.triangulation);
@@ -107,4 +113,5 @@ main(int argc, char **argv)
 
   print_counts("round bodies", round, {"1", "2"});
   print_counts("two tubes", tubes, {"0.5", "1", "1.25", "2", "4"});
+  print_counts("two tubes by METIS", tubes, {"1", "2"}, "METIS");
 }

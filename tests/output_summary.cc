@@ -23,6 +23,7 @@ main()
   summary.seconds    = {1.5, 2.75, 0.25, 0.5, 0.125, 0.0625};
 
   summary.peak_memory_mb = 512.25;
+  summary.balance        = {{"cells", {2304., 2400.}}, {"slave_rows", {0., 0.}}};
 
   PairResult pair;
   pair.force           = dealii::Tensor<1, dim>({1234.56789, -2.0000004, 3e-9});
@@ -40,7 +41,7 @@ main()
   summary.errors["exact"]            = 4e-15;
   summary.errors["unknown"]          = std::nan("");
 
-  std::cout << summary.to_json().print();
+  std::cout << summary.to_json().print() << summary.balance_line() << '\n';
   summary.print_results(std::cout);
 
   // Round-off of another solver or number of ranks must not show.

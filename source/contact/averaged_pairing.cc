@@ -58,6 +58,15 @@ namespace Touchstone
       void
       differentiate(const Vector &, double, std::vector<ContactRow> &rows) override;
 
+      SearchWork
+      search_work() const override
+      {
+        SearchWork work = search.work();
+        if (slave_search)
+          work += slave_search->work();
+        return work;
+      }
+
     private:
       /** Sums over the slave faces around a node. */
       struct Sums

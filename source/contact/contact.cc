@@ -374,6 +374,22 @@ namespace Touchstone
 
 
 
+  Contact::Work
+  Contact::work() const
+  {
+    Work sum;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        sum.slave_rows += rows[p].size();
+        if (pairs[p].master)
+          sum.master_faces += pairs[p].master->owned_faces().size();
+        sum.search += pairs[p].pairing->search_work();
+      }
+    return sum;
+  }
+
+
+
   std::vector<std::string>
   Contact::start_report() const
   {

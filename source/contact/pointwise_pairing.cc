@@ -47,6 +47,12 @@ namespace Touchstone
       void
       differentiate(const Vector &, double, std::vector<ContactRow> &rows) override;
 
+      SearchWork
+      search_work() const override
+      {
+        return search.work();
+      }
+
     private:
       Search search;
       /** Of the last update, in the order of the rows. */

@@ -134,6 +134,12 @@ namespace Touchstone
                 std::memcpy(package.data() + size, static_cast<const void *>(&face), sizeof(Face));
               }
           }
+        for (const auto &[rank, places] : sent)
+          if (rank != Utilities::MPI::this_mpi_process(communicator))
+            {
+              ++counted.messages;
+              counted.faces_sent += places.size();
+            }
         for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
           {
             const std::size_t first = faces.size();
@@ -191,6 +197,7 @@ namespace Touchstone
     for (auto it = tree.qbegin(bgi::intersects(capture)); it != tree.qend(); ++it)
       {
         const Face &face = faces[it->second];
+        ++counted.candidates;
         if (same_way(face, master.exact_surface(face), slave_normal) < -0.1)
           result.push_back(&face);
       }
@@ -262,6 +269,7 @@ namespace Touchstone
             if (same_way(face, master.exact_surface(face), point.normal) > 0.3)
               continue;
             const Projection projection = closest_point_projection(x, geometry(face));
+            ++counted.candidates;
             if (point.in_contact && point.present_face == face.key)
               present = {&face, projection};
             if (point.in_contact && point.present_face)
@@ -315,7 +323,8 @@ namespace Touchstone
                 same_way(other, master.exact_surface(other), point.normal) > 0.3)
               continue;
             const Projection projection = closest_point_projection(point.x, geometry(other));
-            const double     tie        = 1e-12 * reach * reach;
+            ++counted.candidates;
+            const double tie = 1e-12 * reach * reach;
             if (projection.distance_squared < found.projection.distance_squared - tie)
               found = {&other, projection};
           }
@@ -340,6 +349,7 @@ namespace Touchstone
         const AnalyticSurface *exact = master.exact_surface(face);
         if (same_way(face, exact, point.normal) > 0.3)
           continue;
+        ++counted.candidates;
         if (const auto found = crossing(point.start, point.x, face, exact))
           crossings.emplace_back(*found, &face);
       }

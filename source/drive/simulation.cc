@@ -261,6 +261,8 @@ namespace Touchstone
       log.line(line);
     load_stepping();
     finish_summary();
+    if (summary.ranks > 1)
+      log.line(summary.balance_line());
     {
       TimerOutput::Scope scope(timer, "output");
       folder.write_file_atomically("summary.json", summary.to_json().print());
@@ -278,8 +280,32 @@ namespace Touchstone
 
 
   void
+  Simulation::measure_balance()
+  {
+    const Contact::Work                               work   = problem.contact_state().work();
+    const std::vector<std::pair<std::string, double>> counts = {
+      {"cells", forest.triangulation.n_locally_owned_active_cells()},
+      {"unknowns", solid.owned.n_elements()},
+      {"neighbours", forest.triangulation.ghost_owners().size()},
+      {"slave_rows", work.slave_rows},
+      {"master_faces", work.master_faces},
+      {"search_candidates", work.search.candidates},
+      {"search_messages", work.search.messages},
+      {"search_faces_sent", work.search.faces_sent}};
+    summary.balance.clear();
+    for (const auto &[phase, mine] : counts)
+      {
+        const auto all = Utilities::MPI::min_max_avg(mine, communicator);
+        summary.balance.push_back({phase, {all.avg, all.max}});
+      }
+  }
+
+
+
+  void
   Simulation::finish_summary()
   {
+    measure_balance();
     if (summary.converged)
       {
         const Vector   u = problem->ghosted_displacement();

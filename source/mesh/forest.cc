@@ -1,5 +1,6 @@
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/forest.h>
+#include <touchstone/mesh/partition.h>
 #include <touchstone/scene/input_error.h>
 
 namespace Touchstone
@@ -73,9 +74,15 @@ namespace Touchstone
 
 
   Forest::Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator)
-    : triangulation(communicator,
-                    Triangulation<dim>::MeshSmoothing(
-                      Triangulation<dim>::limit_level_difference_at_vertices))
+    : mesh(make(scene, scene_folder, communicator))
+    , triangulation(*mesh)
+  {
+  }
+
+
+
+  std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
+  Forest::make(const Scene &scene, const std::string &scene_folder, const MPI_Comm communicator)
   {
     // Whole powers of two are left to the manifolds, which refine any mesh.
     double factor = scene.discretisation.refinement_factor;
@@ -103,8 +110,35 @@ namespace Touchstone
             surfaces[ids.at(own)] = surface;
       }
 
-    create_triangulation(all, triangulation);
-    triangulation.refine_global(level);
+    std::map<types::boundary_id, unsigned int> work;
+    for (const ContactPairParameters &pair : scene.pairs)
+      {
+        const auto add = [&](const std::string              &body,
+                             const std::vector<std::string> &boundaries,
+                             const std::string              &key,
+                             const unsigned int              of_face) {
+          for (const std::string &name : boundaries)
+            work[boundary_id(scene.body_index(body), name, pair.section(), key)] += of_face;
+        };
+        add(pair.slave_body, pair.slave_boundaries, "Slave boundaries", slave_face_work);
+        if (!pair.master_body.empty())
+          add(pair.master_body, pair.master_boundaries, "Master boundaries", master_face_work);
+      }
+    const ContactWork contact_work = [work](const Triangulation<dim>::cell_iterator &cell) {
+      unsigned int sum = 0;
+      for (const auto &face : cell->face_iterators())
+        if (face->at_boundary())
+          {
+            const auto found = work.find(face->boundary_id());
+            sum += (found != work.end() ? found->second : 0);
+          }
+      return sum;
+    };
+    const DiscretisationParameters &parameters = scene.discretisation;
+    if (parameters.partitioner != "p4est")
+      return partition_by_graph(
+        all, level, contact_work, parameters.partitioner == "METIS", communicator);
+    return partition_by_curve(all, level, contact_work, parameters.contact_weight, communicator);
   }
 
 

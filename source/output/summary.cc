@@ -84,6 +84,14 @@ namespace Touchstone
     for (const auto &[name, error] : errors)
       relative_errors.set(name, error);
 
+    Json spread = Json::object();
+    for (const auto &[phase, counts] : balance)
+      spread.set(phase,
+                 Json::object()
+                   .set("mean", counts.mean)
+                   .set("max", counts.max)
+                   .set("imbalance", counts.imbalance()));
+
     Json all_meshes = Json::array();
     for (const Mesh &mesh : meshes)
       all_meshes.append(Json::object()
@@ -123,10 +131,30 @@ namespace Touchstone
              .set("linear_solver", seconds.linear_solver)
              .set("search", seconds.search)
              .set("output", seconds.output))
+      .set("balance", spread)
       .set("peak_memory_mb", peak_memory_mb)
       .set("results", Json::object().set("contact", pairs).set("reactions", bodies))
       .set("errors", relative_errors)
       .set("failure", failure);
+  }
+
+
+
+  std::string
+  RunSummary::balance_line() const
+  {
+    std::ostringstream line;
+    line.imbue(std::locale::classic());
+    line << "Largest over mean of " << ranks << " ranks:" << std::fixed << std::setprecision(2);
+    std::string separator = " ";
+    for (const auto &[phase, counts] : balance)
+      {
+        std::string name = phase;
+        std::replace(name.begin(), name.end(), '_', ' ');
+        line << separator << name << ' ' << counts.imbalance();
+        separator = ", ";
+      }
+    return line.str();
   }
 
 

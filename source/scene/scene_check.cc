@@ -51,6 +51,12 @@ namespace Touchstone
       check_pair(pair);
     contact.check("Contact");
     refinement.check("Refinement");
+    if (refinement.active() && discretisation.partitioner != "p4est")
+      throw InputError("Discretisation",
+                       "Partitioner",
+                       discretisation.partitioner,
+                       "its mesh cannot be refined during the run",
+                       "set it to 'p4est', or 'Estimator' in section 'Refinement' to 'none'.");
     load_stepping.check("Load stepping");
     newton.check("Newton");
     linear_solver.check("Linear solver");

@@ -134,6 +134,15 @@ namespace Touchstone
       return searches;
     }
 
+    /** @brief Contact work of this rank, in counts that do not depend on the machine. */
+    struct Work
+    {
+      std::uint64_t slave_rows = 0, master_faces = 0;
+      SearchWork    search;
+    };
+    Work
+    work() const;
+
     /** @brief Text on gaps and overlaps as the bodies are placed, a line per pair. */
     std::vector<std::string>
     start_report() const;

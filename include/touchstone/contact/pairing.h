@@ -70,6 +70,13 @@ namespace Touchstone
     {
     }
 
+    /** @brief What its searches came to so far; nothing where there is none. */
+    virtual SearchWork
+    search_work() const
+    {
+      return {};
+    }
+
   protected:
     const PairingInput input;
   };

@@ -42,6 +42,25 @@ namespace Touchstone
     int wedge = 0;
   };
 
+  /** @brief What searches came to so far, on this rank. */
+  struct SearchWork
+  {
+    /** Faces that a point was projected on or a way crossed with, or that stood near a
+     * slave face. */
+    std::uint64_t candidates = 0;
+    /** Other ranks that master faces were sent to, and those faces. */
+    std::uint64_t messages = 0, faces_sent = 0;
+
+    SearchWork &
+    operator+=(const SearchWork &other)
+    {
+      candidates += other.candidates;
+      messages += other.messages;
+      faces_sent += other.faces_sent;
+      return *this;
+    }
+  };
+
   /**
    * @brief Finds the master point closest to a slave node, on whatever rank the
    * face lives.
@@ -129,6 +148,13 @@ namespace Touchstone
       return faces;
     }
 
+    /** @brief Counted since this search was made. */
+    const SearchWork &
+    work() const
+    {
+      return counted;
+    }
+
   private:
     using Box  = dealii::BoundingBox<dim>;
     using Tree = dealii::RTree<std::pair<Box, std::size_t>>;
@@ -145,6 +171,8 @@ namespace Touchstone
 
     /** Places in `faces`, filled when a face is first asked for. */
     mutable std::unordered_map<std::uint64_t, std::size_t> by_key;
+
+    mutable SearchWork counted;
 
     /** Displacements of this rank's faces at the start of the step. */
     std::vector<Displacements> committed;

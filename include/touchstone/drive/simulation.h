@@ -89,6 +89,9 @@ namespace Touchstone
     load_stepping();
     void
     finish_summary();
+    /** Counts of work, not seconds, which depend on the machine. */
+    void
+    measure_balance();
   };
 
   /** @brief Build all that a run needs, without solving.

@@ -5,7 +5,7 @@
 #include <touchstone/scene/scene.h>
 #include <touchstone/types.h>
 
-#include <deal.II/distributed/tria.h>
+#include <deal.II/distributed/tria_base.h>
 
 namespace Touchstone
 {
@@ -18,11 +18,20 @@ namespace Touchstone
    */
   class Forest
   {
+    // In this order: the mesh is made with the names, and the reference below is to it.
+    /** Boundary names of each body, with ids that are unique in the forest. */
+    std::vector<std::map<std::string, dealii::types::boundary_id>>               names;
+    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
+    unsigned int                                                                 level = 0;
+    /** Which class it is, the partitioner decides. */
+    std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>> mesh;
+
   public:
     /** @throws InputError for bad meshes and boundaries that do not exist. */
     Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
 
-    dealii::parallel::distributed::Triangulation<dim> triangulation;
+    /** @brief With 'Partitioner = p4est' it can be refined, with METIS it cannot. */
+    dealii::parallel::DistributedTriangulationBase<dim> &triangulation;
 
     /** @brief Level of the cells that the scene asks for; cells are not coarsened
      * beyond it. */
@@ -51,10 +60,8 @@ namespace Touchstone
     surface(dealii::types::boundary_id id) const;
 
   private:
-    unsigned int level = 0;
-    /** Boundary names of each body, with ids that are unique in the forest. */
-    std::vector<std::map<std::string, dealii::types::boundary_id>>               names;
-    std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
+    std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
+    make(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
   };
 } // namespace Touchstone
 

@@ -8,6 +8,7 @@
 #include <iosfwd>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -68,6 +69,25 @@ namespace Touchstone
       double output        = 0.;
     };
     Seconds seconds;
+
+    /** @brief How evenly one kind of work is spread over the ranks, in counts. */
+    struct Balance
+    {
+      double mean = 0., max = 0.;
+
+      /** @brief 1 is even; the number of ranks is the worst. */
+      double
+      imbalance() const
+      {
+        return mean > 0. ? max / mean : 1.;
+      }
+    };
+    /** By phase, in the order in which they are told. */
+    std::vector<std::pair<std::string, Balance>> balance;
+
+    /** @brief The imbalances in one line. */
+    std::string
+    balance_line() const;
 
     /** Summed over ranks, MB. */
     double peak_memory_mb = 0.;
