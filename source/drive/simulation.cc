@@ -282,7 +282,7 @@ namespace Touchstone
   void
   Simulation::measure_balance()
   {
-    const Contact::Work                               work   = problem.contact_state().work();
+    const Contact::Work                               work   = problem->contact_state().work();
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
