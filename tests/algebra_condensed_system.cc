@@ -44,7 +44,8 @@ namespace
         const std::vector<MatrixTerm>   &terms,
         const bool                       shifted,
         const std::vector<unsigned int> &extra_of_rank,
-        const bool                       break_it = false)
+        const bool                       break_it = false,
+        const bool                       springs  = false)
   {
     const MPI_Comm     communicator = MPI_COMM_WORLD;
     const unsigned int rank         = Utilities::MPI::this_mpi_process(communicator);
@@ -80,6 +81,18 @@ namespace
         system.diagonal_shift.compress(VectorOperation::insert);
       }
     system.constraints.copy_from(constraints);
+    // The stretch of springs for unknowns; rows of the stiffness referred to.
+    AffineConstraints<double> change(complete_index_set(n));
+    if (springs)
+      {
+        system.lasting_stiffness = true;
+        change.add_line(12);
+        change.add_entries(12, {{13, 0.5}, {22, 0.5}});
+        change.add_line(21);
+        change.add_entries(21, {{1, -2.}});
+      }
+    change.close();
+    system.basis_change.copy_from(change);
 
     // Extra unknowns: on one rank there are those of all.
     unsigned int n_extra = 0;
@@ -105,7 +118,7 @@ namespace
 
     // The same with dense matrices.
     const unsigned int     m = n + n_extra;
-    FullMatrix<double>     a(m, m), t(m, m), at(m, m), reference(m, m);
+    FullMatrix<double>     a(m, m), t(m, m), at(m, m), reference(m, m), tc(m, m), tb(m, m);
     dealii::Vector<double> b(m), g(m), tmp(m), rhs(m);
     for (unsigned int i = 0; i < n; ++i)
       {
@@ -125,16 +138,35 @@ namespace
       if (i < n && constraints.is_constrained(i))
         {
           for (const auto &pair : *constraints.get_constraint_entries(i))
-            t(i, pair.first) = pair.second;
+            tc(i, pair.first) = pair.second;
           g[i] = constraints.get_inhomogeneity(i);
         }
       else
-        t(i, i) = 1.;
+        tc(i, i) = 1.;
+    for (unsigned int i = 0; i < m; ++i)
+      {
+        tb(i, i) = 1.;
+        if (i < n && change.is_constrained(i))
+          for (const auto &pair : *change.get_constraint_entries(i))
+            tb(i, pair.first) = pair.second;
+      }
+    tc.mmult(t, tb);
     a.mmult(at, t);
     t.Tmmult(reference, at);
     a.vmult(tmp, g);
     tmp.sadd(-1., b);
     t.Tvmult(rhs, tmp);
+    for (unsigned int i = 0; i < n; ++i)
+      if (change.is_constrained(i) && reference(i, i) > entry(i, i))
+        {
+          const double scale = entry(i, i) / reference(i, i);
+          rhs[i] *= scale;
+          for (unsigned int j = 0; j < m; ++j)
+            {
+              reference(i, j) *= scale;
+              reference(j, i) *= scale;
+            }
+        }
 
     double                  worst = 0., worst_rhs = 0., worst_constrained = 0.;
     bool                    diagonal = true, marks = true;
@@ -244,5 +276,16 @@ main(int argc, char **argv)
       check(name + ", contact terms", constraints, contact, false, {});
       check(name + ", multipliers", constraints, multipliers, true, {2, 1});
       check(name + ", another matrix", constraints, contact, false, {}, true);
+      // Stiff springs: their stretch is the only unknown that they act on.
+      const std::vector<MatrixTerm> stiff = {{12, 12, 4e4},
+                                             {12, 13, -2e4},
+                                             {12, 22, -2e4},
+                                             {13, 12, -2e4},
+                                             {22, 12, -2e4},
+                                             {13, 13, 1e4},
+                                             {13, 22, 1e4},
+                                             {22, 13, 1e4},
+                                             {22, 22, 1e4}};
+      check(name + ", stiff spring", constraints, stiff, false, {}, false, true);
     }
 }

@@ -247,11 +247,12 @@ namespace Touchstone
     // A solve that goes far below what Newton needs in the end is wasted. But one
     // that moves supports has a right-hand side much larger than the forces that
     // it leads to, and one that leads to wrong signs of contact forces costs
-    // further iterations: these get two digits more. The last one should be the
-    // last: it aims well below the residual that Newton asks for.
+    // further iterations: these get two digits more, three where stick and slip are
+    // told apart by small differences. The last one should be the last: it aims well
+    // below the residual that Newton asks for.
     linear_tolerance = scene.linear_solver.tolerance;
     if (!state.prescribed || state.changes > 0)
-      linear_tolerance *= 1e-2;
+      linear_tolerance *= has_friction(scene) ? 1e-3 : 1e-2;
     else if (state.residual > 0.)
       linear_tolerance = std::clamp(0.03 * scene.newton.residual_tolerance / state.residual,
                                     linear_tolerance,
