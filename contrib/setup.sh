@@ -7,9 +7,9 @@ build=${TOUCHSTONE_BUILD:-$root/build}
 
 # libdeal.ii-dev brings p4est, Trilinos, MPI, Boost and muParser with it.
 # Debian's default BLAS is the reference one; with OpenBLAS MUMPS runs 4 to 5
-# times faster. numdiff and perl compare the tests' output.
+# times faster. numdiff and perl compare the tests' output, python3 runs contrib/benchmark.
 packages="g++ cmake ninja-build libdeal.ii-dev libmumps-dev libmetis-dev openmpi-bin
-  libopenmpi-dev libopenblas0-pthread numdiff perl"
+  libopenmpi-dev libopenblas0-pthread numdiff perl python3"
 
 say()
 {
