@@ -91,11 +91,8 @@ namespace
       {
         for (const std::string &text : overrides)
           std::cout << text.substr(text.find('=') + 1) << ", ";
-        std::cout << cut.failures << " steps failed, slip and stick: " << (both ? "yes" : "NO")
-                  << ", same result: " << (difference < 1e-9 ? "yes" : "NO");
-        if (difference >= 1e-9)
-          std::cout << ", difference " << difference;
-        std::cout << std::endl;
+        std::cout << cut.failures << " steps failed, slip and stick: " << (both ? "yes" : "NO");
+        print_agreement(difference, 1e-9);
       }
   }
 } // namespace

@@ -3,10 +3,9 @@
 // homogeneous deformation of a distorted mesh; the stiffness at rest; a linear body
 // beside a nonlinear one.
 
-#include <touchstone/drive/static_problem.h>
-
 #include <deal.II/dofs/dof_tools.h>
 
+#include "drive_support.h"
 #include "mesh_common.h"
 
 using namespace Touchstone;
@@ -96,33 +95,15 @@ end
 
 
 
-  /** Solves all load steps of a scene. */
-  struct Run
+  /** A scene whose steps are solved, with the residuals of the last one. */
+  struct SolvedRun : Run
   {
-    const Scene         scene;
-    const Forest        forest;
-    Solid               solid;
-    TimerOutput         timer;
-    StaticProblem       problem;
-    std::vector<double> residuals;
+    const std::vector<double> residuals;
 
-    Run(const std::string &text, const std::vector<std::string> &overrides)
-      : scene(text, "scene.prm", overrides)
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
-      , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
-      , problem(scene, forest, solid, timer)
+    SolvedRun(const std::string &text, const std::vector<std::string> &overrides)
+      : Run(text, overrides, MPI_COMM_WORLD)
+      , residuals(solve_steps().back())
     {
-      problem.start();
-      for (unsigned int step = 1; step <= scene.load_stepping.steps; ++step)
-        {
-          residuals.clear();
-          problem.begin_step(double(step) / scene.load_stepping.steps);
-          Newton(scene.newton).solve(problem, [&](unsigned int, const NewtonState &state, int) {
-            residuals.push_back(state.residual);
-          });
-          problem.commit();
-        }
     }
 
     /** Largest deviation of a node of a body from the place F X + c. */
@@ -192,8 +173,8 @@ end
   void
   tension(const std::string &law, const std::string &element, const std::string &degree)
   {
-    Run           run(block,
-            {"Body block/Material/Law=" + law,
+    SolvedRun     run(block,
+                  {"Body block/Material/Law=" + law,
                        "Body block/Element=" + element,
                        "Discretisation/Degree=" + degree});
     const Tension exact = exact_tension(law, 2.);
@@ -242,7 +223,7 @@ end
       for (unsigned int d = 0; d < dim; ++d)
         overrides.push_back("Body rod/Boundary " + boundary + "/Displacement " + "xyz"[d] + "=" +
                             formulas[d]);
-    Run        run(rod, overrides);
+    SolvedRun  run(rod, overrides);
     const auto made = HyperelasticRegistry::make(law, run.scene.bodies[0].material);
     const SymmetricTensor<2, dim> exact =
       symmetrize(made->stress(F) * transpose(F)) / determinant(F);
@@ -298,8 +279,8 @@ end
       second.replace(at, 5, "soft");
     std::string text = block + second;
     text.replace(text.find("Bodies = block"), 14, "Bodies = block, soft");
-    Run           run(text,
-            {"Body soft/Material/Law=neo-Hookean",
+    SolvedRun     run(text,
+                  {"Body soft/Material/Law=neo-Hookean",
                        "Body soft/Geometry/Lower corner=0, 5, 0",
                        "Body soft/Geometry/Upper corner=1, 6, 1"});
     const Tension exact = exact_tension("neo-Hookean", 2.);

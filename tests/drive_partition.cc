@@ -109,11 +109,8 @@ namespace
         std::cout << overrides[0].substr(overrides[0].find('=') + 1) << ", "
                   << overrides[1].substr(overrides[1].find('=') + 1)
                   << "; slave and master faces of the ranks: " << text << "; "
-                  << (nodes == expected.size() ? "all nodes" : "NODES MISSING")
-                  << ", same result: " << (difference < 1e-8 ? "yes" : "NO");
-        if (difference >= 1e-8)
-          std::cout << ", difference " << difference;
-        std::cout << std::endl;
+                  << (nodes == expected.size() ? "all nodes" : "NODES MISSING");
+        print_agreement(difference, 1e-8);
       }
   }
 } // namespace

@@ -87,7 +87,37 @@ end
       problem.begin_step(time);
       Newton(parameters).solve(problem, [](unsigned int, const NewtonState &, int) {});
     }
+
+    /** Solve all steps of the scene, which end at time one, and keep them. @return
+     * the residuals of each step. */
+    std::vector<std::vector<double>>
+    solve_steps()
+    {
+      std::vector<std::vector<double>> residuals;
+      for (unsigned int step = 1; step <= scene.load_stepping.steps; ++step)
+        {
+          residuals.emplace_back();
+          problem.begin_step(double(step) / scene.load_stepping.steps);
+          Newton(scene.newton).solve(problem, [&](unsigned int, const NewtonState &state, int) {
+            residuals.back().push_back(state.residual);
+          });
+          problem.commit();
+        }
+      return residuals;
+    }
   };
+
+
+
+  /** Say whether results agree, and if not, how far they are apart. */
+  inline void
+  print_agreement(const double difference, const double bound)
+  {
+    std::cout << ", same result: " << (difference < bound ? "yes" : "NO");
+    if (difference >= bound)
+      std::cout << ", difference " << difference;
+    std::cout << std::endl;
+  }
 } // namespace Touchstone
 
 #endif

@@ -2,9 +2,8 @@
 // nor a moment, the stiffness is the derivative of the forces, and two exact solutions at
 // large strain.
 
-#include <touchstone/drive/static_problem.h>
-
 #include "contact_support.h"
+#include "drive_support.h"
 
 using namespace Touchstone;
 using namespace dealii;
@@ -151,36 +150,18 @@ end
 
 
 
-  /** Solves all load steps of a scene. */
-  struct Run
+  /** A scene whose steps are solved. */
+  struct SolvedRun : Run
   {
-    const Scene   scene;
-    const Forest  forest;
-    Solid         solid;
-    TimerOutput   timer;
-    StaticProblem problem;
-    bool          quadratic = true;
+    bool quadratic = true;
 
-    Run(const std::string &text, const std::vector<std::string> &overrides)
-      : scene(text, "scene.prm", overrides)
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
-      , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
-      , problem(scene, forest, solid, timer)
+    SolvedRun(const std::string &text, const std::vector<std::string> &overrides)
+      : Run(text, overrides, MPI_COMM_WORLD)
     {
-      problem.start();
-      for (unsigned int step = 1; step <= scene.load_stepping.steps; ++step)
-        {
-          std::vector<double> residuals;
-          problem.begin_step(double(step) / scene.load_stepping.steps);
-          Newton(scene.newton).solve(problem, [&](unsigned int, const NewtonState &state, int) {
-            residuals.push_back(state.residual);
-          });
-          problem.commit();
-          for (unsigned int i = 2; i < residuals.size(); ++i)
-            quadratic =
-              quadratic && residuals[i] < std::max(200. * std::pow(residuals[i - 1], 2), 1e-12);
-        }
+      for (const std::vector<double> &residuals : solve_steps())
+        for (unsigned int i = 2; i < residuals.size(); ++i)
+          quadratic =
+            quadratic && residuals[i] < std::max(200. * std::pow(residuals[i - 1], 2), 1e-12);
     }
 
     /** Largest of a function of displacement component, its number and place. */
@@ -204,7 +185,7 @@ end
   block(const std::string &degree, const std::string &solver)
   {
     const double E = 200., nu = 0.3, kappa = E / (3. * (1. - 2. * nu)), p = 80.;
-    Run          run(R"(
+    SolvedRun    run(R"(
 set Bodies = block
 subsection Body block
   set Symmetry            = left, front, bottom
@@ -235,7 +216,7 @@ subsection Newton
   set Residual tolerance = 1e-12
 end
 )",
-            {"Discretisation/Degree=" + degree, "Linear solver/Type=" + solver});
+                  {"Discretisation/Degree=" + degree, "Linear solver/Type=" + solver});
     const double J       = -p / kappa + std::sqrt(1. + p * p / (kappa * kappa));
     const double stretch = std::cbrt(J);
     const double place =
@@ -267,7 +248,7 @@ end
         p += mu * (l * l - 1. / (l * l)) * (b - a) / 1000. / r;
       }
     const std::string n = std::to_string(cells);
-    Run               run(R"(
+    SolvedRun         run(R"(
 set Bodies = tube
 subsection Body tube
   set Symmetry            = first cut, second cut, start, end
@@ -291,7 +272,7 @@ subsection Load stepping
   set Steps = 10
 end
 )",
-            {"Body tube/Geometry/Cells=" + n + ", " + std::to_string(2 * cells) + ", 1",
+                  {"Body tube/Geometry/Cells=" + n + ", " + std::to_string(2 * cells) + ", 1",
                            "Body tube/Boundary inner/Pressure=" + std::to_string(p) + " * t"});
     const double      moved =
       run.largest([&](const double u, const unsigned int d, const Point<dim> &x) {

@@ -11,6 +11,24 @@ namespace Touchstone
   using namespace dealii;
 
   void
+  LinearSystem::expand(Vector &solution) const
+  {
+    if (basis_change.get_local_lines().size() > 0)
+      {
+        const Vector deviation(solution);
+        basis_change.distribute(solution);
+        const IndexSet owned = solution.locally_owned_elements();
+        for (const auto &line : basis_change.get_lines())
+          if (owned.is_element(line.index))
+            solution(line.index) += deviation(line.index);
+        solution.compress(VectorOperation::add);
+      }
+    constraints.distribute(solution);
+  }
+
+
+
+  void
   Expansion::append(const Index global, const double factor, Line &line)
   {
     if (basis_change.is_constrained(global))

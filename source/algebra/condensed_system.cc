@@ -34,7 +34,7 @@ namespace Touchstone
 
     LocalNumbers columns(stiffness.ColMap());
     Condensation condensation(system, row_map, columns);
-    constrained = condensation.constrained;
+    constrained = std::move(condensation.constrained);
     changed.resize(n_rows);
     for (int i = 0; i < old_rows.NumMyElements(); ++i)
       changed[i] = !constrained[i] && system.basis_change.is_constrained(old_rows.GID(i));

@@ -1,5 +1,6 @@
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/row_terms.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -7,7 +8,6 @@
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/strong_components.hpp>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <set>
 
@@ -47,16 +47,35 @@ namespace Touchstone
       for (const StencilEntry &entry : row.stencil)
         add_components(entry.node, row.held() ? all : row.normal, threshold, result.on);
       if (row.derivative)
-        for (std::size_t a = 0; a < row.derivative->nodes.size(); ++a)
-          add_components(row.derivative->nodes[a],
-                         row.normal * row.derivative->gap_vector[a] +
-                           row.gap_vector * row.derivative->normal[a],
-                         threshold,
-                         result.on);
+        for (const auto &[node, coefficients] : gap_gradient(row))
+          add_components(node, coefficients, threshold, result.on);
       if (row.friction && row.held())
         for (const auto &[node, matrix] : row.friction->slip_gradient)
           for (unsigned int d = 0; d < dim; ++d)
             add_components(node, matrix[d], threshold, result.on);
+      return result;
+    }
+
+    using Edges = std::vector<std::pair<unsigned int, unsigned int>>;
+
+    /** Which vertices of a directed graph lie on a circle of two or more. */
+    std::vector<bool>
+    on_circles(const unsigned int n_vertices, const Edges &edges)
+    {
+      std::vector<bool> result(n_vertices, false);
+      if (edges.empty())
+        return result;
+      const boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph(edges.begin(),
+                                                                                    edges.end(),
+                                                                                    n_vertices);
+      std::vector<unsigned int> component(n_vertices), size(n_vertices, 0);
+      boost::strong_components(graph,
+                               boost::make_iterator_property_map(
+                                 component.begin(), boost::get(boost::vertex_index, graph)));
+      for (const unsigned int c : component)
+        ++size[c];
+      for (unsigned int i = 0; i < n_vertices; ++i)
+        result[i] = size[component[i]] > 1;
       return result;
     }
 
@@ -68,27 +87,16 @@ namespace Touchstone
       const auto                    number = [&](const Index unknown) {
         return numbers.emplace(unknown, numbers.size()).first->second;
       };
-      boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph;
+      Edges edges;
       for (const Dependence &row : rows)
         for (const Index from : row.unknowns)
           for (const Index to : row.on)
-            {
-              const unsigned int i = number(from), j = number(to);
-              boost::add_edge(i, j, graph);
-            }
-      std::vector<unsigned int> component(boost::num_vertices(graph));
-      if (component.empty())
-        return {};
-      boost::strong_components(graph,
-                               boost::make_iterator_property_map(
-                                 component.begin(), boost::get(boost::vertex_index, graph)));
-      std::vector<unsigned int> size(component.size(), 0);
-      for (const unsigned int c : component)
-        ++size[c];
-      std::set<Index> result;
+            edges.emplace_back(number(from), number(to));
+      const std::vector<bool> circular = on_circles(numbers.size(), edges);
+      std::set<Index>         result;
       for (const Dependence &row : rows)
         for (const Index from : row.unknowns)
-          if (numbers.count(from) > 0 && size[component[numbers.at(from)]] > 1)
+          if (numbers.count(from) > 0 && circular[numbers.at(from)])
             result.insert(row.slave);
       return result;
     }
@@ -100,7 +108,7 @@ namespace Touchstone
   Contact::find_circles()
   {
     // Pair p leads to pair q if master nodes of p are slave nodes of q.
-    std::vector<std::set<unsigned int>> next(pairs.size());
+    Edges edges;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       for (unsigned int q = 0; q < pairs.size(); ++q)
         {
@@ -115,21 +123,12 @@ namespace Touchstone
                   shared |= slaves.count(face.nodes[m]);
             }
           if (Utilities::MPI::max(shared, solid.communicator))
-            next[p].insert(q);
+            edges.emplace_back(p, q);
         }
-    const std::function<bool(unsigned int, unsigned int, std::set<unsigned int> &)> reaches =
-      [&](const unsigned int from, const unsigned int to, std::set<unsigned int> &seen) {
-        for (const unsigned int q : next[from])
-          if (q == to || (seen.insert(q).second && reaches(q, to, seen)))
-            return true;
-        return false;
-      };
+    const std::vector<bool> circle = on_circles(pairs.size(), edges);
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      {
-        std::set<unsigned int> seen;
-        if (reaches(p, p, seen))
-          circular.push_back(p);
-      }
+      if (circle[p])
+        circular.push_back(p);
   }
 
 

@@ -28,7 +28,6 @@ namespace Touchstone
     , ghosted(solid.owned, solid.relevant, solid.communicator)
     , end_time(scene.load_stepping.end_time)
   {
-    bool with_friction = false;
     for (const ContactPairParameters &parameters : scene.pairs)
       {
         const std::string section = "Contact pair " + parameters.name;
@@ -95,7 +94,6 @@ namespace Touchstone
         pair.overlap.assign(pair_rows.size(), 0.);
         if (parameters.friction)
           pair.tangents = pair.slave->tangents();
-        with_friction = with_friction || parameters.friction;
         rows.push_back(pair_rows);
         pairs.push_back(std::move(pair));
       }
@@ -109,7 +107,7 @@ namespace Touchstone
     seen.compress();
     ghosted.reinit(solid.owned, seen, solid.communicator);
     committed = rows;
-    if (with_friction)
+    if (scene.has_friction())
       {
         reference_positions.reinit(solid.owned, solid.communicator);
         VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);

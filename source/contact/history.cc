@@ -4,13 +4,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  namespace
-  {
-    constexpr unsigned int n_fields = 3;
-  }
-
-
-
   std::vector<Vector>
   Contact::fields(const bool of_committed) const
   {

@@ -6,21 +6,22 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  NodalForm
+  gap_gradient(const ContactRow &row)
+  {
+    NodalForm            form;
+    const RowDerivative &derivative = *row.derivative;
+    for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+      form.emplace_back(derivative.nodes[a],
+                        row.normal * derivative.gap_vector[a] +
+                          row.gap_vector * derivative.normal[a]);
+    return form;
+  }
+
+
+
   namespace
   {
-    /** d gap / d x_a, where normal and stencil change. */
-    NodalForm
-    gap_gradient(const ContactRow &row)
-    {
-      NodalForm            form;
-      const RowDerivative &derivative = *row.derivative;
-      for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
-        form.emplace_back(derivative.nodes[a],
-                          row.normal * derivative.gap_vector[a] +
-                            row.gap_vector * derivative.normal[a]);
-      return form;
-    }
-
     /** A component of the slip. */
     NodalForm
     slip_form(const ContactRow &row, const Tensor<1, dim> &direction)

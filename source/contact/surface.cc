@@ -214,43 +214,39 @@ namespace Touchstone
   void
   Surface::exchange_far_faces(const Solid &solid)
   {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(solid.communicator);
-    if (n_ranks == 1)
+    if (Utilities::MPI::n_mpi_processes(solid.communicator) == 1)
       return;
-    // Ranks own consecutive unknowns.
-    const Index first =
-      solid.owned.n_elements() > 0 ? solid.owned.nth_index_in_set(0) : numbers::invalid_dof_index;
-    const auto firsts = Utilities::MPI::all_gather(solid.communicator, first);
-    const auto owner  = [&](const Index node) {
-      unsigned int rank = 0;
-      for (unsigned int r = 0; r < n_ranks; ++r)
-        if (firsts[r] != numbers::invalid_dof_index && firsts[r] <= dim * node)
-          rank = r;
-      return rank;
+    // Nodes of other ranks that hanging nodes of this rank's faces follow.
+    const auto for_each_foreign = [&](const auto &visit) {
+      for (const Face &face : faces)
+        if (const TraceBasis *basis = trace(face))
+          for (unsigned int m = 0; m < basis->n; ++m)
+            if (basis->nodes[m] != face.nodes[m] && !solid.owned.is_element(dim * basis->nodes[m]))
+              visit(face, *basis, dim * basis->nodes[m]);
     };
+    IndexSet foreign(solid.owned.size());
+    for_each_foreign(
+      [&](const Face &, const TraceBasis &, const Index unknown) { foreign.add_index(unknown); });
+    const std::vector<unsigned int> owners =
+      Utilities::MPI::compute_index_owner(solid.owned, foreign, solid.communicator);
 
     struct Package
     {
       Face       face;
       TraceBasis basis;
     };
-    std::map<unsigned int, std::vector<char>> packages;
-    for (const Face &face : faces)
-      if (const TraceBasis *basis = trace(face))
-        {
-          std::set<unsigned int> ranks;
-          for (unsigned int m = 0; m < basis->n; ++m)
-            if (basis->nodes[m] != face.nodes[m] && !solid.owned.is_element(dim * basis->nodes[m]))
-              ranks.insert(owner(basis->nodes[m]));
-          const Package package{face, *basis};
-          for (const unsigned int rank : ranks)
-            {
-              auto             &to   = packages[rank];
-              const std::size_t size = to.size();
-              to.resize(size + sizeof(Package));
-              std::memcpy(to.data() + size, static_cast<const void *>(&package), sizeof(Package));
-            }
-        }
+    std::map<unsigned int, std::vector<char>>        packages;
+    std::set<std::pair<unsigned int, std::uint64_t>> sent;
+    for_each_foreign([&](const Face &face, const TraceBasis &basis, const Index unknown) {
+      const unsigned int rank = owners[foreign.index_within_set(unknown)];
+      if (!sent.emplace(rank, face.key).second)
+        return;
+      const Package     package{face, basis};
+      auto             &to   = packages[rank];
+      const std::size_t size = to.size();
+      to.resize(size + sizeof(Package));
+      std::memcpy(to.data() + size, static_cast<const void *>(&package), sizeof(Package));
+    });
 
     std::set<std::uint64_t> known;
     for (const Face &face : ghost_faces)

@@ -1,4 +1,5 @@
 #include <touchstone/drive/refinement.h>
+#include <touchstone/scene/expression.h>
 #include <touchstone/solid/error_estimator.h>
 
 #include <deal.II/distributed/solution_transfer.h>
@@ -41,14 +42,13 @@ namespace Touchstone
       return result;
     }
 
+    /** With ghosts, and what hanging nodes follow. */
     Vector
-    ghosted(const Vector &field, const Solid &solid)
+    conforming(const Vector &field, const Solid &solid)
     {
       Vector owned(field);
       solid.hanging.distribute(owned);
-      Vector result(solid.owned, solid.relevant, solid.communicator);
-      result = owned;
-      return result;
+      return solid.ghosted(owned);
     }
   } // namespace
 
@@ -59,10 +59,8 @@ namespace Touchstone
     , forest(forest)
     , solid(solid)
   {
-    if (scene.refinement.region.empty())
-      return;
-    region = std::make_unique<FunctionParser<dim>>(1);
-    region->initialize("x,y,z,t", scene.refinement.region, {{"pi", numbers::PI}}, true);
+    if (!scene.refinement.region.empty())
+      region = make_function(scene.refinement.region);
   }
 
 
@@ -98,7 +96,7 @@ namespace Touchstone
     Values result(forest.triangulation.n_active_cells());
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
-        const Vector traction = ghosted(fields[3 * p], solid);
+        const Vector traction = conforming(fields[Contact::n_fields * p], solid);
         for_each_face(solid,
                       pairs[p].slave_body,
                       pairs[p].slave,
@@ -161,9 +159,7 @@ namespace Touchstone
                 }
         master_count.compress(VectorOperation::add);
         master_size.compress(VectorOperation::add);
-        Vector all_count(solid.owned, solid.relevant, solid.communicator), all_size(all_count);
-        all_count = master_count;
-        all_size  = master_size;
+        const Vector all_count = solid.ghosted(master_count), all_size = solid.ghosted(master_size);
         for_each_face(solid,
                       pairs[p].master_body,
                       pairs[p].master,
@@ -262,7 +258,7 @@ namespace Touchstone
     // Ghosts cannot be assigned to a vector that has none.
     std::vector<Vector> with_ghosts;
     for (const Vector &field : fields)
-      with_ghosts.push_back(ghosted(field, solid));
+      with_ghosts.push_back(conforming(field, solid));
     std::vector<const Vector *> before;
     for (const Vector &field : with_ghosts)
       before.push_back(&field);

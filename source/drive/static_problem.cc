@@ -16,21 +16,13 @@ namespace Touchstone
 
   namespace
   {
-    bool
-    has_friction(const Scene &scene)
-    {
-      return std::any_of(scene.pairs.begin(),
-                         scene.pairs.end(),
-                         [](const ContactPairParameters &pair) { return bool(pair.friction); });
-    }
-
     /** Slip makes the system unsymmetric anyway. Without friction a symmetric
      * factorisation wins more than the iterations that it takes longer cost. */
     bool
     consistent(const Scene &scene)
     {
       return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && has_friction(scene));
+             (scene.contact.linearisation == "automatic" && scene.has_friction());
     }
   } // namespace
 
@@ -102,7 +94,7 @@ namespace Touchstone
     // With friction the stick and slip of a step begin where the last one ended;
     // and finite strains may not bear a guess.
     velocity.clear();
-    if (solid.linear() && !has_friction(scene) && committed_time > 0.)
+    if (solid.linear() && !scene.has_friction() && committed_time > 0.)
       {
         velocity = u;
         velocity -= committed_u;
@@ -252,7 +244,7 @@ namespace Touchstone
     // below the residual that Newton asks for.
     linear_tolerance = scene.linear_solver.tolerance;
     if (!state.prescribed || state.changes > 0)
-      linear_tolerance *= has_friction(scene) ? 1e-3 : 1e-2;
+      linear_tolerance *= scene.has_friction() ? 1e-3 : 1e-2;
     else if (state.residual > 0.)
       linear_tolerance = std::clamp(0.03 * scene.newton.residual_tolerance / state.residual,
                                     linear_tolerance,
@@ -392,21 +384,10 @@ namespace Touchstone
     const unsigned int before = solver->counts().iterations;
     Epetra_Vector      solution(condensed->matrix->RowMap());
     solver->solve(*condensed, modes->columns(), solution);
-    if (condensed->scale)
-      solution.Multiply(1., *condensed->scale, solution, 0.);
     const Index n = solid.owned.n_elements();
     std::copy(solution.Values(), solution.Values() + n, increment.begin());
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
-    if (solver->wants_basis_change())
-      {
-        const Vector deviation(increment);
-        system->basis_change.distribute(increment);
-        for (const auto &line : system->basis_change.get_lines())
-          if (solid.owned.is_element(line.index))
-            increment(line.index) += deviation(line.index);
-        increment.compress(VectorOperation::add);
-      }
-    system->constraints.distribute(increment);
+    system->expand(increment);
     condensed.reset();
     const unsigned int iterations = solver->counts().iterations - before;
     return iterations == 0 ? -1 : static_cast<int>(iterations);
@@ -470,9 +451,7 @@ namespace Touchstone
   Vector
   StaticProblem::ghosted_displacement() const
   {
-    Vector result(solid.owned, solid.relevant, solid.communicator);
-    result = u;
-    return result;
+    return solid.ghosted(u);
   }
 
 

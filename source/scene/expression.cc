@@ -60,6 +60,19 @@ namespace Touchstone
 
 
 
+  std::unique_ptr<dealii::FunctionParser<dim>>
+  make_function(const std::string &expression)
+  {
+    auto function = std::make_unique<dealii::FunctionParser<dim>>(1);
+    function->initialize("x,y,z,t",
+                         expression,
+                         {{"pi", dealii::numbers::PI}},
+                         /*time_dependent=*/true);
+    return function;
+  }
+
+
+
   void
   check_expression(const std::string &section,
                    const std::string &key,
@@ -82,13 +95,9 @@ namespace Touchstone
       const CaptureErrors errors;
       try
         {
-          dealii::FunctionParser<3> function(1);
-          function.initialize("x,y,z,t",
-                              expression,
-                              {{"pi", dealii::numbers::PI}},
-                              /*time_dependent=*/true);
-          function.set_time(0.5);
-          value = function.value(dealii::Point<3>(0.3, 0.4, 0.6));
+          const auto function = make_function(expression);
+          function->set_time(0.5);
+          value = function->value(dealii::Point<dim>(0.3, 0.4, 0.6));
         }
       catch (const std::exception &)
         {

@@ -222,4 +222,14 @@ namespace Touchstone
       throw InputError("", "Bodies", "", "there is no body '" + name + "'", "");
     return body - bodies.begin();
   }
+
+
+
+  bool
+  Scene::has_friction() const
+  {
+    return std::any_of(pairs.begin(), pairs.end(), [](const ContactPairParameters &pair) {
+      return pair.friction != nullptr;
+    });
+  }
 } // namespace Touchstone

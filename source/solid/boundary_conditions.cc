@@ -1,3 +1,4 @@
+#include <touchstone/scene/expression.h>
 #include <touchstone/scene/input_error.h>
 #include <touchstone/solid/boundary_conditions.h>
 
@@ -19,9 +20,7 @@ namespace Touchstone
     {
       if (expression.find_first_not_of(" \t") == std::string::npos)
         return nullptr;
-      auto function = std::make_shared<FunctionParser<dim>>(1);
-      function->initialize("x,y,z,t", expression, {{"pi", numbers::PI}}, true);
-      return function;
+      return make_function(expression);
     }
 
     Tensor<1, dim>

@@ -17,13 +17,12 @@ namespace Touchstone
   {
     const FEValuesExtractors::Vector displacement(0);
     // Exact on the faces of both degrees: a closed surface has no net force or moment.
-    FEFaceValues<dim> values(solid.mapping,
+    FEFaceValues<dim>           values(solid.mapping,
                              solid.fe,
                              QGauss<dim - 1>(2 * solid.fe.degree + 1),
                              update_values | update_gradients | update_normal_vectors |
                                update_JxW_values | update_quadrature_points);
-    Vector            ghosted(solid.owned, solid.relevant, solid.communicator);
-    ghosted = u;
+    const Vector                ghosted = solid.ghosted(u);
     std::vector<Index>          dofs(solid.fe.n_dofs_per_cell());
     std::vector<Tensor<2, dim>> gradients(values.n_quadrature_points);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())

@@ -33,7 +33,7 @@ namespace Touchstone
     /** Marks rows of unknowns that count the deviation from a combination of
      * others. */
     std::vector<char> changed;
-    /** The unknowns are those of the system divided by this; null: by one. Stiff
+    /** The matrix is for unknowns divided by this; null: by one. Stiff
      * springs have their stretch in units that make an error of it count as much
      * as one of a displacement. */
     std::unique_ptr<Epetra_Vector> scale;

@@ -37,7 +37,8 @@ namespace Touchstone
      * @param system   The condensed system.
      * @param modes    Rigid-body modes of the bodies, columns over the rows of
      *                 the displacement unknowns; for multigrid.
-     * @param solution Result, over the rows of the matrix.
+     * @param solution Result, over the rows of the matrix; CondensedSystem::scale is
+     *                 taken out of it.
      * @throws LinearSolverFailure if the residual stays above the tolerance,
      *         SingularSystem if the matrix turns out singular.
      */

@@ -46,9 +46,9 @@ namespace Touchstone
     std::optional<dealii::AffineConstraints<double>> test_constraints;
     /**
      * Unknowns x_i = y_i + sum_j c_j x_j that are to be replaced by their
-     * deviation y_i from others, not closed over each other; homogeneous, for
-     * solvers that suffer from stiff springs between x_i and the others. The others
-     * are unknowns of their own: neither constrained nor replaced.
+     * deviation y_i from others, for solvers that suffer from stiff springs between
+     * x_i and the others. These are neither constrained nor replaced themselves, and
+     * there are no inhomogeneities.
      */
     dealii::AffineConstraints<double> basis_change;
     /** Out-of-balance forces, and right-hand side of the extra unknowns. */
@@ -61,6 +61,11 @@ namespace Touchstone
     bool definite = true;
     /** Relative residual that an iterative solution needs. */
     double tolerance = 1e-8;
+
+    /** @brief x = T y + g for the displacement part of a solution y of the condensed
+     * system, in place. Collective. */
+    void
+    expand(Vector &solution) const;
   };
 } // namespace Touchstone
 

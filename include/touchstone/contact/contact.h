@@ -85,6 +85,9 @@ namespace Touchstone
     void
     rollback();
 
+    /** Number of fields of a pair in fields(). */
+    static constexpr unsigned int n_fields = 3;
+
     /**
      * @brief What a change of the mesh carries over, as fields over the unknowns:
      * per pair the contact traction; whether a node is active, sticks, and nothing;

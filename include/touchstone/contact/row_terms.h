@@ -9,6 +9,10 @@
 
 namespace Touchstone
 {
+  /** @brief d gap / d x_a of a row with a derivative: normal and stencil change. */
+  NodalForm
+  gap_gradient(const ContactRow &row);
+
   /**
    * @brief The conditions that an active row puts on the displacement increment:
    * along the normal if it is free to slide, in all directions if it is held; none

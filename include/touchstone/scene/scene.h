@@ -61,6 +61,10 @@ namespace Touchstone
     unsigned int
     body_index(const std::string &name) const;
 
+    /** @brief Whether any pair has friction. */
+    bool
+    has_friction() const;
+
   private:
     dealii::ParameterHandler prm;
 

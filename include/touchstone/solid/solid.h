@@ -78,6 +78,10 @@ namespace Touchstone
       return matrix;
     }
 
+    /** @brief A vector over the unknowns, with ghosts. Collective. */
+    Vector
+    ghosted(const Vector &u) const;
+
     /** @brief Internal nodal forces of the displacement @p u (no ghosts). */
     void
     internal_force(const Vector &u, Vector &force) const;
@@ -121,9 +125,6 @@ namespace Touchstone
     std::vector<double> row_sums;
     /** Behind a pointer: its kernels are scratch space of const functions. */
     std::unique_ptr<FiniteStrainCells> finite;
-
-    Vector
-    ghosted(const Vector &u) const;
   };
 } // namespace Touchstone
 
