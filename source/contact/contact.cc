@@ -222,27 +222,50 @@ namespace Touchstone
 
 
   void
-  Contact::add_forces(Vector &force) const
+  Contact::add_forces(Vector &force, const Part part) const
   {
     std::vector<Index>  unknowns;
     std::vector<double> values;
     for (const auto &pair_rows : rows)
       for (const ContactRow &row : pair_rows)
         if (row.active())
-          for (unsigned int d = 0; d < dim; ++d)
-            if (row.force[d] != 0.)
-              {
-                unknowns.push_back(dim * row.slave + d);
-                values.push_back(row.force[d]);
-                for (const StencilEntry &entry : row.stencil)
-                  {
-                    unknowns.push_back(dim * entry.node + d);
-                    values.push_back(-entry.weight * row.force[d]);
-                  }
-              }
+          {
+            const Tensor<1, dim> normal = (row.force * row.normal) * row.normal;
+            const Tensor<1, dim> f      = part == Part::all      ? row.force
+                                          : part == Part::normal ? normal
+                                                                 : row.force - normal;
+            for (unsigned int d = 0; d < dim; ++d)
+              if (f[d] != 0.)
+                {
+                  unknowns.push_back(dim * row.slave + d);
+                  values.push_back(f[d]);
+                  for (const StencilEntry &entry : row.stencil)
+                    {
+                      unknowns.push_back(dim * entry.node + d);
+                      values.push_back(-entry.weight * f[d]);
+                    }
+                }
+          }
     force.add(unknowns, values);
     force.compress(VectorOperation::add);
     solid.condense(force); // master nodes can hang
+  }
+
+
+
+  double
+  Contact::part_to_touch() const
+  {
+    double part = 1.;
+    for (unsigned int p = 0; p < rows.size(); ++p)
+      for (std::size_t k = 0; k < rows[p].size(); ++k)
+        {
+          const ContactRow &before = committed[p][k], &now = rows[p][k];
+          if (before.status == ContactStatus::open && now.status != ContactStatus::no_partner &&
+              before.gap > 0. && now.gap < 0.)
+            part = std::min(part, before.gap / (before.gap - now.gap));
+        }
+    return Utilities::MPI::min(part, solid.communicator);
   }
 
 

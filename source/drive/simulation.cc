@@ -64,6 +64,8 @@ namespace Touchstone
     summary.ranks    = Utilities::MPI::n_mpi_processes(communicator);
     summary.cells    = forest.triangulation.n_global_active_cells();
     summary.unknowns = solid.dof_handler.n_dofs();
+    if (scene.time_integration.dynamic())
+      summary.motion.emplace();
   }
 
 
@@ -171,10 +173,29 @@ namespace Touchstone
         record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
         summary.reactions[reaction.body][reaction.boundary]       = reaction.force;
       }
-    record.energies["strain"] = problem->strain_energy();
-    for (const ContactPairParameters &pair : scene.pairs)
-      if (pair.friction)
-        record.energies["friction"] += summary.contact[pair.name].friction_work;
+    const Energies &energies  = problem->time_integration().committed_energies();
+    record.energies["strain"] = energies.strain;
+    if (problem->time_integration().dynamic())
+      {
+        record.energies["kinetic"]       = energies.kinetic;
+        record.energies["contact"]       = energies.contact;
+        record.energies["friction"]      = energies.friction;
+        record.energies["damping"]       = energies.damping;
+        record.energies["external"]      = energies.external;
+        record.energies["balance error"] = energies.balance_error();
+        std::tie(record.momentum, record.angular_momentum) =
+          problem->time_integration().momentum(problem->displacement());
+        for (unsigned int p = 0; p < results.size(); ++p)
+          summary.motion->add_step(scene.pairs[p].name, time - size, time, results[p]);
+        const auto velocities = problem->time_integration().body_velocities();
+        for (unsigned int b = 0; b < velocities.size(); ++b)
+          summary.motion->velocities[scene.bodies[b].name] = velocities[b];
+        summary.motion->energies = energies;
+      }
+    else
+      for (const ContactPairParameters &pair : scene.pairs)
+        if (pair.friction)
+          record.energies["friction"] += summary.contact[pair.name].friction_work;
     {
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);
@@ -192,28 +213,41 @@ namespace Touchstone
     const LoadSteppingParameters &parameters = scene.load_stepping;
     const double                  nominal    = parameters.end_time / parameters.steps;
     double                        time = 0., size = nominal;
-    unsigned int                  step = 1, cuts = 0;
+    /** What an impact leaves of the next step. */
+    double       part = 1.;
+    unsigned int step = 1, cuts = 0;
     while (time < parameters.end_time * (1. - 1e-12))
       {
         // The last step ends at the end; no sliver of a step is left over.
-        size = std::min(size, parameters.end_time - time);
-        const double next =
-          parameters.end_time - time - size < 1e-9 * nominal ? parameters.end_time : time + size;
+        size                    = std::min(size, parameters.end_time - time);
+        const double       next = parameters.end_time - time - part * size < 1e-9 * nominal
+                                    ? parameters.end_time
+                                    : time + part * size;
         const unsigned int expected =
           step - 1 +
           static_cast<unsigned int>(std::ceil((parameters.end_time - time) / size - 1e-9));
+        const double now = next - time;
         progress.begin_step(step, expected, next);
         try
           {
             unsigned int newton = solve_step(next);
             newton += adapt(step, next);
+            part = problem->acceptable_part();
+            if (part < 1. && part * (next - time) >= scene.time_integration.smallest_step * nominal)
+              {
+                part *= (next - time) / size;
+                problem->rollback();
+                progress.cut_step("bodies meet", part * size);
+                continue;
+              }
+            part                      = 1.;
             const std::string remarks = problem->remarks();
             if (!remarks.empty())
               log.line("  " + remarks);
             problem->commit();
             committed_time = time = next;
             progress.end_step(newton);
-            record_step(step, time, size, newton, cuts);
+            record_step(step, time, now, newton, cuts);
             log.check();
             summary.steps = step;
             ++step;
@@ -228,6 +262,7 @@ namespace Touchstone
           {
             const std::string reason = failure.what() + problem->suspicion();
             problem->rollback();
+            part = 1.;
             if (cuts >= parameters.maximum_cuts)
               {
                 summary.failure = reason + " (step " + std::to_string(step) + " at time " +
@@ -314,6 +349,7 @@ namespace Touchstone
         input.displacement               = &u;
         input.points                     = problem->contact_state().points(u);
         input.pair_results               = problem->contact_state().results(u);
+        input.motion                     = summary.motion ? &*summary.motion : nullptr;
         input.communicator               = communicator;
         const ReferenceComparison result = reference->compare(input);
         summary.errors                   = result.errors;

@@ -1,5 +1,7 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/contact/row_terms.h>
+#include <touchstone/drive/dynamics.h>
+#include <touchstone/drive/energy_gain.h>
 #include <touchstone/drive/static_problem.h>
 #include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
@@ -43,6 +45,7 @@ namespace Touchstone
     , committed_u(u)
     , external(u)
     , internal(u)
+    , applied(u)
     , unbalanced(u)
     , increment(u)
     , before_increment(u)
@@ -53,9 +56,15 @@ namespace Touchstone
       solid.assemble();
       ++assemblies;
     }
-    modes  = std::make_unique<RigidBodyModes>(scene, solid);
-    length = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
-    length = Utilities::MPI::min(length, solid.communicator);
+    modes = std::make_unique<RigidBodyModes>(scene, solid);
+    std::set<Index> slaves;
+    for (const auto &rows : contact.rows)
+      for (const ContactRow &row : rows)
+        if (!row.tied)
+          slaves.insert(dim * row.slave);
+    integration = TimeIntegration::make(scene, solid, slaves, committed_u);
+    length      = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
+    length      = Utilities::MPI::min(length, solid.communicator);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
@@ -67,10 +76,55 @@ namespace Touchstone
   std::vector<std::string>
   StaticProblem::start()
   {
-    TimerOutput::Scope scope(timer, "search");
-    contact.update(u, 0.);
-    contact.commit();
+    if (integration->dynamic())
+      u = committed_u = Dynamics::initial_displacement(scene, solid);
+    {
+      TimerOutput::Scope scope(timer, "search");
+      contact.update(u, 0.);
+      contact.commit();
+    }
+    if (integration->dynamic())
+      {
+        boundary_conditions.external_force(0., u, external);
+        solid.internal_force(u, internal);
+        graph.clear();
+        boundary_conditions.prescribe(0., u, graph);
+        const double instant  = 1e-6 * scene.load_stepping.end_time / scene.load_stepping.steps;
+        const auto   set_rate = [&](Vector &velocity) {
+          const auto now  = boundary_conditions.displacements(0.),
+                     soon = boundary_conditions.displacements(instant);
+          for (std::size_t k = 0; k < now.size(); ++k)
+            {
+              double miss = (soon[k].value - now[k].value) / instant;
+              for (unsigned int d = 0; d < dim; ++d)
+                miss -= now[k].direction[d] * velocity(dim * now[k].node + d);
+              for (unsigned int d = 0; d < dim; ++d)
+                velocity(dim * now[k].node + d) += miss * now[k].direction[d];
+            }
+          velocity.compress(VectorOperation::add);
+        };
+        integration->start(external, internal, {set_rate, [&](Vector &force) {
+                                                  remove_supported(force);
+                                                }});
+      }
     return contact.start_report();
+  }
+
+
+
+  void
+  StaticProblem::remove_supported(Vector &forces) const
+  {
+    for (Index k = 0; k < solid.owned.n_elements() / dim; ++k)
+      {
+        const Index    node = solid.owned.nth_index_in_set(dim * k) / dim;
+        Tensor<1, dim> force;
+        for (unsigned int d = 0; d < dim; ++d)
+          force[d] = forces.begin()[dim * k + d];
+        force = graph.free_part(node, force);
+        for (unsigned int d = 0; d < dim; ++d)
+          forces.begin()[dim * k + d] = force[d];
+      }
   }
 
 
@@ -79,9 +133,8 @@ namespace Touchstone
   StaticProblem::begin_step(const double t)
   {
     time = t;
-    // The last step's motion is likely to go on.
-    if (velocity.size() > 0)
-      u.add(time - committed_time, velocity);
+    integration->begin_step(time, u);
+    touch_unknown = integration->dynamic();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
   }
@@ -91,15 +144,7 @@ namespace Touchstone
   void
   StaticProblem::commit()
   {
-    // With friction the stick and slip of a step begin where the last one ended;
-    // and finite strains may not bear a guess.
-    velocity.clear();
-    if (solid.linear() && !scene.has_friction() && committed_time > 0.)
-      {
-        velocity = u;
-        velocity -= committed_u;
-        velocity *= 1. / (time - committed_time);
-      }
+    with_forces([&](const StepForces &forces) { integration->commit(u, forces); });
     committed_u    = u;
     committed_time = time;
     contact.commit();
@@ -108,10 +153,48 @@ namespace Touchstone
 
 
   void
+  StaticProblem::with_forces(const std::function<void(const StepForces &)> &use) const
+  {
+    // In statics nobody asks.
+    if (!integration->dynamic())
+      return use({});
+    Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
+    contact.add_forces(normal, Contact::Part::normal);
+    contact.add_forces(tangential, Contact::Part::tangential);
+    support *= -1.;
+    use({&external, &internal, &normal, &tangential, &support});
+  }
+
+
+
+  double
+  StaticProblem::acceptable_part() const
+  {
+    double part = 1.;
+    if (!integration->dynamic())
+      return part;
+    with_forces([&](const StepForces &forces) {
+      const TimeIntegrationParameters &parameters = scene.time_integration;
+      const Energies                   now        = integration->energies(u, forces);
+      const double change = now.contact - integration->committed_energies().contact;
+      if (parameters.adapt == "impacts" && touch < 1. - 1e-6 &&
+          std::abs(change) > parameters.impact_tolerance * now.largest)
+        part = touch;
+      if (now.balance_error() > parameters.gain_tolerance * now.largest)
+        throw EnergyGain("energy " + std::to_string(now.balance_error() / now.largest) +
+                         " times the largest so far came from nowhere ('Time integration/Gain "
+                         "tolerance')");
+    });
+    return part;
+  }
+
+
+
+  void
   StaticProblem::rollback()
   {
     u = committed_u;
-    velocity.clear();
+    integration->rollback();
     contact.rollback();
   }
 
@@ -127,27 +210,39 @@ namespace Touchstone
         for (Vector &field : contact.fields(of_committed))
           result.push_back(std::move(field));
       }
+    for (const Vector *field : integration->rates())
+      result.push_back(*field);
     return result;
   }
 
 
 
   void
-  StaticProblem::adopt(const std::vector<Vector> &fields,
-                       const double               committed_time,
-                       const double               t)
+  StaticProblem::adopt(const std::vector<Vector> &fields, const double start_time, const double t)
   {
-    const auto middle = fields.begin() + fields.size() / 2;
+    const std::size_t n_rates = integration->rates().size();
+    const auto        middle  = fields.begin() + (fields.size() - n_rates) / 2;
+    const auto        rates   = fields.end() - n_rates;
     // Before the first step there is no history but what start() makes.
-    if (committed_time > 0.)
+    if (start_time > 0.)
       {
         committed_u = u = fields.front();
-        contact.update(u, committed_time);
+        contact.update(u, start_time);
         contact.adopt({fields.begin() + 1, middle}, true);
+        if (integration->dynamic())
+          {
+            boundary_conditions.external_force(start_time, u, external);
+            solid.internal_force(u, internal);
+            unbalanced = 0.;
+          }
+        with_forces([&](const StepForces &forces) {
+          integration->adopt({rates, fields.end()}, forces);
+        });
+        committed_time = start_time;
       }
     u = *middle;
     contact.update(u, t);
-    contact.adopt({middle + 1, fields.end()}, false);
+    contact.adopt({middle + 1, rates}, false);
   }
 
 
@@ -155,7 +250,9 @@ namespace Touchstone
   void
   StaticProblem::count_on(const StaticProblem &before)
   {
-    earlier          = before.linear_counts();
+    earlier        = before.linear_counts();
+    committed_time = before.committed_time;
+    integration->resume(committed_time, before.integration->committed_energies());
     earlier_searches = before.n_searches();
     assemblies += before.assemblies;
   }
@@ -183,6 +280,9 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "search");
       contact.update(u, time);
     }
+    if (touch_unknown)
+      touch = contact.part_to_touch();
+    touch_unknown = false;
     NewtonState state;
     graph.clear();
     state.prescribed =
@@ -193,8 +293,8 @@ namespace Touchstone
       if (!boundary_conditions.follower_pressure().empty())
         boundary_conditions.external_force(time, u, external);
     }
-    Vector without_contact(external);
-    without_contact -= internal;
+    integration->balance(u, external, internal, applied);
+    Vector without_contact(applied);
     solid.condense(without_contact);
     enforcement->recover(contact, without_contact, graph);
 
@@ -205,23 +305,14 @@ namespace Touchstone
 
     // Only what supports do not carry is out of balance.
     Vector free(unbalanced);
-    for (Index k = 0; k < solid.owned.n_elements() / dim; ++k)
-      {
-        const Index    node = solid.owned.nth_index_in_set(dim * k) / dim;
-        Tensor<1, dim> force;
-        for (unsigned int d = 0; d < dim; ++d)
-          force[d] = free.begin()[dim * k + d];
-        force = graph.free_part(node, force);
-        for (unsigned int d = 0; d < dim; ++d)
-          free.begin()[dim * k + d] = force[d];
-      }
-    const double scale =
-      std::max({internal.l2_norm(), external.l2_norm(), contact_force.l2_norm()});
+    remove_supported(free);
+    const double scale = std::max(
+      {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
     state.force    = free.l2_norm();
     state.residual = scale > 0. ? state.force / scale : 0.;
     if (scale > 0.)
       state.round_off =
-        (solid.round_off(u) +
+        (solid.round_off(u) + integration->round_off(u) +
          std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
                                        solid.communicator))) /
         scale;
@@ -264,11 +355,10 @@ namespace Touchstone
         ++assemblies;
       }
     system                    = std::make_unique<LinearSystem>();
-    system->stiffness         = &solid.stiffness();
-    system->lasting_stiffness = solid.linear();
+    system->stiffness         = &integration->stiffness();
+    system->lasting_stiffness = integration->lasting();
     system->rhs.reinit(solid.owned, solid.communicator);
-    system->rhs = external;
-    system->rhs -= internal;
+    system->rhs            = applied;
     system->first_extra    = system->rhs.size();
     system->tolerance      = linear_tolerance;
     system->keep_symmetric = solver->symmetric_only();
@@ -278,10 +368,13 @@ namespace Touchstone
     enforcement->enforce(contact, graph, *system);
     if (!boundary_conditions.follower_pressure().empty())
       {
+        const std::size_t before = system->terms.size();
         boundary_conditions.follower_pressure().add_stiffness(time,
                                                               u,
                                                               system->keep_symmetric,
                                                               system->terms);
+        for (std::size_t k = before; k < system->terms.size(); ++k)
+          system->terms[k].value *= integration->weight();
         system->symmetric = system->symmetric && system->keep_symmetric;
       }
     RowTerms terms(*system);
@@ -289,7 +382,8 @@ namespace Touchstone
       for (ContactRow &row : rows)
         terms.add_row(row);
     terms.finish();
-    check_supports();
+    if (!integration->dynamic())
+      check_supports();
     // Contact terms may refer to nodes that are far from this rank's cells, and to
     // components of them that no condition knows of.
     std::set<Index> far;

@@ -60,6 +60,11 @@ namespace Touchstone
           add(name + ": reaction", force);
         for (const auto &[name, energy] : record.energies)
           add("energy: " + name, energy);
+        if (record.momentum)
+          {
+            add("momentum", *record.momentum);
+            add("angular momentum", *record.angular_momentum);
+          }
 
         table.write_text(text, dealii::TableHandler::table_with_separate_column_description);
       }

@@ -109,6 +109,8 @@ namespace Touchstone
                     .set("unknowns", unknowns);
     if (!meshes.empty())
       result.set("meshes", all_meshes);
+    if (motion)
+      result.set("motion", motion->to_json());
     return result.set("steps", steps)
       .set("iterations",
            Json::object()
@@ -198,6 +200,9 @@ namespace Touchstone
       for (const auto &[boundary, force] : boundaries)
         out << "Reaction " << body << ", " << boundary << '\n'
             << "  force          " << rounded(force, force_scale) << '\n';
+
+    if (motion)
+      motion->print(out);
 
     for (const auto &[name, error] : errors)
       // Relative already, so that the scale is one.

@@ -29,6 +29,19 @@ namespace Touchstone
                       "Poisson's ratio, greater than -1 and less than 0.5. "
                       "[no unit]",
                       Patterns::Double());
+    prm.add_parameter("Density",
+                      density,
+                      "Mass per volume, for inertia. [mass per volume]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Rayleigh mass",
+                      rayleigh_mass,
+                      "Damping force per momentum. [1 / time]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Rayleigh stiffness",
+                      rayleigh_stiffness,
+                      "Damping force per elastic force of the same velocity field, with the "
+                      "stiffness of the undeformed body: it also resists finite rotations. [time]",
+                      Patterns::Double(0.));
   }
 
 
@@ -171,6 +184,26 @@ namespace Touchstone
                       "Plane boundaries that keep their place in the normal "
                       "direction, by name or number.");
     prm.add_parameter("Fixed", fixed, "Boundaries that cannot move at all, by name or number.");
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::string letter(1, "xyz"[d]);
+        const auto        formula =
+          [&](const std::string &key, std::string &value, const std::string &what) {
+            prm.add_parameter(key + " " + letter, value, what, Patterns::Anything());
+          };
+        formula("Initial velocity",
+                initial_velocity[d],
+                letter + " component of the velocity at time 0, a formula in x, y, z; empty: "
+                         "zero. [length per time]");
+        formula("Initial displacement",
+                initial_displacement[d],
+                letter + " component of the displacement that the body starts from, a formula in "
+                         "x, y, z; empty: zero. [length]");
+        formula("Body force",
+                body_force[d],
+                letter + " component of the force on the body, gravity for example, a formula in "
+                         "x, y, z, t; empty: none. [force per reference volume]");
+      }
     prm.add_parameter("Boundary conditions",
                       conditions,
                       "Boundaries, by name or number, that each have a subsection "
@@ -239,6 +272,16 @@ namespace Touchstone
     geometry->check(section() + "/Geometry");
     material.check(section() + "/Material");
     check_element(degree);
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::string letter(1, "xyz"[d]);
+        for (const auto &[key, expression, variables] :
+             {std::make_tuple("Initial velocity ", &initial_velocity[d], "x,y,z"),
+              std::make_tuple("Initial displacement ", &initial_displacement[d], "x,y,z"),
+              std::make_tuple("Body force ", &body_force[d], "x,y,z,t")})
+          if (!expression->empty())
+            check_expression(section(), key + letter, *expression, variables);
+      }
 
     // Where nothing can move in some direction nothing can be pushed in it.
     std::map<std::string, std::string> held;

@@ -166,6 +166,7 @@ namespace Touchstone
     declare_in("Discretisation", discretisation);
     declare_in("Refinement", refinement);
     declare_in("Load stepping", load_stepping);
+    declare_in("Time integration", time_integration);
     declare_in("Newton", newton);
     declare_in("Linear solver", linear_solver);
     declare_in("Output", output);

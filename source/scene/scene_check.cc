@@ -58,6 +58,7 @@ namespace Touchstone
                        "its mesh cannot be refined during the run",
                        "set it to 'p4est', or 'Estimator' in section 'Refinement' to 'none'.");
     load_stepping.check("Load stepping");
+    check_time_integration();
     newton.check("Newton");
     linear_solver.check("Linear solver");
     output.check("Output");
@@ -80,6 +81,56 @@ namespace Touchstone
                        "'Belos GMRES'");
     if (!reference.pair.empty())
       check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
+  }
+
+
+
+  void
+  Scene::check_time_integration() const
+  {
+    const std::string section = "Time integration";
+    time_integration.check(section);
+    if (time_integration.mass == "dispersion corrected" && discretisation.degree != 1)
+      throw InputError(section,
+                       "Mass",
+                       time_integration.mass,
+                       "is made for degree 1",
+                       "set it to 'consistent', or 'Discretisation/Degree' to 1");
+    for (const BodyParameters &body : bodies)
+      {
+        const MaterialParameters &material = body.material;
+        if (time_integration.dynamic() && material.density <= 0.)
+          throw InputError(body.section() + "/Material",
+                           "Density",
+                           dealii::Patterns::Tools::to_string(material.density),
+                           "must be positive: 'Time integration/Scheme' is '" +
+                             time_integration.scheme + "'",
+                           "give the mass per volume in the scene's units, e.g. 7.85e-9 for steel "
+                           "in t and mm, or set the scheme to 'static'");
+        if (time_integration.dynamic())
+          continue;
+        const std::string remedy = "remove it, or set 'Time integration/Scheme' to 'newmark', "
+                                   "'generalized_alpha' or another scheme with inertia";
+        for (unsigned int d = 0; d < 3; ++d)
+          for (const auto &[key, value] :
+               {std::make_pair("Initial velocity ", &body.initial_velocity[d]),
+                std::make_pair("Initial displacement ", &body.initial_displacement[d])})
+            if (!value->empty())
+              throw InputError(body.section(),
+                               key + std::string(1, "xyz"[d]),
+                               *value,
+                               "means nothing without inertia",
+                               remedy);
+        for (const auto &[key, value] :
+             {std::make_pair("Rayleigh mass", material.rayleigh_mass),
+              std::make_pair("Rayleigh stiffness", material.rayleigh_stiffness)})
+          if (value > 0.)
+            throw InputError(body.section() + "/Material",
+                             key,
+                             dealii::Patterns::Tools::to_string(value),
+                             "means nothing without inertia",
+                             remedy);
+      }
   }
 
 

@@ -23,6 +23,18 @@ namespace Touchstone
       return make_function(expression);
     }
 
+    /** Zero for no function. */
+    double
+    evaluate(const std::shared_ptr<FunctionParser<dim>> &function,
+             const Point<dim>                           &x,
+             const double                                t)
+    {
+      if (!function)
+        return 0.;
+      function->set_time(t);
+      return function->value(x);
+    }
+
     Tensor<1, dim>
     axis(const unsigned int d)
     {
@@ -81,7 +93,13 @@ namespace Touchstone
             if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
               loads.push_back(load);
           }
+        body_forces.push_back(
+          {{parse(body.body_force[0]), parse(body.body_force[1]), parse(body.body_force[2])}});
       }
+    if (std::none_of(body_forces.begin(), body_forces.end(), [](const auto &force) {
+          return force[0] || force[1] || force[2];
+        }))
+      body_forces.clear();
   }
 
 
@@ -214,6 +232,7 @@ namespace Touchstone
   {
     force = 0.;
     following.add_force(t, u, force);
+    add_body_forces(t, force);
     if (loads.empty())
       return;
     FEFaceValues<dim>  values(solid.mapping,
@@ -222,12 +241,6 @@ namespace Touchstone
                              update_values | update_normal_vectors | update_JxW_values |
                                update_quadrature_points);
     std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
-    const auto         evaluate = [&](const Function &function, const Point<dim> &x) {
-      if (!function)
-        return 0.;
-      function->set_time(t);
-      return function->value(x);
-    };
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
@@ -238,10 +251,11 @@ namespace Touchstone
                 cell->get_dof_indices(dofs);
                 for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                   {
-                    const Point<dim> x      = values.quadrature_point(q);
-                    Tensor<1, dim> traction = -evaluate(load.pressure, x) * values.normal_vector(q);
+                    const Point<dim> x = values.quadrature_point(q);
+                    Tensor<1, dim>   traction =
+                      -evaluate(load.pressure, x, t) * values.normal_vector(q);
                     for (unsigned int d = 0; d < dim; ++d)
-                      traction[d] += evaluate(load.traction[d], x);
+                      traction[d] += evaluate(load.traction[d], x, t);
                     for (unsigned int i = 0; i < dofs.size(); ++i)
                       if (solid.owned.is_element(dofs[i]))
                         force(dofs[i]) += values.shape_value(i, q) *
@@ -249,6 +263,37 @@ namespace Touchstone
                                           values.JxW(q);
                   }
               }
+    force.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  BoundaryConditions::add_body_forces(const double t, Vector &force) const
+  {
+    if (body_forces.empty())
+      return;
+    FEValues<dim>      values(solid.mapping,
+                         solid.fe,
+                         QGauss<dim>(solid.fe.degree + 1),
+                         update_values | update_JxW_values | update_quadrature_points);
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          const std::array<Function, dim> &functions = body_forces[cell->material_id()];
+          if (!functions[0] && !functions[1] && !functions[2])
+            continue;
+          values.reinit(cell);
+          cell->get_dof_indices(dofs);
+          for (const unsigned int q : values.quadrature_point_indices())
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const double b = evaluate(functions[d], values.quadrature_point(q), t); b != 0.)
+                for (unsigned int i = 0; i < dofs.size(); ++i)
+                  if (solid.fe.system_to_component_index(i).first == d &&
+                      solid.owned.is_element(dofs[i]))
+                    force(dofs[i]) += values.shape_value(i, q) * b * values.JxW(q);
+        }
     force.compress(VectorOperation::add);
   }
 

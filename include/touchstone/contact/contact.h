@@ -58,9 +58,22 @@ namespace Touchstone
     ActiveSetUpdate
     update_active_set(double gap_tolerance, unsigned int caution);
 
-    /** @brief Add the contact forces M^T f of all rows to @p force. */
+    /** Part of a contact force. */
+    enum class Part
+    {
+      all,
+      normal,
+      tangential
+    };
+
+    /** @brief Add the contact forces M^T f of all rows, or a part of them, to @p force. */
     void
-    add_forces(Vector &force) const;
+    add_forces(Vector &force, Part part = Part::all) const;
+
+    /** @brief The part of the motion since the committed state after which the first
+     * open row closes; 1 if none does. Collective. */
+    double
+    part_to_touch() const;
 
     /**
      * @brief Take out rows that depend on each other in a circle.

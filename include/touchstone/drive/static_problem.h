@@ -7,6 +7,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement.h>
 #include <touchstone/drive/newton.h>
+#include <touchstone/drive/time_integration.h>
 #include <touchstone/solid/boundary_conditions.h>
 
 #include <deal.II/base/timer.h>
@@ -74,6 +75,22 @@ namespace Touchstone
       return solid.strain_energy(u);
     }
 
+    /**
+     * @brief Whether the converged step may be kept as far as its energies are
+     * concerned: always in statics.
+     * @return 1, or the part of the step that is to be made instead, up to where
+     * bodies meet.
+     * @throws EnergyGain
+     */
+    double
+    acceptable_part() const;
+
+    const TimeIntegration &
+    time_integration() const
+    {
+      return *integration;
+    }
+
     const Contact &
     contact_state() const
     {
@@ -82,7 +99,8 @@ namespace Touchstone
 
     /**
      * @brief What a change of the mesh carries over: displacement and contact of the
-     * committed state, and of the present one, as fields over the unknowns. Collective.
+     * committed state, and of the present one, and what the time integration says of the
+     * former, as fields over the unknowns. Collective.
      */
     std::vector<Vector>
     carry_over() const;
@@ -140,10 +158,13 @@ namespace Touchstone
     std::unique_ptr<RigidBodyModes> modes;
 
     double time = 0., committed_time = 0.;
-    /** The motion of the last step per time; empty where it says nothing of the
-     * next one. */
-    Vector velocity;
-    Vector u, committed_u, external, internal, unbalanced, increment;
+    /** Displacements, and forces on the nodes; applied are all but those of contact, as
+     * the time integration weighs them. */
+    Vector u, committed_u, external, internal, applied, unbalanced, increment;
+    std::unique_ptr<TimeIntegration> integration;
+    /** Part of the step after which the first guess of its end has bodies meet. */
+    double touch         = 1.;
+    bool   touch_unknown = false;
     /** @name What shorten() goes back to: displacement and rows before the last
      * update(), and the part of the increment that left all cells admissible */
     /** @{ */
@@ -170,6 +191,12 @@ namespace Touchstone
 
     void
     check_supports();
+    /** Take from the forces on nodes what their supports carry. */
+    void
+    remove_supported(Vector &force) const;
+    /** Call @p use with the forces at the end of the step. */
+    void
+    with_forces(const std::function<void(const StepForces &)> &use) const;
   };
 } // namespace Touchstone
 

@@ -2,6 +2,7 @@
 #define touchstone_output_reference_solution_h
 
 #include <touchstone/contact/results.h>
+#include <touchstone/output/motion.h>
 #include <touchstone/output/reference_values.h>
 #include <touchstone/registry.h>
 #include <touchstone/scene/scene.h>
@@ -23,6 +24,8 @@ namespace Touchstone
     std::vector<ContactPoint> points;
     /** In the order of the scene's pairs. */
     std::vector<PairResult> pair_results;
+    /** Null without inertia. */
+    const Motion *motion = nullptr;
     MPI_Comm                communicator = MPI_COMM_SELF;
   };
 

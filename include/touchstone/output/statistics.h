@@ -7,6 +7,7 @@
 #include <deal.II/base/table_handler.h>
 
 #include <map>
+#include <optional>
 #include <string>
 
 namespace Touchstone
@@ -27,6 +28,8 @@ namespace Touchstone
     std::map<std::string, dealii::Tensor<1, dim>> reactions;
     /** Energies by name, force times length. */
     std::map<std::string, double> energies;
+    /** Where there is inertia: momentum, and angular momentum about the origin. */
+    std::optional<dealii::Tensor<1, dim>> momentum, angular_momentum;
   };
 
   /**

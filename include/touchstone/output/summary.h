@@ -3,10 +3,12 @@
 
 #include <touchstone/contact/results.h>
 #include <touchstone/output/json.h>
+#include <touchstone/output/motion.h>
 
 #include <cstdint>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,6 +100,8 @@ namespace Touchstone
     std::map<std::string, std::map<std::string, dealii::Tensor<1, dim>>> reactions;
     /** Relative errors against the reference solution; no unit. */
     std::map<std::string, double> errors;
+    /** Only where there is inertia. */
+    std::optional<Motion> motion;
     /** Why the run did not converge; empty if it did. */
     std::string failure;
 

@@ -3,6 +3,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -22,6 +23,11 @@ namespace Touchstone
     double young_modulus = 0.;
     /** Poisson's ratio, -1 < nu < 0.5. */
     double poisson_ratio = 0.3;
+    /** Mass per volume; must be positive where there is inertia. */
+    double density = 0.;
+    /** Rayleigh damping C = a M + b K, with K at the undeformed state: a per
+     * time, b time. */
+    double rayleigh_mass = 0., rayleigh_stiffness = 0.;
 
     /** @brief Whether the law is for finite strain: the body is nonlinear then. */
     bool
@@ -109,6 +115,11 @@ namespace Touchstone
     /** Boundaries with a subsection "Boundary NAME" of their own. */
     std::vector<std::string>                  conditions;
     std::map<std::string, BoundaryParameters> boundaries;
+    /** Expressions in x, y, z: velocity (length per time) and displacement (length) at
+     * time 0; empty ones are zero. */
+    std::array<std::string, 3> initial_velocity, initial_displacement;
+    /** Expressions in x, y, z, t: force per reference volume, as gravity is. */
+    std::array<std::string, 3> body_force;
 
     /** @brief "Body NAME". */
     std::string

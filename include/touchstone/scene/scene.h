@@ -4,6 +4,7 @@
 #include <touchstone/scene/body_parameters.h>
 #include <touchstone/scene/contact_parameters.h>
 #include <touchstone/scene/solver_parameters.h>
+#include <touchstone/scene/time_parameters.h>
 
 #include <iosfwd>
 #include <map>
@@ -31,6 +32,7 @@ namespace Touchstone
     ContactParameters                  contact;
     RefinementParameters               refinement;
     LoadSteppingParameters             load_stepping;
+    TimeIntegrationParameters          time_integration;
     NewtonParameters                   newton;
     LinearSolverParameters             linear_solver;
     OutputParameters                   output;
@@ -82,6 +84,9 @@ namespace Touchstone
     check() const;
     void
     check_pair(const ContactPairParameters &pair) const;
+    /** Inertia needs densities, and initial velocities need inertia. */
+    void
+    check_time_integration() const;
   };
 } // namespace Touchstone
 

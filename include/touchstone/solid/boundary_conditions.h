@@ -42,7 +42,7 @@ namespace Touchstone
      * boundary that is not plane. */
     BoundaryConditions(const Scene &scene, const Forest &forest, const Solid &solid);
 
-    /** @brief Nodal forces of tractions and pressures at time @p t in the displacement
+    /** @brief Nodal forces of tractions, pressures and body forces at time @p t in the displacement
      * @p u, which matters to pressures that follow the surface only. */
     void
     external_force(double t, const Vector &u, Vector &force) const;
@@ -105,9 +105,13 @@ namespace Touchstone
     const Solid            &solid;
     std::vector<Prescribed> prescribed;
     std::vector<Load>       loads;
-    FollowerPressure        following;
-    std::vector<Reaction>   supports;
+    /** Force per reference volume, by body; empty if there is none at all. */
+    std::vector<std::array<Function, dim>> body_forces;
+    FollowerPressure                       following;
+    std::vector<Reaction>                  supports;
 
+    void
+    add_body_forces(double t, Vector &force) const;
     void
     prescribe_on(dealii::types::boundary_id    boundary,
                  const dealii::Tensor<1, dim> &direction,

@@ -1,0 +1,138 @@
+#ifndef touchstone_drive_dynamics_h
+#define touchstone_drive_dynamics_h
+
+#include <touchstone/drive/time_integration.h>
+#include <touchstone/solid/mass.h>
+
+namespace Touchstone
+{
+  /**
+   * @brief The generalized-alpha family (Chung and Hulbert 1993, J. Appl. Mech. 60),
+   * Newmark's and HHT's methods among them, with the contact forces of the end of the
+   * step:
+   *
+   *   M a_{n+1-m} + C v_{n+1-f} + F_int,n+1-f = F_ext,n+1-f + f_contact,n+1.
+   *
+   * With m = f = 1/2 (spectral radius 1) this is the midpoint rule, and the energy of
+   * linear bodies changes by the work of f_contact,n+1 on the motion of the step alone.
+   * Along the normals that is lambda_{n+1} (g_{n+1} - g_n) = -lambda_{n+1} g_n <= 0: zero
+   * in persistent and in opening contact, and a loss where contact closes (Kane, Repetto,
+   * Ortiz and Marsden 1999, Comput. Methods Appl. Mech. Engng 180). The loss vanishes if
+   * a step ends where bodies meet.
+   *
+   * "contact_stabilized" moves the mass of the slave nodes away (see Mass): then
+   * contact forces follow the strain of the cells, not the momentum of the nodes,
+   * and do not oscillate.
+   */
+  class Dynamics : public TimeIntegration
+  {
+  public:
+    Dynamics(const Scene           &scene,
+             const Solid           &solid,
+             const std::set<Index> &slaves,
+             const Vector          &committed_u);
+
+    /** @brief The displacement at time 0. Collective. */
+    static Vector
+    initial_displacement(const Scene &scene, const Solid &solid);
+
+    void
+    start(const Vector &external, const Vector &internal, const Supports &supports) override;
+    void
+    begin_step(double t, Vector &u) override;
+    void
+    balance(const Vector &u, const Vector &external, const Vector &internal, Vector &sum) override;
+    const Matrix &
+    stiffness() override;
+    bool
+    lasting() const override
+    {
+      return false;
+    }
+    double
+    weight() const override
+    {
+      return 1. - scheme.alpha_f;
+    }
+    bool
+    dynamic() const override
+    {
+      return true;
+    }
+    double
+    inertia() const override
+    {
+      return inertial_force;
+    }
+    double
+    round_off(const Vector &u) const override;
+    Energies
+    energies(const Vector &u, const StepForces &forces) const override;
+    void
+    commit(const Vector &u, const StepForces &forces) override;
+    void
+    rollback() override
+    {
+    }
+    std::vector<std::pair<std::string, Vector *>>
+    state() override;
+    std::vector<const Vector *>
+    rates() const override
+    {
+      return {&v, &a};
+    }
+    void
+    adopt(const std::vector<Vector> &rates, const StepForces &forces) override;
+    const Vector *
+    velocity() const override
+    {
+      return &v;
+    }
+    std::vector<dealii::Tensor<1, dim>>
+    body_velocities() const override;
+    std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
+    momentum(const Vector &u) const override;
+
+  private:
+    const Scene                                  &scene;
+    const Solid                                  &solid;
+    const Vector                                 &committed_u;
+    const TimeIntegrationParameters::Coefficients scheme;
+    /** Owned nodes without mass. */
+    const std::set<Index> massless;
+    const Mass            mass;
+    /** Number of the body of each unknown. */
+    std::vector<unsigned int> body;
+    /** Rayleigh's factors by unknown, and whether there are any. */
+    Vector damping_mass, damping_stiffness;
+    bool   damped = false;
+    /** Stiffness of the undeformed bodies, if damping needs it beside the present one. */
+    Matrix initial_stiffness;
+    Matrix effective;
+    double effective_step = 0.;
+
+    double step = 0., time = 0.;
+    /** Velocity, acceleration and forces of the committed state. */
+    Vector v, a, old_external, old_internal, old_normal, old_tangential, old_support;
+    double inertial_force = 0.;
+
+    /** Acceleration and velocity at the end of the step if it ends at @p u. */
+    void
+    end_of_step(const Vector &u, Vector &velocity, Vector &acceleration) const;
+    void
+    keep(const StepForces &forces);
+    /** C times a velocity. */
+    void
+    damping_force(const Vector &velocity, Vector &force) const;
+    double
+    kinetic_energy(const Vector &velocity) const;
+    /** Stiffness for damping. */
+    const Matrix &
+    damping_matrix() const
+    {
+      return solid.linear() ? solid.stiffness() : initial_stiffness;
+    }
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,169 @@
+#ifndef touchstone_drive_time_integration_h
+#define touchstone_drive_time_integration_h
+
+#include <touchstone/algebra/vector.h>
+#include <touchstone/scene/scene.h>
+#include <touchstone/solid/energies.h>
+#include <touchstone/solid/solid.h>
+
+#include <functional>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief The forces on the nodes at the end of a step, for its energies; none has
+   * ghosts. */
+  struct StepForces
+  {
+    /** Of loads and of the stress in the bodies. */
+    const Vector *external, *internal;
+    /** Of contact, along the normals and across them. */
+    const Vector *normal, *tangential;
+    /** What supports add for the nodes to move as they do. */
+    const Vector *support;
+  };
+
+  /**
+   * @brief How a step in time leads from one state to the next: what stands on the
+   * nodes beside contact, and its derivative.
+   *
+   * The unknown of a step is the displacement at its end. A scheme says with which
+   * forces of both ends of the step, and with which inertia, it must be in balance with
+   * the contact forces, which are those at the end of the step.
+   */
+  class TimeIntegration
+  {
+  public:
+    virtual ~TimeIntegration() = default;
+
+    /** @brief What is known of the supports at time 0: sets the components that they
+     * prescribe, of a velocity to their own and of a force to zero. */
+    struct Supports
+    {
+      std::function<void(Vector &)> set_velocity, remove_force;
+    };
+
+    /** @brief Take the state at time 0 with the forces there; nothing has ghosts. */
+    virtual void
+    start(const Vector &external, const Vector &internal, const Supports &supports) = 0;
+
+    /** @brief Begin a step from the committed state to time @p t, and move @p u to a
+     * first guess of its end. */
+    virtual void
+    begin_step(double t, Vector &u) = 0;
+
+    /** @brief All forces on the nodes but those of contact, force. */
+    virtual void
+    balance(const Vector &u, const Vector &external, const Vector &internal, Vector &sum) = 0;
+
+    /** @brief Minus the derivative of balance(), for @p solid's present stiffness. */
+    virtual const Matrix &
+    stiffness() = 0;
+
+    /** @brief The stiffness keeps its values as long as the bodies' does. */
+    virtual bool
+    lasting() const = 0;
+
+    /** @brief Share of the forces at the end of the step in balance(); no unit. */
+    virtual double
+    weight() const = 0;
+
+    /** @brief There is inertia: it holds bodies that nothing else does, and energies
+     * need forces. */
+    virtual bool
+    dynamic() const = 0;
+
+    /** @brief Size of the inertial forces of the last balance(), and of what
+     * round-off makes of them at @p u; force. Collective. */
+    virtual double
+    inertia() const = 0;
+    virtual double
+    round_off(const Vector &u) const = 0;
+
+    /** @brief The energies that the step would leave, force times length. Collective. */
+    virtual Energies
+    energies(const Vector &u, const StepForces &forces) const = 0;
+
+    /** @brief Keep the end of the step. */
+    virtual void
+    commit(const Vector &u, const StepForces &forces) = 0;
+
+    /** @brief The step is repeated. */
+    virtual void
+    rollback() = 0;
+
+    /** @brief The committed energies. */
+    const Energies &
+    committed_energies() const
+    {
+      return committed;
+    }
+
+    /** @brief What a scheme knows of the committed state beside the displacement, by
+     * name: to be saved for a restart. None has ghosts. */
+    virtual std::vector<std::pair<std::string, Vector *>>
+    state() = 0;
+
+    /** @brief What changes in time beside the displacement, to be carried to another
+     * mesh: velocity and acceleration. */
+    virtual std::vector<const Vector *>
+    rates() const
+    {
+      return {};
+    }
+
+    /** @brief Go on from rates() on another mesh, and the forces there at the committed
+     * state. */
+    virtual void
+    adopt(const std::vector<Vector> & /*rates*/, const StepForces & /*forces*/)
+    {
+    }
+
+    /** @brief Set time and energies of the committed state, as state() cannot. */
+    void
+    resume(double time, const Energies &energies);
+
+    /** @brief Committed velocity, length per time, without ghosts; null in statics. */
+    virtual const Vector *
+    velocity() const
+    {
+      return nullptr;
+    }
+
+    /** @brief Momentum and angular momentum about the origin of the committed state;
+     * zero in statics. Collective. */
+    virtual std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
+    momentum(const Vector &u) const;
+
+    /** @brief Mean velocity of each body at the committed state, momentum over mass,
+     * length per time; empty in statics. Collective. */
+    virtual std::vector<dealii::Tensor<1, dim>>
+    body_velocities() const
+    {
+      return {};
+    }
+
+    /**
+     * @brief The scheme that the scene asks for.
+     * @param slaves      First unknowns of the owned slave nodes that can part from
+     *                    their master.
+     * @param committed_u The displacement that a step begins with, of which this
+     *                    keeps no copy: it must be the old one until commit() returns.
+     * Collective.
+     */
+    static std::unique_ptr<TimeIntegration>
+    make(const Scene           &scene,
+         const Solid           &solid,
+         const std::set<Index> &slaves,
+         const Vector          &committed_u);
+
+  protected:
+    double   committed_time = 0.;
+    Energies committed;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,59 @@
+#ifndef touchstone_solid_energies_h
+#define touchstone_solid_energies_h
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  /**
+   * @brief Where the energy of a scene is, and where it went since time 0; force times
+   * length.
+   *
+   * What the bodies have and what they lost is what they began with and what was put
+   * in, up to balance_error(): kinetic + strain + plastic + contact + friction +
+   * damping = initial + external.
+   */
+  struct Energies
+  {
+    double kinetic = 0., strain = 0.;
+    /** Dissipated by plastic flow. */
+    double plastic = 0.;
+    /** Work against the normal contact forces: taken by impacts, or stored in
+     * springs of a penalty. */
+    double contact = 0.;
+    /** Work against the tangential contact forces. */
+    double friction = 0.;
+    /** Dissipated by Rayleigh damping. */
+    double damping = 0.;
+    /** Work of loads and supports. */
+    double external = 0.;
+    /** Of the state at time 0. */
+    double initial = 0.;
+    /** The largest energy so far, to compare with. */
+    double largest = 0.;
+
+    /** @brief What the bodies have. */
+    double
+    present() const
+    {
+      return kinetic + strain;
+    }
+
+    /** @brief Energy that came from nowhere, negative if it is missing: numerical
+     * damping takes energy. */
+    double
+    balance_error() const
+    {
+      return present() + plastic + contact + friction + damping - initial - external;
+    }
+
+    /** @brief Take note of the size of the energies. */
+    void
+    update_largest()
+    {
+      largest = std::max({largest, present(), external, plastic + friction});
+    }
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,398 @@
+#include <touchstone/drive/dynamics.h>
+#include <touchstone/scene/expression.h>
+
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Three formulas for each body, at its nodes; empty ones are zero. */
+    Vector
+    interpolate(const Scene               &scene,
+                const Solid               &solid,
+                std::array<std::string, 3> BodyParameters::*const formulas)
+    {
+      Vector                        result(solid.owned, solid.communicator);
+      const std::vector<Point<dim>> unit = solid.fe.get_unit_support_points();
+      std::vector<Index>            dofs(solid.fe.n_dofs_per_cell());
+      for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const std::string &formula = (scene.bodies[b].*formulas)[d];
+            if (formula.empty())
+              continue;
+            const auto function = make_function(formula);
+            for (const auto &cell : solid.dof_handler.active_cell_iterators())
+              if (cell->is_locally_owned() && cell->material_id() == b)
+                {
+                  cell->get_dof_indices(dofs);
+                  for (unsigned int i = 0; i < dofs.size(); ++i)
+                    if (solid.fe.system_to_component_index(i).first == d &&
+                        solid.owned.is_element(dofs[i]))
+                      result(dofs[i]) =
+                        function->value(solid.mapping.transform_unit_to_real_cell(cell, unit[i]));
+                }
+          }
+      result.compress(VectorOperation::insert);
+      solid.hanging.distribute(result);
+      return result;
+    }
+
+    /** Number of the body of each owned unknown. */
+    std::vector<unsigned int>
+    bodies_of_unknowns(const Solid &solid)
+    {
+      std::vector<unsigned int> result(solid.owned.n_elements());
+      std::vector<Index>        dofs(solid.fe.n_dofs_per_cell());
+      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+        if (!cell->is_artificial())
+          {
+            cell->get_dof_indices(dofs);
+            for (const Index i : dofs)
+              if (solid.owned.is_element(i))
+                result[solid.owned.index_within_set(i)] = cell->material_id();
+          }
+      return result;
+    }
+  } // namespace
+
+
+
+  Dynamics::Dynamics(const Scene           &scene,
+                     const Solid           &solid,
+                     const std::set<Index> &slaves,
+                     const Vector          &committed_u)
+    : scene(scene)
+    , solid(solid)
+    , committed_u(committed_u)
+    , scheme(scene.time_integration.coefficients())
+    , massless(scene.time_integration.scheme == "contact_stabilized" ? slaves : std::set<Index>())
+    , mass(scene, solid, massless, scene.load_stepping.end_time / scene.load_stepping.steps)
+    , body(bodies_of_unknowns(solid))
+    , damping_mass(solid.owned, solid.communicator)
+    , damping_stiffness(damping_mass)
+    , v(damping_mass)
+    , a(v)
+    , old_external(v)
+    , old_internal(v)
+    , old_normal(v)
+    , old_tangential(v)
+    , old_support(v)
+  {
+    for (std::size_t i = 0; i < body.size(); ++i)
+      {
+        const MaterialParameters &material = scene.bodies[body[i]].material;
+        damping_mass.begin()[i]            = material.rayleigh_mass;
+        damping_stiffness.begin()[i]       = material.rayleigh_stiffness;
+      }
+    damped = damping_mass.linfty_norm() > 0. || damping_stiffness.linfty_norm() > 0.;
+    if (!solid.linear() && damping_stiffness.linfty_norm() > 0.)
+      initial_stiffness.copy_from(solid.stiffness());
+  }
+
+
+
+  Vector
+  Dynamics::initial_displacement(const Scene &scene, const Solid &solid)
+  {
+    return interpolate(scene, solid, &BodyParameters::initial_displacement);
+  }
+
+
+
+  void
+  Dynamics::start(const Vector &external, const Vector &internal, const Supports &supports)
+  {
+    v = interpolate(scene, solid, &BodyParameters::initial_velocity);
+    supports.set_velocity(v);
+    // With all mass at the nodes the acceleration needs no solve, and is the same up to
+    // the mesh size.
+    Vector force(external), drag(v);
+    force -= internal;
+    damping_force(v, drag);
+    force -= drag;
+    solid.condense(force);
+    supports.remove_force(force);
+    for (std::size_t i = 0; i < force.local_size(); ++i)
+      a.begin()[i] =
+        mass.of_nodes().begin()[i] > 0. ? force.begin()[i] / mass.of_nodes().begin()[i] : 0.;
+    solid.hanging.distribute(a);
+    old_external      = external;
+    old_internal      = internal;
+    committed.kinetic = kinetic_energy(v);
+    committed.strain  = solid.strain_energy(committed_u);
+    committed.initial = committed.present();
+    committed.update_largest();
+  }
+
+
+
+  void
+  Dynamics::begin_step(const double t, Vector &u)
+  {
+    time = t;
+    step = time - committed_time;
+    u.add(step, v);
+    // What the flight turns inside out is no place to begin.
+    if (!solid.admissible(u))
+      u = committed_u;
+  }
+
+
+
+  void
+  Dynamics::end_of_step(const Vector &u, Vector &velocity, Vector &acceleration) const
+  {
+    acceleration = u;
+    acceleration -= committed_u;
+    acceleration.add(-step, v);
+    acceleration *= 1. / (scheme.beta * step * step);
+    acceleration.add(1. - 0.5 / scheme.beta, a);
+    velocity = v;
+    velocity.add(step * (1. - scheme.gamma), a, step * scheme.gamma, acceleration);
+  }
+
+
+
+  void
+  Dynamics::damping_force(const Vector &velocity, Vector &force) const
+  {
+    force = 0.;
+    if (!damped)
+      return;
+    damping_matrix().vmult(force, velocity);
+    force.scale(damping_stiffness);
+    Vector momentum(v);
+    mass.multiply(velocity, momentum);
+    momentum.scale(damping_mass);
+    force += momentum;
+  }
+
+
+
+  void
+  Dynamics::balance(const Vector &u, const Vector &external, const Vector &internal, Vector &sum)
+  {
+    const double alpha_f = scheme.alpha_f, alpha_m = scheme.alpha_m;
+    Vector       velocity(v), acceleration(v), inertial(v);
+    end_of_step(u, velocity, acceleration);
+    acceleration *= 1. - alpha_m;
+    acceleration.add(alpha_m, a);
+    mass.multiply(acceleration, inertial);
+    inertial_force = inertial.l2_norm();
+    sum            = external;
+    sum -= internal;
+    sum *= 1. - alpha_f;
+    sum.add(alpha_f, old_external, -alpha_f, old_internal);
+    sum -= inertial;
+    if (damped)
+      {
+        velocity *= 1. - alpha_f;
+        velocity.add(alpha_f, v);
+        damping_force(velocity, inertial);
+        sum -= inertial;
+      }
+  }
+
+
+
+  const Matrix &
+  Dynamics::stiffness()
+  {
+    if (solid.linear() && effective_step == step)
+      return effective;
+    if (effective_step == 0.)
+      effective.reinit(solid.stiffness());
+    effective_step = step;
+    effective.copy_from(solid.stiffness());
+    effective *= 1. - scheme.alpha_f;
+    const double of_mass    = (1. - scheme.alpha_m) / (scheme.beta * step * step),
+                 of_damping = (1. - scheme.alpha_f) * scheme.gamma / (scheme.beta * step);
+    Vector factors(damping_mass);
+    factors *= of_damping;
+    for (double &factor : factors)
+      factor += of_mass;
+    mass.add_to(effective, factors);
+    if (damped)
+      for (int i = 0; i < effective.trilinos_matrix().NumMyRows(); ++i)
+        {
+          int     n, *columns;
+          double *values, *added;
+          effective.trilinos_matrix().ExtractMyRowView(i, n, values, columns);
+          damping_matrix().trilinos_matrix().ExtractMyRowView(i, n, added, columns);
+          for (int j = 0; j < n; ++j)
+            values[j] += of_damping * damping_stiffness.begin()[i] * added[j];
+        }
+    return effective;
+  }
+
+
+
+  double
+  Dynamics::round_off(const Vector &u) const
+  {
+    Vector size(v), inertial(v);
+    for (std::size_t i = 0; i < size.local_size(); ++i)
+      size.begin()[i] =
+        std::abs(u.begin()[i]) + std::abs(committed_u.begin()[i]) + step * std::abs(v.begin()[i]);
+    mass.multiply(size, inertial);
+    return std::numeric_limits<double>::epsilon() * (1. - scheme.alpha_m) /
+           (scheme.beta * step * step) * inertial.l2_norm();
+  }
+
+
+
+  double
+  Dynamics::kinetic_energy(const Vector &velocity) const
+  {
+    Vector momentum(velocity);
+    mass.multiply(velocity, momentum);
+    return 0.5 * (momentum * velocity);
+  }
+
+
+
+  Energies
+  Dynamics::energies(const Vector &u, const StepForces &forces) const
+  {
+    Vector velocity(v), acceleration(v), way(u), mean(v);
+    end_of_step(u, velocity, acceleration);
+    way -= committed_u;
+    // The forces that change the momentum over the step: those in the balance stand
+    // for the time n + 1 - m, and Newmark's formula asks for n + gamma.
+    const double at_end = scheme.gamma + scheme.alpha_m;
+    const auto   work   = [&](const Vector &old, const Vector &now, const double theta) {
+      mean = old;
+      mean.sadd(1. - theta, theta, now);
+      return mean * way;
+    };
+    Energies result = committed;
+    result.kinetic  = kinetic_energy(velocity);
+    result.strain   = solid.strain_energy(u);
+    result.contact -= work(old_normal, *forces.normal, at_end);
+    result.friction -= work(old_tangential, *forces.tangential, at_end);
+    result.external += work(old_support, *forces.support, at_end) +
+                       work(old_external, *forces.external, at_end - scheme.alpha_f);
+    if (damped)
+      {
+        velocity.sadd(0.5, 0.5, v);
+        damping_force(velocity, mean);
+        result.damping += mean * way;
+      }
+    result.update_largest();
+    return result;
+  }
+
+
+
+  void
+  Dynamics::commit(const Vector &u, const StepForces &forces)
+  {
+    committed = energies(u, forces);
+    Vector velocity(v), acceleration(v);
+    end_of_step(u, velocity, acceleration);
+    // What has no mass has no momentum to go on with: its velocity is that of the step.
+    for (const Index node : massless)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Index i   = node + d;
+          velocity(i)     = (u(i) - committed_u(i)) / step;
+          acceleration(i) = 0.;
+        }
+    velocity.compress(VectorOperation::insert);
+    acceleration.compress(VectorOperation::insert);
+    v              = velocity;
+    a              = acceleration;
+    committed_time = time;
+    keep(forces);
+  }
+
+
+
+  void
+  Dynamics::keep(const StepForces &forces)
+  {
+    old_external   = *forces.external;
+    old_internal   = *forces.internal;
+    old_normal     = *forces.normal;
+    old_tangential = *forces.tangential;
+    old_support    = *forces.support;
+  }
+
+
+
+  void
+  Dynamics::adopt(const std::vector<Vector> &rates, const StepForces &forces)
+  {
+    v = rates.front();
+    a = rates.back();
+    keep(forces);
+  }
+
+
+
+  std::vector<std::pair<std::string, Vector *>>
+  Dynamics::state()
+  {
+    return {{"velocity", &v},
+            {"acceleration", &a},
+            {"external force", &old_external},
+            {"internal force", &old_internal},
+            {"normal contact force", &old_normal},
+            {"tangential contact force", &old_tangential},
+            {"support force", &old_support}};
+  }
+
+
+
+  std::vector<Tensor<1, dim>>
+  Dynamics::body_velocities() const
+  {
+    Vector momentum(v);
+    mass.multiply(v, momentum);
+    std::vector<Tensor<1, dim>> result(scene.bodies.size());
+    std::vector<double>         masses(result.size());
+    for (std::size_t i = 0; i < body.size(); ++i)
+      {
+        result[body[i]][i % dim] += momentum.begin()[i];
+        if (i % dim == 0)
+          masses[body[i]] += mass.of_nodes().begin()[i];
+      }
+    for (unsigned int b = 0; b < result.size(); ++b)
+      result[b] = Utilities::MPI::sum(result[b], solid.communicator) /
+                  Utilities::MPI::sum(masses[b], solid.communicator);
+    return result;
+  }
+
+
+
+  std::pair<Tensor<1, dim>, Tensor<1, dim>>
+  Dynamics::momentum(const Vector &u) const
+  {
+    Vector momentum(v), position(v);
+    mass.multiply(v, momentum);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
+    position += u;
+    Tensor<1, dim> linear, angular;
+    for (std::size_t k = 0; k < momentum.local_size(); k += dim)
+      {
+        Tensor<1, dim> p, x;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            p[d] = momentum.begin()[k + d];
+            x[d] = position.begin()[k + d];
+          }
+        linear += p;
+        angular += cross_product_3d(x, p);
+      }
+    return {Utilities::MPI::sum(linear, solid.communicator),
+            Utilities::MPI::sum(angular, solid.communicator)};
+  }
+} // namespace Touchstone
