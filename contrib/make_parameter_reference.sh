@@ -38,7 +38,7 @@ printf '%s\n' "$printed" | awk '
   function open_section(name) {
     # One body of each geometry stands for all bodies: what they share is
     # documented with the first, and what follows the geometry with the last.
-    if (name ~ /^Body [a-z]+$/) { geometry = substr(name, 6); name = "Body NAME" }
+    if (name ~ /^Body [a-z ]+$/) { geometry = substr(name, 6); name = "Body NAME" }
     path[++depth] = name
     title = path[1]
     for (i = 2; i <= depth; ++i) title = title "/" path[i]

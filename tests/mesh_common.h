@@ -83,6 +83,26 @@ namespace Touchstone
       }
   }
 
+  /** Smallest Jacobian determinant at a corner of a cell over the lengths of the
+   * edges there: 1 for boxes, 0 for flat corners. */
+  inline double
+  scaled_jacobian(const dealii::Triangulation<3> &triangulation)
+  {
+    double smallest = 1.;
+    for (const auto &cell : triangulation.active_cell_iterators())
+      for (unsigned int v = 0; v < 8; ++v)
+        {
+          std::array<dealii::Tensor<1, 3>, 3> edge;
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              edge[d] = cell->vertex(v | 1u << d) - cell->vertex(v & ~(1u << d));
+              edge[d] /= edge[d].norm();
+            }
+          smallest = std::min(smallest, edge[0] * cross_product_3d(edge[1], edge[2]));
+        }
+    return smallest;
+  }
+
   /** Create, refine, print. */
   inline void
   print_geometry(const std::string &title, const std::string &type, const std::string &text)
@@ -105,7 +125,8 @@ namespace Touchstone
         double                               volume, distance;
         measure(mesh, triangulation, areas, volume, distance);
         std::cout << "  level " << level << ": " << triangulation.n_active_cells() << " cells, "
-                  << triangulation.n_used_vertices() << " vertices, volume " << volume << '\n';
+                  << triangulation.n_used_vertices() << " vertices, volume " << volume
+                  << ", scaled Jacobian " << scaled_jacobian(triangulation) << '\n';
         for (const auto &[name, id] : mesh.boundary_names)
           std::cout << "    " << name << ' ' << id << ": " << areas[id] << '\n';
         for (const auto &[id, area] : areas)

@@ -1,5 +1,5 @@
 // Built-in geometries: cells, volumes and areas before and after refinement,
-// nodes on the exact surfaces, refused parameters. What volume and areas should
+// nodes on the exact surfaces, shape of cells, refused parameters. What volume and areas should
 // be stands in the titles.
 
 #include "mesh_common.h"
@@ -38,6 +38,10 @@ main()
                  "cylinder",
                  "set Axis = y\nset Part = quarter\nset Cells = 2, 3, 2");
 
+  print_geometry("graded cylinder: 3.141593; side 6.283185",
+                 "cylinder",
+                 "set Cells = 1, 1, 4\nset Axial grading = 8");
+
   print_geometry("ball: 4.188790; surface 12.566371", "ball", "set Centre = 1, 2, 3");
   print_geometry("octant: 0.523599; surface 1.570796, cuts 0.785398",
                  "ball",
@@ -61,6 +65,31 @@ main()
                  slice + "set Radius = 10\nset Contact side = top\nset Part = whole\n" +
                    "set Depth cells = 2");
 
+  // Trapezoid between 44 and 16 high and 48 wide, and a frustum of a pyramid.
+  print_geometry("Cook's membrane: 1440; left 44, right 16, front 65.115282, back 50.596443",
+                 "block",
+                 "set Corners = 0, 0, 0; 48, 44, 0; 48, 60, 0; 0, 44, 0\nset Cells = 4, 3, 1\n"
+                 "set Grading = 1, 2, 1");
+  print_geometry("frustum: 28; bottom 16, top 4, others 9.486833",
+                 "block",
+                 "set Corners = -2, -2, 0; 2, -2, 0; 2, 2, 0; -2, 2, 0; "
+                 "-1, -1, 3; 1, -1, 3; 1, 1, 3; -1, 1, 3\nset Cells = 2, 2, 2");
+
+  // Area a b - (1 - pi/4) r^2, rounding pi/2 r.
+  print_geometry("rounded plate: 2.973175; back, front 5.946350; fillet 0.392699, sides 0.75, 1.25",
+                 "rounded plate",
+                 "set Corner = 1, 2, 3\nset First direction = 0, 3, 4\n"
+                 "set Second direction = -1, 0, 0\nset Side lengths = 2, 3\n"
+                 "set Thickness = 0.5\nset Corner radius = 0.5\nset Cells = 3, 4\n"
+                 "set Grading = 2\nset Layers = 2");
+  // That of plate_drop.prm: 6,048 cells and 7,940 nodes.
+  print_geometry("plate that drops: 0.124785; back, front 1.247854; fillet 0.0157080",
+                 "rounded plate",
+                 "set First direction = 1, 0, 0.5\nset Second direction = -0.5, 0, 1\n"
+                 "set Side lengths = 1.118033988749895, 1.118033988749895\n"
+                 "set Cells = 32, 32\nset Fillet cells = 4\nset Rows = 3\nset Layers = 4\n"
+                 "set Grading = 2.4");
+
   for (const auto &[type, text] : std::vector<std::pair<std::string, std::string>>{
          {"box", "set Upper corner = 1, 0, 1"},
          {"tube", "set End = -1"},
@@ -78,6 +107,14 @@ main()
          {"cap", "set Shape = cylinder"},
          {"cap", "set Shape = cylinder\nset Part = whole\nset Depth = 0"},
          {"cap", "set Shape = cylinder\nset Part = whole\nset Radius = 1"},
+         {"block", "set Corners = 0, 0, 0; 1, 0, 0; 1, 1, 0; 0, 1, 0; 0, 0, 1"},
+         {"block", "set Corners = 0, 0, 0; 0, 1, 0; 1, 1, 0; 1, 0, 0"},
+         {"block", "set Corners = 0, 0, 0; 2, 0, 0; 0.5, 0.5, 0; 0, 2, 0"},
+         {"rounded plate", "set First direction = 0, 0, 0"},
+         {"rounded plate", "set Second direction = 1, 1, 0"},
+         {"rounded plate", "set Thickness = 0"},
+         {"rounded plate", "set Corner radius = 1"},
+         {"rounded plate", "set Corner radius = 0.8\nset Rows = 3"},
          {"file", ""},
          {"file", "set File = x.stl"},
          {"file", "set File = x.msh\nset Exact surfaces = a: torus radius 1"},

@@ -38,7 +38,8 @@ namespace Touchstone
       Point<3>    origin;
       double      start = 0., end = 1., radius = 1.;
 
-      std::vector<unsigned int> cells = {2, 2, 2};
+      std::vector<unsigned int> cells   = {2, 2, 2};
+      double                    grading = 1.;
     };
 
 
@@ -70,6 +71,11 @@ namespace Touchstone
                         "along the axis. A quarter of the circumference has twice the "
                         "first number of cells.",
                         Patterns::List(Patterns::Integer(1), 3, 3));
+      prm.add_parameter("Axial grading",
+                        grading,
+                        "Length of the last cell along the axis over that of the first; the "
+                        "cells between grow geometrically. No unit; 1 is uniform.",
+                        Patterns::Double(1e-6, 1e6));
     }
 
 
@@ -98,18 +104,17 @@ namespace Touchstone
     {
       const std::vector<std::string> keep = {part == "quarter" ? "+" : "both",
                                              part == "full" ? "both" : "+"};
-      const RoundLattice lattice(2,
-                                 keep,
-                                 scaled_cells(cells[0], factor),
-                                 scaled_cells(cells[1], factor),
-                                 scaled_cells(cells[2], factor));
-      const Axes         axes(axis, origin);
+      const unsigned int layers = scaled_cells(cells[2], factor);
+      const RoundLattice lattice(
+        2, keep, scaled_cells(cells[0], factor), scaled_cells(cells[1], factor), layers);
+      const Axes                axes(axis, origin);
+      const std::vector<double> along = graded_positions(start, end, layers, grading);
 
       BodyMesh mesh;
       mesh.cells = lattice.cells;
       for (const Tensor<1, 3> &x : lattice.points)
         mesh.vertices.push_back(
-          axes.point(radius * x[0], radius * x[1], start * (1. - x[2]) + end * x[2]));
+          axes.point(radius * x[0], radius * x[1], along[std::lround(x[2] * layers)]));
 
       add_boundary_faces(mesh, [&](const FaceVertices &face) {
         const auto all = [&](const unsigned int d, const double value) {
