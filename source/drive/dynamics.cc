@@ -120,7 +120,7 @@ namespace Touchstone
     force -= drag;
     solid.condense(force);
     supports.remove_force(force);
-    for (std::size_t i = 0; i < force.local_size(); ++i)
+    for (std::size_t i = 0; i < force.locally_owned_size(); ++i)
       a.begin()[i] =
         mass.of_nodes().begin()[i] > 0. ? force.begin()[i] / mass.of_nodes().begin()[i] : 0.;
     solid.hanging.distribute(a);
@@ -239,7 +239,7 @@ namespace Touchstone
   Dynamics::round_off(const Vector &u) const
   {
     Vector size(v), inertial(v);
-    for (std::size_t i = 0; i < size.local_size(); ++i)
+    for (std::size_t i = 0; i < size.locally_owned_size(); ++i)
       size.begin()[i] =
         std::abs(u.begin()[i]) + std::abs(committed_u.begin()[i]) + step * std::abs(v.begin()[i]);
     mass.multiply(size, inertial);
@@ -381,7 +381,7 @@ namespace Touchstone
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
     position += u;
     Tensor<1, dim> linear, angular;
-    for (std::size_t k = 0; k < momentum.local_size(); k += dim)
+    for (std::size_t k = 0; k < momentum.locally_owned_size(); k += dim)
       {
         Tensor<1, dim> p, x;
         for (unsigned int d = 0; d < dim; ++d)

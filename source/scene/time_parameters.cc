@@ -22,12 +22,13 @@ namespace Touchstone
                       "conserves the energy of linear bodies and contact only takes from it.",
                       Patterns::Selection(
                         "static|newmark|hht|generalized_alpha|contact_stabilized"));
-    prm.add_parameter("Mass",
-                      mass,
-                      "'consistent'; 'lumped' to the nodes; 'dispersion corrected': between the "
-                      "two and beyond, cell by cell, so that errors of mesh and step cancel in "
-                      "the speed of waves (degree 1).",
-                      Patterns::Selection("consistent|lumped|dispersion corrected"));
+    prm.add_parameter(
+      "Mass",
+      mass,
+      "'consistent'; 'lumped' to the nodes; 'dispersion corrected': integrated such "
+      "that errors of mesh and step cancel in the speed of waves, all of them where "
+      "a wave passes a cell in a step (degree 1).",
+      Patterns::Selection("consistent|lumped|dispersion corrected"));
     prm.add_parameter("Newmark gamma",
                       newmark_gamma,
                       "Of 'newmark': 0.5 for no numerical damping, up to 1. [no unit]",

@@ -9,8 +9,10 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
+#include <Epetra_Vector.h>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace Touchstone
 {
@@ -41,21 +43,37 @@ namespace Touchstone
       return result;
     }
 
-    /** Share r of lumped mass in a cell. */
+    /** Distance between the centres of the faces across a direction. */
     double
-    lumped_share(const std::string                              &kind,
-                 const MaterialParameters                       &material,
-                 const Triangulation<dim>::active_cell_iterator &cell,
-                 const double                                    step)
+    extent(const Triangulation<dim>::active_cell_iterator &cell, const unsigned int d)
     {
-      if (kind != "dispersion corrected")
-        return kind == "lumped" ? 1. : 0.;
+      return cell->face(2 * d)->center().distance(cell->face(2 * d + 1)->center());
+    }
+
+    /**
+     * The rule of two points in each direction, at (1 +- xi)/2 with xi^2 = 2/3 (1 - C^2),
+     * where C is the Courant number of the direction, at most 1.
+     */
+    Quadrature<dim>
+    dispersion_corrected_rule(const MaterialParameters                       &material,
+                              const Triangulation<dim>::active_cell_iterator &cell,
+                              const double                                    step)
+    {
       const double modulus = material.bulk_modulus() + 4. / 3. * material.shear_modulus();
       const double wave    = std::sqrt(modulus / material.density);
-      double       size    = std::numeric_limits<double>::max();
+      Point<dim>   xi;
       for (unsigned int d = 0; d < dim; ++d)
-        size = std::min(size, cell->extent_in_direction(d));
-      return std::max(-0.5, 0.5 - std::pow(wave * step / size, 2));
+        xi[d] = std::sqrt(2. / 3. * std::max(0., 1. - std::pow(wave * step / extent(cell, d), 2)));
+      std::vector<Point<dim>> points;
+      for (unsigned int corner = 0; corner < GeometryInfo<dim>::vertices_per_cell; ++corner)
+        {
+          const Point<dim> vertex = GeometryInfo<dim>::unit_cell_vertex(corner);
+          Point<dim>       x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = 0.5 * (1. + (2. * vertex[d] - 1.) * xi[d]);
+          points.push_back(x);
+        }
+      return Quadrature<dim>(points, std::vector<double>(points.size(), 1. / points.size()));
     }
 
     /** Coordinates in which a body lies between about -1 and 1. */
@@ -154,6 +172,7 @@ namespace Touchstone
     : nodal(solid.owned, solid.communicator)
     , diagonal(scene.time_integration.mass == "lumped")
   {
+    const bool         corrected = (scene.time_integration.mass == "dispersion corrected");
     const FE_Q<dim>    scalar_fe(solid.fe.degree);
     FEValues<dim>      values(solid.mapping,
                          scalar_fe,
@@ -192,7 +211,6 @@ namespace Touchstone
         {
           const unsigned int        body     = cell->material_id();
           const MaterialParameters &material = scene.bodies[body].material;
-          const double share = lumped_share(scene.time_integration.mass, material, cell, step);
           values.reinit(Triangulation<dim>::active_cell_iterator(cell));
           cell->get_dof_indices(dofs);
           for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -205,12 +223,23 @@ namespace Touchstone
               {
                 const double part = material.density * values.JxW(q) * values.shape_value(a, q);
                 lumped[a] += part;
-                if (!diagonal)
+                if (diagonal)
+                  cell_mass(a, a) += part;
+                else if (!corrected)
                   for (unsigned int b = 0; b < n; ++b)
-                    cell_mass(a, b) += (1. - share) * part * values.shape_value(b, q);
+                    cell_mass(a, b) += part * values.shape_value(b, q);
               }
-          for (unsigned int a = 0; a < n; ++a)
-            cell_mass(a, a) += share * lumped[a];
+          if (corrected)
+            {
+              // The rule does not know the volume of a distorted cell.
+              const double total = std::accumulate(lumped.begin(), lumped.end(), 0.);
+              const auto   rule  = dispersion_corrected_rule(material, cell, step);
+              for (const Point<dim> &x : rule.get_points())
+                for (unsigned int a = 0; a < n; ++a)
+                  for (unsigned int b = 0; b < n; ++b)
+                    cell_mass(a, b) += total / rule.size() * scalar_fe.shape_value(a, x) *
+                                       scalar_fe.shape_value(b, x);
+            }
 
           // What massless nodes lose, the others of the cell take.
           double kept = 0., lost = 0.;

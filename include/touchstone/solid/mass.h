@@ -16,11 +16,12 @@ namespace Touchstone
    *
    * - consistent: int rho N_a N_b dV;
    * - lumped: int rho N_a dV at each node;
-   * - dispersion corrected: (1 - r) times the first and r times the second, with
-   *   r = 1/2 - C^2 in each cell, at least -1/2, where C is the Courant number of the
-   *   cell. With the trapezoidal rule the speed of plane waves along the mesh is
-   *   then right to fourth order, and for C = 1 exact: mesh and step err the opposite
-   *   way. Compare Goudreau and Taylor (1973), Comput. Methods Appl. Mech. Engng 2.
+   * - dispersion corrected: the first by a rule of two points per direction, at
+   *   (1 +- xi)/2 with xi^2 = 2/3 (1 - C^2) and the Courant number C of the cell in
+   *   that direction, at most 1. With the trapezoidal rule the speed of plane waves along
+   *   the mesh is then right to fourth order, and for C = 1 exact: mesh and step err
+   *   the opposite way. For C = 0 it is the rule of Guddati and Yue (2004), Comput.
+   *   Methods Appl. Mech. Engng 193.
    *
    * Nodes can be made massless, for contact that does not chatter (Khenous, Laborde
    * and Renard 2008, Eur. J. Mech. A/Solids 27): what a cell has at them goes to its
