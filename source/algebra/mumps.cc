@@ -92,6 +92,13 @@ namespace Touchstone
       icntl(14) = 40;                 // working space beyond the estimate, per cent
       icntl(18) = 3;                  // rows distributed over the ranks
       icntl(24) = 1;                  // detect null pivots
+      icntl(22) = parameters.out_of_core;
+      if (parameters.low_rank_tolerance > 0.)
+        {
+          // Amestoy, Buttari, L'Excellent and Mary (2019), ACM Trans. Math. Softw. 45.
+          icntl(35)        = 2; // factors stay compressed for the solution
+          data.cntl[7 - 1] = parameters.low_rank_tolerance;
+        }
     }
 
 

@@ -243,6 +243,18 @@ namespace Touchstone
                       "GMRES starts anew after this many iterations. It keeps one vector "
                       "for each of them.",
                       Patterns::Integer(1));
+    prm.add_parameter("Low rank tolerance",
+                      low_rank_tolerance,
+                      "MUMPS compresses the blocks of its factors, up to this relative error: less "
+                      "memory and time for large models; 0: not at all. 1e-8 costs no "
+                      "Newton iteration. [no unit]",
+                      Patterns::Double(0., 1e-2));
+    prm.add_parameter("Out of core",
+                      out_of_core,
+                      "MUMPS keeps its factors in files, in the folder that the environment "
+                      "variable MUMPS_OOC_TMPDIR names or in /tmp: for models that memory has "
+                      "no room for.",
+                      Patterns::Bool());
   }
 
 
@@ -254,6 +266,18 @@ namespace Touchstone
                    "Tolerance",
                    tolerance,
                    "two to four digits a Newton iteration are usual: 1e-3");
+    if (type != "MUMPS")
+      for (const auto &[key, set, value] :
+           {std::make_tuple("Low rank tolerance",
+                            low_rank_tolerance > 0.,
+                            Patterns::Tools::to_string(low_rank_tolerance)),
+            std::make_tuple("Out of core", out_of_core, std::string("true"))})
+        if (set)
+          throw InputError(section,
+                           key,
+                           value,
+                           "is an option of MUMPS, but 'Type' is '" + type + "'",
+                           "remove it, or set 'Type' to 'MUMPS'");
   }
 
 

@@ -106,6 +106,11 @@ namespace Touchstone
     unsigned int maximum_iterations = 2000;
     /** Iterations of GMRES after which it starts anew, to save memory. */
     unsigned int restart = 100;
+    /** Of MUMPS: relative size of what is left out of the blocks of its factors; 0
+     * keeps all; no unit. */
+    double low_rank_tolerance = 0.;
+    /** Of MUMPS: the factors are kept in files. */
+    bool out_of_core = false;
 
     void
     declare(dealii::ParameterHandler &prm);
