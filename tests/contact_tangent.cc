@@ -268,7 +268,7 @@ end
       return result;
     }
 
-    /** As StaticProblem does. */
+    /** As StepProblem does. */
     void
     linearize(const bool consistent)
     {

@@ -1,7 +1,7 @@
 #ifndef touchstone_tests_drive_support_h
 #define touchstone_tests_drive_support_h
 
-#include <touchstone/drive/static_problem.h>
+#include <touchstone/drive/step_problem.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -66,7 +66,7 @@ end
     const Forest        forest;
     Solid               solid;
     dealii::TimerOutput timer;
-    StaticProblem       problem;
+    StepProblem         problem;
 
     Run(const std::string              &text,
         const std::vector<std::string> &overrides,

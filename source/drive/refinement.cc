@@ -123,7 +123,7 @@ namespace Touchstone
 
 
   void
-  Refinement::mark_masters(const StaticProblem &problem, std::vector<bool> &marked) const
+  Refinement::mark_masters(const StepProblem &problem, std::vector<bool> &marked) const
   {
     const auto pairs = problem.contact_state().boundaries();
     for (unsigned int p = 0; p < pairs.size(); ++p)
@@ -179,7 +179,7 @@ namespace Touchstone
 
 
   double
-  Refinement::estimate(const StaticProblem &problem)
+  Refinement::estimate(const StepProblem &problem)
   {
     const std::string &estimator = scene.refinement.estimator;
     const Vector       u         = problem.ghosted_displacement();
@@ -198,7 +198,7 @@ namespace Touchstone
 
 
   bool
-  Refinement::mark(const StaticProblem &problem, const double time)
+  Refinement::mark(const StepProblem &problem, const double time)
   {
     const RefinementParameters &parameters = scene.refinement;
     auto                       &mesh       = forest.triangulation;

@@ -50,7 +50,7 @@ namespace Touchstone
     , log(folder, terminal)
     , forest(scene, folder_of_scene, communicator)
     , solid(scene, forest, communicator)
-    , problem(std::make_unique<StaticProblem>(scene, forest, solid, timer))
+    , problem(std::make_unique<StepProblem>(scene, forest, solid, timer))
     , refinement(scene, forest, solid)
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
@@ -114,7 +114,7 @@ namespace Touchstone
           fields = refinement.execute(problem->carry_over());
           volume_output.reinit();
         }
-        auto next = std::make_unique<StaticProblem>(scene, forest, solid, timer);
+        auto next = std::make_unique<StepProblem>(scene, forest, solid, timer);
         next->count_on(*problem);
         problem = std::move(next);
         problem->start();
@@ -380,10 +380,10 @@ namespace Touchstone
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
-    const Forest  forest(scene, folder_of_scene, communicator);
-    Solid         solid(scene, forest, communicator);
-    TimerOutput   timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
-    StaticProblem problem(scene, forest, solid, timer);
+    const Forest forest(scene, folder_of_scene, communicator);
+    Solid        solid(scene, forest, communicator);
+    TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
+    StepProblem  problem(scene, forest, solid, timer);
     // Up to the first linear system: finds bodies that nothing holds.
     problem.start();
     problem.begin_step(scene.load_stepping.end_time / scene.load_stepping.steps);

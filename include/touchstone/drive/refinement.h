@@ -1,7 +1,7 @@
 #ifndef touchstone_drive_refinement_h
 #define touchstone_drive_refinement_h
 
-#include <touchstone/drive/static_problem.h>
+#include <touchstone/drive/step_problem.h>
 #include <touchstone/mesh/forest.h>
 
 #include <deal.II/base/function_parser.h>
@@ -32,14 +32,14 @@ namespace Touchstone
      * estimator. Collective.
      */
     double
-    estimate(const StaticProblem &problem);
+    estimate(const StepProblem &problem);
 
     /**
      * @brief Mark cells by what estimate() found in the same state.
      * @return whether the mesh is going to change. Collective.
      */
     bool
-    mark(const StaticProblem &problem, double time);
+    mark(const StepProblem &problem, double time);
 
     /**
      * @brief Change the mesh as marked, share it out to the ranks, and begin the solid
@@ -66,7 +66,7 @@ namespace Touchstone
                        const std::vector<Contact::PairBoundaries> &pairs) const;
     /** Add the master faces that the marked slave faces meet. */
     void
-    mark_masters(const StaticProblem &problem, std::vector<bool> &marked) const;
+    mark_masters(const StepProblem &problem, std::vector<bool> &marked) const;
     /** The value down to which the largest @p values make up a share of their sum. */
     double
     bulk_threshold(const Values &values, double fraction) const;

@@ -2,7 +2,7 @@
 #define touchstone_drive_simulation_h
 
 #include <touchstone/drive/refinement.h>
-#include <touchstone/drive/static_problem.h>
+#include <touchstone/drive/step_problem.h>
 #include <touchstone/output/contact_output.h>
 #include <touchstone/output/folder.h>
 #include <touchstone/output/log.h>
@@ -57,7 +57,7 @@ namespace Touchstone
     Log                                log;
     Forest                             forest;
     Solid                              solid;
-    std::unique_ptr<StaticProblem>     problem;
+    std::unique_ptr<StepProblem>       problem;
     Refinement                         refinement;
     Progress                           progress;
     Statistics                         statistics;

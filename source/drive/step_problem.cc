@@ -2,7 +2,7 @@
 #include <touchstone/contact/row_terms.h>
 #include <touchstone/drive/dynamics.h>
 #include <touchstone/drive/energy_gain.h>
-#include <touchstone/drive/static_problem.h>
+#include <touchstone/drive/step_problem.h>
 #include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
 
@@ -30,10 +30,10 @@ namespace Touchstone
 
 
 
-  StaticProblem::StaticProblem(const Scene  &scene,
-                               const Forest &forest,
-                               Solid        &solid,
-                               TimerOutput  &timer)
+  StepProblem::StepProblem(const Scene  &scene,
+                           const Forest &forest,
+                           Solid        &solid,
+                           TimerOutput  &timer)
     : scene(scene)
     , solid(solid)
     , timer(timer)
@@ -74,7 +74,7 @@ namespace Touchstone
 
 
   std::vector<std::string>
-  StaticProblem::start()
+  StepProblem::start()
   {
     if (integration->dynamic())
       u = committed_u = Dynamics::initial_displacement(scene, solid);
@@ -113,7 +113,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::remove_supported(Vector &forces) const
+  StepProblem::remove_supported(Vector &forces) const
   {
     for (Index k = 0; k < solid.owned.n_elements() / dim; ++k)
       {
@@ -130,7 +130,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::begin_step(const double t)
+  StepProblem::begin_step(const double t)
   {
     time = t;
     integration->begin_step(time, u);
@@ -142,7 +142,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::commit()
+  StepProblem::commit()
   {
     with_forces([&](const StepForces &forces) { integration->commit(u, forces); });
     committed_u    = u;
@@ -153,7 +153,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::with_forces(const std::function<void(const StepForces &)> &use) const
+  StepProblem::with_forces(const std::function<void(const StepForces &)> &use) const
   {
     // In statics nobody asks.
     if (!integration->dynamic())
@@ -168,7 +168,7 @@ namespace Touchstone
 
 
   double
-  StaticProblem::acceptable_part() const
+  StepProblem::acceptable_part() const
   {
     double part = 1.;
     if (!integration->dynamic())
@@ -191,7 +191,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::rollback()
+  StepProblem::rollback()
   {
     u = committed_u;
     integration->rollback();
@@ -201,7 +201,7 @@ namespace Touchstone
 
 
   std::vector<Vector>
-  StaticProblem::carry_over() const
+  StepProblem::carry_over() const
   {
     std::vector<Vector> result;
     for (const bool of_committed : {true, false})
@@ -218,7 +218,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::adopt(const std::vector<Vector> &fields, const double start_time, const double t)
+  StepProblem::adopt(const std::vector<Vector> &fields, const double start_time, const double t)
   {
     const std::size_t n_rates = integration->rates().size();
     const auto        middle  = fields.begin() + (fields.size() - n_rates) / 2;
@@ -248,7 +248,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::count_on(const StaticProblem &before)
+  StepProblem::count_on(const StepProblem &before)
   {
     earlier        = before.linear_counts();
     committed_time = before.committed_time;
@@ -260,7 +260,7 @@ namespace Touchstone
 
 
   LinearSolverCounts
-  StaticProblem::linear_counts() const
+  StepProblem::linear_counts() const
   {
     LinearSolverCounts        sum = earlier;
     const LinearSolverCounts &now = solver->counts();
@@ -274,7 +274,7 @@ namespace Touchstone
 
 
   NewtonState
-  StaticProblem::residual(const unsigned int caution)
+  StepProblem::residual(const unsigned int caution)
   {
     {
       TimerOutput::Scope scope(timer, "search");
@@ -346,7 +346,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::linearize()
+  StepProblem::linearize()
   {
     TimerOutput::Scope scope(timer, "assembly");
     if (!solid.linear())
@@ -414,7 +414,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::check_supports()
+  StepProblem::check_supports()
   {
     std::vector<Condition> supports = graph.accepted();
     for (const auto &rows : contact.rows)
@@ -472,7 +472,7 @@ namespace Touchstone
 
 
   int
-  StaticProblem::solve()
+  StepProblem::solve()
   {
     TimerOutput::Scope scope(timer, "linear solver");
     const unsigned int before = solver->counts().iterations;
@@ -490,7 +490,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::update()
+  StepProblem::update()
   {
     // What turns a cell inside out has no energy. The multipliers are those of the
     // end of the increment and stay.
@@ -517,7 +517,7 @@ namespace Touchstone
 
 
   void
-  StaticProblem::shorten(const double fraction)
+  StepProblem::shorten(const double fraction)
   {
     u = before_increment;
     u.add(fraction, increment);
@@ -543,7 +543,7 @@ namespace Touchstone
 
 
   Vector
-  StaticProblem::ghosted_displacement() const
+  StepProblem::ghosted_displacement() const
   {
     return solid.ghosted(u);
   }
@@ -551,7 +551,7 @@ namespace Touchstone
 
 
   std::vector<Reaction>
-  StaticProblem::reactions() const
+  StepProblem::reactions() const
   {
     // What the supports must add for the nodes to be in balance.
     Vector support(unbalanced);
@@ -562,7 +562,7 @@ namespace Touchstone
 
 
   std::string
-  StaticProblem::remarks() const
+  StepProblem::remarks() const
   {
     std::string  text;
     unsigned int dropped = 0;

@@ -1,5 +1,5 @@
-#ifndef touchstone_drive_static_problem_h
-#define touchstone_drive_static_problem_h
+#ifndef touchstone_drive_step_problem_h
+#define touchstone_drive_step_problem_h
 
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/linear_solver.h>
@@ -17,14 +17,12 @@
 
 namespace Touchstone
 {
-  /** @brief Equilibrium of all bodies under loads and contact at one time. */
-  class StaticProblem : public NonlinearProblem
+  /** @brief Balance of all bodies under loads, contact and, if the time integration has it,
+   * inertia at the end of one step. */
+  class StepProblem : public NonlinearProblem
   {
   public:
-    StaticProblem(const Scene         &scene,
-                  const Forest        &forest,
-                  Solid               &solid,
-                  dealii::TimerOutput &timer);
+    StepProblem(const Scene &scene, const Forest &forest, Solid &solid, dealii::TimerOutput &timer);
 
     /** @brief Look at the bodies as they are placed. @return lines on gaps and
      * overlaps of the contact pairs. */
@@ -115,7 +113,7 @@ namespace Touchstone
 
     /** @brief Count on from what another problem has counted. */
     void
-    count_on(const StaticProblem &before);
+    count_on(const StepProblem &before);
 
     LinearSolverCounts
     linear_counts() const;
