@@ -133,6 +133,27 @@ namespace Touchstone
 
 
 
+    /** Resistance to rigid motions over that of single unknowns, away from constrained
+     * ones: zero but for inertia. */
+    double
+    stiffness_of_motions(const CondensedSystem &system, const Epetra_MultiVector &modes)
+    {
+      Epetra_Vector diagonal(system.rhs->Map()), force(diagonal);
+      system.matrix->ExtractDiagonalCopy(diagonal);
+      system.matrix->Multiply(false, *modes(0), force);
+      double sums[2] = {0., 0.}, all[2];
+      for (int i = 0; i < force.MyLength(); ++i)
+        if (!system.constrained[i] && !system.changed[i])
+          {
+            sums[0] += force[i] * modes[0][i];
+            sums[1] += diagonal[i] * modes[0][i] * modes[0][i];
+          }
+      system.matrix->Comm().SumAll(sums, all, 2);
+      return all[1] > 0. ? all[0] / all[1] : 0.;
+    }
+
+
+
     void
     BelosSolver::set_up(const CondensedSystem &system, const Epetra_MultiVector &modes)
     {
@@ -163,6 +184,15 @@ namespace Touchstone
       list.set("null space: dimension", modes.NumVectors());
       list.set("null space: vectors", null_space.data());
       list.set("null space: add default vectors", false);
+      if (stiffness_of_motions(system, modes) > 0.05)
+        {
+          // Inertia alone bounds the condition number: coarse spaces have nothing to
+          // do, and the aggregates that weak couplings leave would hardly be fewer.
+          list.set("max levels", 1);
+          list.set("coarse: type", "Chebyshev");
+          list.set("coarse: sweeps", 2);
+          list.set("coarse: Chebyshev alpha", 20.);
+        }
       preconditioner =
         std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*preconditioned_matrix, list, true);
       ++count.preconditioner_setups;
