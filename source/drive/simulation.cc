@@ -319,6 +319,8 @@ namespace Touchstone
         summary.errors                   = result.errors;
         comparison_lines                 = result.lines;
       }
+    for (const auto &[body, strain] : solid.largest_plastic_strain())
+      summary.plastic_strain[scene.bodies[body].name] = strain;
     const LinearSolverCounts counts = problem->linear_counts();
     summary.iterations.linear_total = counts.iterations;
     summary.iterations.linear_mean =

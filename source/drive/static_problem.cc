@@ -102,6 +102,7 @@ namespace Touchstone
       }
     committed_u    = u;
     committed_time = time;
+    solid.commit();
     contact.commit();
   }
 
@@ -112,6 +113,7 @@ namespace Touchstone
   {
     u = committed_u;
     velocity.clear();
+    solid.rollback();
     contact.rollback();
   }
 
@@ -260,7 +262,7 @@ namespace Touchstone
     TimerOutput::Scope scope(timer, "assembly");
     if (!solid.linear())
       {
-        solid.assemble(u);
+        solid.assemble(u, solver->symmetric_only());
         ++assemblies;
       }
     system                    = std::make_unique<LinearSystem>();
@@ -272,6 +274,7 @@ namespace Touchstone
     system->first_extra    = system->rhs.size();
     system->tolerance      = linear_tolerance;
     system->keep_symmetric = solver->symmetric_only();
+    system->symmetric      = system->keep_symmetric || solid.symmetric();
     if (!system->keep_symmetric && consistent(scene))
       contact.differentiate();
     contact.drop_circles(graph, enforcement->smallest_circle());
