@@ -27,6 +27,42 @@ main()
                {law + "neo-Hookean", "Body lower/Material/Poisson ratio=0.5"});
   try_override("unknown law", {law + "Mooney-Rivlin"});
 
+  const std::string small      = law + "small-strain von Mises",
+                    finite     = law + "finite-strain von Mises",
+                    plasticity = "Body lower/Material/Plasticity/",
+                    yield = plasticity + "Yield stress=5", voce = plasticity + "Hardening=Voce";
+  try_override("plasticity of an elastic law", {yield});
+  try_override("plasticity, small strain", {small, yield});
+  try_override("plasticity, finite strain", {finite, yield});
+  try_override("plasticity, degree 2", {small, yield, "Discretisation/Degree=2"});
+  try_override("plasticity, incompatible modes",
+               {small, yield, "Body lower/Element=incompatible modes"});
+  try_override("plasticity, F-bar at small strain", {small, yield, "Body lower/Element=F-bar"});
+  try_override("plasticity, b-bar at finite strain", {finite, yield, "Body lower/Element=b-bar"});
+  try_override("no yield stress", {small});
+  try_override("yield stress of zero", {small, plasticity + "Yield stress=0"});
+  try_override("unknown hardening", {small, plasticity + "Hardening=Swift"});
+  try_override(
+    "softening",
+    {small, yield, plasticity + "Hardening=linear", plasticity + "Hardening modulus=-1"});
+  try_override(
+    "Voce softening",
+    {small, yield, voce, plasticity + "Saturation stress=4", plasticity + "Saturation rate=1"});
+  try_override(
+    "Voce without rate",
+    {small, yield, voce, plasticity + "Saturation stress=6", plasticity + "Saturation rate=0"});
+  for (const std::string curve :
+       {"", "0.1: 5", "0: 0", "0: 5, 0.2: 6, 0.1: 7", "0: 5, 0.1: 4", "0: 5, 0.1", "0: 5, 0.1: 6"})
+    try_override("yield curve " + curve,
+                 {small, plasticity + "Hardening=table", plasticity + "Yield curve=" + curve});
+  try_override("yield stress beside a table",
+               {small, yield, plasticity + "Hardening=table", plasticity + "Yield curve=0: 5"});
+  try_override("negative kinematic modulus", {small, yield, plasticity + "Kinematic modulus=-1"});
+  try_override("recovery of nothing", {small, yield, plasticity + "Kinematic recovery=3"});
+  try_override(
+    "negative recovery",
+    {small, yield, plasticity + "Kinematic modulus=1", plasticity + "Kinematic recovery=-3"});
+
   try_override("held twice", {"Body upper/Symmetry=top"});
   try_override("listed twice", {"Body upper/Fixed=top, top"});
   try_override("empty boundary", {"Body upper/Fixed=top,,left"});

@@ -276,6 +276,7 @@ namespace Touchstone
     Energies result = committed;
     result.kinetic  = kinetic_energy(velocity);
     result.strain   = solid.strain_energy(u);
+    result.plastic  = solid.has_history() ? solid.plastic_dissipation() : 0.;
     result.contact -= work(old_normal, *forces.normal, at_end);
     result.friction -= work(old_tangential, *forces.tangential, at_end);
     result.external += work(old_support, *forces.support, at_end) +

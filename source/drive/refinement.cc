@@ -1,6 +1,7 @@
 #include <touchstone/drive/refinement.h>
 #include <touchstone/scene/expression.h>
 #include <touchstone/solid/error_estimator.h>
+#include <touchstone/solid/state_transfer.h>
 
 #include <deal.II/distributed/solution_transfer.h>
 #include <deal.II/grid/grid_refinement.h>
@@ -263,6 +264,7 @@ namespace Touchstone
     for (const Vector &field : with_ghosts)
       before.push_back(&field);
     transfer.prepare_for_coarsening_and_refinement(before);
+    StateTransfer state_transfer(forest.triangulation, solid);
     forest.triangulation.execute_coarsening_and_refinement();
     solid.reinit();
 
@@ -271,6 +273,7 @@ namespace Touchstone
     for (Vector &field : result)
       after.push_back(&field);
     transfer.interpolate(after);
+    state_transfer.finish();
     for (Vector &field : result)
       solid.hanging.distribute(field);
     return result;

@@ -175,6 +175,8 @@ namespace Touchstone
       }
     const Energies &energies  = problem->time_integration().committed_energies();
     record.energies["strain"] = energies.strain;
+    if (solid.has_history())
+      record.energies["plastic"] = energies.plastic;
     if (problem->time_integration().dynamic())
       {
         record.energies["kinetic"]       = energies.kinetic;
@@ -355,6 +357,8 @@ namespace Touchstone
         summary.errors                   = result.errors;
         comparison_lines                 = result.lines;
       }
+    for (const auto &[body, strain] : solid.largest_plastic_strain())
+      summary.plastic_strain[scene.bodies[body].name] = strain;
     const LinearSolverCounts counts = problem->linear_counts();
     summary.iterations.linear_total = counts.iterations;
     summary.iterations.linear_mean =

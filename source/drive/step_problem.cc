@@ -147,6 +147,7 @@ namespace Touchstone
     with_forces([&](const StepForces &forces) { integration->commit(u, forces); });
     committed_u    = u;
     committed_time = time;
+    solid.commit();
     contact.commit();
   }
 
@@ -195,6 +196,7 @@ namespace Touchstone
   {
     u = committed_u;
     integration->rollback();
+    solid.rollback();
     contact.rollback();
   }
 
@@ -351,7 +353,7 @@ namespace Touchstone
     TimerOutput::Scope scope(timer, "assembly");
     if (!solid.linear())
       {
-        solid.assemble(u);
+        solid.assemble(u, solver->symmetric_only());
         ++assemblies;
       }
     system                    = std::make_unique<LinearSystem>();
@@ -362,6 +364,7 @@ namespace Touchstone
     system->first_extra    = system->rhs.size();
     system->tolerance      = linear_tolerance;
     system->keep_symmetric = solver->symmetric_only();
+    system->symmetric      = system->keep_symmetric || solid.symmetric();
     if (!system->keep_symmetric && consistent(scene))
       contact.differentiate();
     contact.drop_circles(graph, enforcement->smallest_circle());

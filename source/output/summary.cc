@@ -80,6 +80,10 @@ namespace Touchstone
         bodies.set(body, forces);
       }
 
+    Json plastic = Json::object();
+    for (const auto &[body, strain] : plastic_strain)
+      plastic.set(body, strain);
+
     Json relative_errors = Json::object();
     for (const auto &[name, error] : errors)
       relative_errors.set(name, error);
@@ -111,6 +115,9 @@ namespace Touchstone
       result.set("meshes", all_meshes);
     if (motion)
       result.set("motion", motion->to_json());
+    Json results = Json::object().set("contact", pairs).set("reactions", bodies);
+    if (!plastic_strain.empty())
+      results.set("plastic_strain", plastic);
     return result.set("steps", steps)
       .set("iterations",
            Json::object()
@@ -135,7 +142,7 @@ namespace Touchstone
              .set("output", seconds.output))
       .set("balance", spread)
       .set("peak_memory_mb", peak_memory_mb)
-      .set("results", Json::object().set("contact", pairs).set("reactions", bodies))
+      .set("results", results)
       .set("errors", relative_errors)
       .set("failure", failure);
   }
@@ -203,6 +210,8 @@ namespace Touchstone
 
     if (motion)
       motion->print(out);
+    for (const auto &[body, strain] : plastic_strain)
+      out << "Plastic strain " << body << ": " << rounded(strain, strain) << '\n';
 
     for (const auto &[name, error] : errors)
       // Relative already, so that the scale is one.

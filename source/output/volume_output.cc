@@ -123,6 +123,14 @@ namespace Touchstone
         dim, dealii::DataComponentInterpretation::component_is_part_of_vector));
     for (unsigned int c = 0; c < fields.size(); ++c)
       data_out.add_data_vector(node_dofs, fields[c], names[c]);
+    dealii::Vector<double> plastic_strain;
+    if (solid.has_history())
+      {
+        plastic_strain = solid.cell_plastic_strain();
+        data_out.add_data_vector(plastic_strain,
+                                 "equivalent_plastic_strain",
+                                 dealii::DataOut<dim>::type_cell_data);
+      }
     data_out.add_data_vector(body, "body", dealii::DataOut<dim>::type_cell_data);
     data_out.add_data_vector(rank, "rank", dealii::DataOut<dim>::type_cell_data);
 

@@ -2,22 +2,51 @@
 #include <touchstone/scene/body_parameters.h>
 #include <touchstone/scene/expression.h>
 #include <touchstone/scene/input_error.h>
+#include <touchstone/solid/hardening_law.h>
 #include <touchstone/solid/hyperelastic_law.h>
+#include <touchstone/solid/material_law.h>
 
 namespace Touchstone
 {
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
 
+  bool
+  MaterialParameters::plastic() const
+  {
+    return SmallStrainRegistry::records().count(law) > 0 ||
+           FiniteStrainRegistry::records().count(law) > 0;
+  }
+
+
+
+  bool
+  MaterialParameters::finite_strain() const
+  {
+    return !linear() && SmallStrainRegistry::records().count(law) == 0;
+  }
+
+
+
   void
   MaterialParameters::declare(ParameterHandler &prm)
   {
+    // What the scene has chosen decides on other keys, but is not the default of its own.
+    const MaterialParameters defaults;
+    const bool               has_plasticity   = plastic();
+    const std::string        chosen_hardening = hardening_name;
+    law                                       = defaults.law;
+    hardening_name                            = defaults.hardening_name;
     prm.add_parameter("Law",
                       law,
-                      "The material law, always elastic and isotropic. 'linear elastic': small "
+                      "The material law, always isotropic. 'linear elastic': small "
                       "strain and small rotations. " +
-                        HyperelasticRegistry::documentation(),
-                      Patterns::Selection("linear elastic|" + HyperelasticRegistry::selection()));
+                        HyperelasticRegistry::documentation() + ' ' +
+                        SmallStrainRegistry::documentation() + ' ' +
+                        FiniteStrainRegistry::documentation(),
+                      Patterns::Selection("linear elastic|" + HyperelasticRegistry::selection() +
+                                          '|' + SmallStrainRegistry::selection() + '|' +
+                                          FiniteStrainRegistry::selection()));
     prm.add_parameter("Young modulus",
                       young_modulus,
                       "Young's modulus, greater than zero. Required. "
@@ -42,6 +71,33 @@ namespace Touchstone
                       "Damping force per elastic force of the same velocity field, with the "
                       "stiffness of the undeformed body: it also resists finite rotations. [time]",
                       Patterns::Double(0.));
+    if (!has_plasticity)
+      return;
+    prm.enter_subsection("Plasticity");
+    prm.add_parameter("Hardening",
+                      hardening_name,
+                      "Isotropic hardening: how the yield stress depends on the equivalent plastic "
+                      "strain p. " +
+                        HardeningLawRegistry::documentation(),
+                      Patterns::Selection(HardeningLawRegistry::selection()));
+    if (HardeningLawRegistry::records().count(chosen_hardening) > 0)
+      {
+        hardening = HardeningLawRegistry::make(chosen_hardening);
+        hardening->declare(prm);
+      }
+    prm.add_parameter("Kinematic modulus",
+                      kinematic_modulus,
+                      "Kinematic hardening, which may be added to the isotropic one: increase of "
+                      "the uniaxial back stress per plastic strain, at least zero; 0 for none. "
+                      "[force per area]",
+                      Patterns::Double());
+    prm.add_parameter("Kinematic recovery",
+                      kinematic_recovery,
+                      "Dynamic recovery of the back stress after Armstrong and Frederick, at "
+                      "least zero: the uniaxial back stress tends to 'Kinematic modulus' over "
+                      "this; 0 for linear kinematic hardening. [no unit]",
+                      Patterns::Double());
+    prm.leave_subsection();
   }
 
 
@@ -63,6 +119,34 @@ namespace Touchstone
                        "must be greater than -1 and less than 0.5",
                        std::string("for incompressible material take 0.4999 with the element '") +
                          (finite_strain() ? "F-bar" : "b-bar") + "' or degree 2");
+    if (hardening)
+      check_plasticity(section + "/Plasticity");
+  }
+
+
+
+  void
+  MaterialParameters::check_plasticity(const std::string &section) const
+  {
+    hardening->check(section);
+    if (!(kinematic_modulus >= 0.))
+      throw InputError(section,
+                       "Kinematic modulus",
+                       Patterns::Tools::to_string(kinematic_modulus),
+                       "must not be negative",
+                       "give the increase of the back stress per plastic strain, or 0 for none");
+    if (!(kinematic_recovery >= 0.))
+      throw InputError(section,
+                       "Kinematic recovery",
+                       Patterns::Tools::to_string(kinematic_recovery),
+                       "must not be negative",
+                       "give 0 for linear kinematic hardening");
+    if (kinematic_recovery > 0. && kinematic_modulus == 0.)
+      throw InputError(section,
+                       "Kinematic recovery",
+                       Patterns::Tools::to_string(kinematic_recovery),
+                       "has no effect while 'Kinematic modulus' is 0",
+                       "set 'Kinematic modulus', or remove this key");
   }
 
 
@@ -161,7 +245,10 @@ namespace Touchstone
   std::string
   BodyParameters::automatic_element(const unsigned int degree) const
   {
-    return degree > 1 ? "full" : material.finite_strain() ? "F-bar" : "incompatible modes";
+    return degree > 1                 ? "full"
+           : material.finite_strain() ? "F-bar"
+           : material.plastic()       ? "b-bar"
+                                      : "incompatible modes";
   }
 
 
@@ -174,10 +261,12 @@ namespace Touchstone
                       "How cells interpolate strain: 'full' integration of the displacements' "
                       "gradient; 'b-bar' with a constant volume change per cell, for nearly "
                       "incompressible material; 'incompatible modes' for bending; 'F-bar' is "
-                      "b-bar for finite strain. The latter three are for degree 1, b-bar and "
-                      "incompatible modes for the material law 'linear elastic', F-bar for the "
-                      "others. 'automatic' takes full for degree 2, and for degree 1 "
-                      "incompatible modes or, with a law for finite strain, F-bar.",
+                      "b-bar for finite strain. The latter three are for degree 1, b-bar for "
+                      "material laws of small strain, incompatible modes for the law 'linear "
+                      "elastic' only, F-bar for laws of finite strain. 'automatic' takes full "
+                      "for degree 2; for degree 1 F-bar with a law for finite strain, b-bar with "
+                      "plasticity at small strain (plastic flow keeps the volume, and full cells "
+                      "lock), and else incompatible modes.",
                       Patterns::Selection("automatic|full|b-bar|incompatible modes|F-bar"));
     prm.add_parameter("Symmetry",
                       symmetry,
@@ -249,6 +338,13 @@ namespace Touchstone
                        "take the element 'automatic' or 'full', or degree 1");
     const ElementType type = element();
     const bool small_only  = type == ElementType::b_bar || type == ElementType::incompatible_modes;
+    if (type == ElementType::incompatible_modes && material.plastic() && !material.finite_strain())
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "has no plasticity, but 'Material/Law' is '" + material.law + "'",
+                       "take the element 'automatic' or 'b-bar', degree 2, or the law 'linear "
+                       "elastic'");
     if (material.finite_strain() && small_only)
       throw InputError(section(),
                        "Element",

@@ -149,6 +149,10 @@ namespace Touchstone
                              "there is no such geometry" + did_you_mean(type, known),
                              "take one of " + quoted_list(known));
           }
+        const std::string material = body.section() + "/Material";
+        body.material.law          = text.value(material, "Law", body.material.law);
+        body.material.hardening_name =
+          text.value(material + "/Plasticity", "Hardening", body.material.hardening_name);
         prm.enter_subsection(body.section());
         body.declare(prm, type);
         prm.leave_subsection();

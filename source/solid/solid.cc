@@ -1,8 +1,10 @@
+#include <touchstone/algebra/non_convergence.h>
 #include <touchstone/solid/element_kernel.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <algorithm>
@@ -28,7 +30,7 @@ namespace Touchstone
   void
   Solid::reinit()
   {
-    finite.reset();
+    nonlinear.reset();
     dof_handler.distribute_dofs(fe);
     owned = dof_handler.locally_owned_dofs();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
@@ -60,7 +62,7 @@ namespace Touchstone
               pattern.add_entries(row, dofs.begin(), dofs.end(), true);
         }
     matrix.reinit(owned, owned, pattern, communicator);
-    finite = std::make_unique<FiniteStrainCells>(scene, fe, mapping, dof_handler, matrix);
+    nonlinear = std::make_unique<NonlinearCells>(scene, fe, mapping, dof_handler, matrix);
   }
 
 
@@ -108,9 +110,9 @@ namespace Touchstone
     std::vector<std::unique_ptr<ElementKernel>> kernels;
     for (const BodyParameters &body : scene.bodies)
       kernels.push_back(
-        body.material.finite_strain()
-          ? nullptr
-          : std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material));
+        body.material.linear()
+          ? std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material)
+          : nullptr);
 
     std::vector<Index> dofs(fe.n_dofs_per_cell());
     std::vector<int>   rows, columns;
@@ -141,11 +143,20 @@ namespace Touchstone
 
 
   void
-  Solid::assemble(const Vector &u)
+  Solid::check_solved(const bool solved) const
+  {
+    if (has_history() && Utilities::MPI::min(solved ? 1 : 0, communicator) == 0)
+      throw MaterialFailure("the plastic strain of some point could not be found");
+  }
+
+
+
+  void
+  Solid::assemble(const Vector &u, const bool symmetric_part)
   {
     RowWriter writer(matrix);
     if (!linear())
-      finite->assemble(ghosted(u), writer);
+      check_solved(nonlinear->assemble(ghosted(u), symmetric_part, writer));
     row_sums.resize(owned.n_elements());
     for (unsigned int i = 0; i < row_sums.size(); ++i)
       row_sums[i] = writer.absolute_sum(i);
@@ -158,7 +169,7 @@ namespace Touchstone
   {
     matrix.vmult(force, u);
     if (!linear())
-      finite->internal_force(ghosted(u), force);
+      check_solved(nonlinear->internal_force(ghosted(u), force));
   }
 
 
@@ -168,13 +179,12 @@ namespace Touchstone
   {
     Vector force(u);
     matrix.vmult(force, u);
-    if (linear())
-      return 0.5 * (force * u);
-    double sum = finite->energy(ghosted(u));
-    for (unsigned int i = 0; i < row_sums.size(); ++i)
-      if (finite->round_off_length()[i] == 0.)
-        sum += 0.5 * force.begin()[i] * u.begin()[i];
-    return Utilities::MPI::sum(sum, communicator);
+    for (const int row : nonlinear->rows_of_nodes())
+      std::fill(force.begin() + row, force.begin() + row + dim, 0.);
+    const double of_linear = 0.5 * (force * u);
+    return linear()
+             ? of_linear
+             : of_linear + Utilities::MPI::sum(nonlinear->elastic_energy(ghosted(u)), communicator);
   }
 
 
@@ -183,7 +193,7 @@ namespace Touchstone
   Solid::admissible(const Vector &u) const
   {
     return linear() ||
-           Utilities::MPI::min(finite->smallest_determinant(ghosted(u)), communicator) > 0.;
+           Utilities::MPI::min(nonlinear->smallest_determinant(ghosted(u)), communicator) > 0.;
   }
 
 
@@ -196,7 +206,7 @@ namespace Touchstone
     double sum = 0.;
     for (std::size_t i = 0; i < row_sums.size(); ++i)
       {
-        const double length = linear() ? 0. : finite->round_off_length()[i];
+        const double length = linear() ? 0. : nonlinear->round_off_length()[i];
         sum += std::pow(row_sums[i] * (std::abs(u.begin()[i]) + length), 2);
       }
     return std::numeric_limits<double>::epsilon() *
@@ -214,15 +224,15 @@ namespace Touchstone
     std::vector<std::unique_ptr<ElementKernel>> kernels;
     for (const BodyParameters &body : scene.bodies)
       kernels.push_back(
-        body.material.finite_strain()
-          ? nullptr
-          : std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material));
+        body.material.linear()
+          ? std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material)
+          : nullptr);
     std::vector<Index>  dofs(fe.n_dofs_per_cell());
     std::vector<double> values(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          if (const FiniteStrainKernel *kernel = finite->at(cell->active_cell_index(), u))
+          if (CellKernel *kernel = nonlinear->at(cell->active_cell_index(), u))
             {
               for (unsigned int q = 0; q < kernel->n_quadrature_points(); ++q)
                 visit(cell->material_id(), kernel->point(q), kernel->stress(q), kernel->volume(q));
@@ -260,6 +270,76 @@ namespace Touchstone
                         const double) {
                       result[cells[counter++ / n_points]] += stress / n_points;
                     });
+    return result;
+  }
+
+
+
+  void
+  Solid::exchange_cell_states()
+  {
+    using Cell = Triangulation<dim>::active_cell_iterator;
+    if (has_history())
+      GridTools::exchange_cell_data_to_ghosts<std::vector<double>, Triangulation<dim>>(
+        dof_handler.get_triangulation(),
+        [&](const Cell &cell) -> std_cxx17::optional<std::vector<double>> {
+          return cell_state(cell->active_cell_index());
+        },
+        [&](const Cell &cell, const std::vector<double> &values) {
+          set_cell_state(cell->active_cell_index(), values);
+        });
+  }
+
+
+
+  double
+  Solid::plastic_dissipation() const
+  {
+    double sum = 0.;
+    if (!has_history())
+      return sum;
+    nonlinear->for_each_state(
+      [&](unsigned int, unsigned int, const double volume, const double *state) {
+        sum += volume * state[MaterialLaw::plastic_work];
+      });
+    return Utilities::MPI::sum(sum, communicator);
+  }
+
+
+
+  dealii::Vector<double>
+  Solid::cell_plastic_strain() const
+  {
+    const unsigned int     n = dof_handler.get_triangulation().n_active_cells();
+    dealii::Vector<double> result(n), volumes(n);
+    if (has_history())
+      nonlinear->for_each_state(
+        [&](unsigned int, const unsigned int cell, const double volume, const double *state) {
+          result(cell) += volume * state[MaterialLaw::plastic_strain];
+          volumes(cell) += volume;
+        });
+    for (unsigned int i = 0; i < n; ++i)
+      if (volumes(i) > 0.)
+        result(i) /= volumes(i);
+    return result;
+  }
+
+
+
+  std::map<unsigned int, double>
+  Solid::largest_plastic_strain() const
+  {
+    std::map<unsigned int, double> result;
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      if (history_law(b))
+        result[b] = 0.;
+    if (has_history())
+      nonlinear->for_each_state(
+        [&](const unsigned int body, unsigned int, double, const double *state) {
+          result[body] = std::max(result[body], state[MaterialLaw::plastic_strain]);
+        });
+    for (auto &[body, value] : result)
+      value = Utilities::MPI::max(value, communicator);
     return result;
   }
 } // namespace Touchstone

@@ -38,6 +38,12 @@ namespace Touchstone
     using NonConvergence::NonConvergence;
   };
 
+  /** @brief The local equations of a material law have no solution that could be found. */
+  class MaterialFailure : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
   /** @brief A body can move without resistance. */
   class SingularSystem : public NonConvergence
   {

@@ -98,6 +98,8 @@ namespace Touchstone
     std::map<std::string, PairResult> contact;
     /** Force of the support on the body, by body and boundary. */
     std::map<std::string, std::map<std::string, dealii::Tensor<1, dim>>> reactions;
+    /** Largest equivalent plastic strain of bodies that have one, by name; no unit. */
+    std::map<std::string, double> plastic_strain;
     /** Relative errors against the reference solution; no unit. */
     std::map<std::string, double> errors;
     /** Only where there is inertia. */

@@ -12,12 +12,14 @@
 namespace Touchstone
 {
   class Geometry;
+  class HardeningLaw;
 
-  /** @brief Section "Body NAME/Material": an isotropic elastic material. */
+  /** @brief Section "Body NAME/Material": an isotropic elastic or elastoplastic material. */
   struct MaterialParameters
   {
-    /** "linear elastic" (small strain) or the name of a HyperelasticLaw, whose
-     * constants are those of linear elasticity at the undeformed state. */
+    /** "linear elastic" (small strain) or the name of a HyperelasticLaw, a SmallStrainLaw
+     * or a FiniteStrainLaw, whose constants are those of linear elasticity at the
+     * undeformed state. */
     std::string law = "linear elastic";
     /** Young's modulus, force per area; must be positive. */
     double young_modulus = 0.;
@@ -29,12 +31,29 @@ namespace Touchstone
      * time, b time. */
     double rayleigh_mass = 0., rayleigh_stiffness = 0.;
 
-    /** @brief Whether the law is for finite strain: the body is nonlinear then. */
+    /** @name Subsection "Plasticity", of plastic laws only */
+    /** @{ */
+    /** Name under which the isotropic hardening is registered, and that with its own
+     * parameters read; null if the law is elastic. */
+    std::string                   hardening_name = "none";
+    std::shared_ptr<HardeningLaw> hardening;
+    /** C of Armstrong and Frederick, force per area, 0 for none; and gamma, no unit, 0 for
+     * linear kinematic hardening. */
+    double kinematic_modulus = 0., kinematic_recovery = 0.;
+    /** @} */
+
+    /** @brief The law is "linear elastic". */
     bool
-    finite_strain() const
+    linear() const
     {
-      return law != "linear elastic";
+      return law == "linear elastic";
     }
+    /** @brief Whether the law has history: it is a SmallStrainLaw or a FiniteStrainLaw. */
+    bool
+    plastic() const;
+    /** @brief Whether the law is for finite strain. */
+    bool
+    finite_strain() const;
     /** @brief mu, force per area. */
     double
     shear_modulus() const
@@ -47,10 +66,16 @@ namespace Touchstone
     {
       return young_modulus / (3. * (1. - 2. * poisson_ratio));
     }
+    /** @brief Declare all entries; @p law and @p hardening_name must be known before, for
+     * they decide on others. */
     void
     declare(dealii::ParameterHandler &prm);
     void
     check(const std::string &section) const;
+
+  private:
+    void
+    check_plasticity(const std::string &section) const;
   };
 
   /**
@@ -126,14 +151,16 @@ namespace Touchstone
     section() const;
     ElementType
     element() const;
-    /** @brief What "automatic" stands for: full for degree 2, for degree 1 F-bar
-     * with a law for finite strain and else incompatible modes. */
+    /** @brief What "automatic" stands for: full for degree 2; for degree 1 F-bar
+     * with a law for finite strain, b-bar with plasticity at small strain, and else
+     * incompatible modes. */
     std::string
     automatic_element(unsigned int degree) const;
 
     /**
      * @brief Declare all entries, those of the geometry included; @p conditions
-     * must be known before, for it names subsections.
+     * must be known before, for it names subsections, and law and hardening of the
+     * material.
      * @param geometry_type Name under which the geometry is registered.
      */
     void

@@ -1,13 +1,8 @@
 #ifndef touchstone_solid_finite_strain_kernel_h
 #define touchstone_solid_finite_strain_kernel_h
 
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/cell_kernel.h>
 #include <touchstone/solid/hyperelastic_law.h>
-
-#include <deal.II/base/symmetric_tensor.h>
-
-#include <memory>
-#include <vector>
 
 namespace Touchstone
 {
@@ -29,120 +24,69 @@ namespace Touchstone
    * 51: where the energies of shape and volume are separate, as in the
    * neo-Hookean law, this element is theirs.
    *
-   * Plain arrays: nodes in the order of FE_Q, node a component i at 3a+i.
+   * Of plastic material W is the energy that a step stores and dissipates.
    */
-  class FiniteStrainKernel
+  class FiniteStrainKernel : public CellKernel
   {
   public:
-    /** @param type full or f_bar. */
+    /** @param type full or f_bar. @param material With the name of a HyperelasticLaw or a
+     * FiniteStrainLaw. */
     FiniteStrainKernel(unsigned int degree, ElementType type, const MaterialParameters &material);
 
-    unsigned int
-    nodes_per_cell() const
+    bool
+    can_invert() const override
     {
-      return n_nodes;
+      return true;
     }
 
-    unsigned int
-    n_quadrature_points() const
+    bool
+    finite_strain() const override
     {
-      return n_points;
+      return true;
     }
 
-    /**
-     * @brief Go to a cell and a displacement; both arrays are copied from.
-     * @param positions    Reference positions of the nodes, length.
-     * @param displacement Displacements of the nodes, length.
-     * @return the smallest det F of the quadrature points. Unless it is positive
-     *         nothing else can be asked for.
-     */
-    double
-    reinit(const double *positions, const double *displacement);
-
-    /** @brief Energy of the cell, force times length. */
-    double
-    energy() const;
-
-    /** @brief Nodal forces, dE/du, n_dofs() numbers. */
-    const std::vector<double> &
-    force();
-
-    /** @brief Tangent, d2E/du2, row by row, n_dofs() times n_dofs() numbers, force
-     * per length. */
-    const std::vector<double> &
-    stiffness();
-
-    unsigned int
-    n_dofs() const
-    {
-      return dim * n_nodes;
-    }
-
-    /** @brief Cauchy stress at quadrature point @p q: force per present area. */
     dealii::SymmetricTensor<2, dim>
-    stress(unsigned int q) const;
+    stress(unsigned int q) override;
 
-    /** @brief Present volume that quadrature point @p q stands for. */
     double
-    volume(unsigned int q) const
+    volume(const unsigned int q) const override
     {
-      return points[q].weight * points[q].J;
-    }
-
-    /** @brief Reference position of quadrature point @p q. */
-    dealii::Point<dim>
-    point(unsigned int q) const
-    {
-      return points[q].position;
+      return points[q].weight * kinematics[q].J;
     }
 
   private:
-    /** What belongs to one quadrature point. */
-    struct PointData
+    struct Kinematics
     {
-      dealii::Point<dim> position;
-      /** Reference volume. */
-      double weight;
       /** Deformation gradient, its determinant, its inverse transposed. */
       dealii::Tensor<2, dim> F, H;
       double                 J;
       /** (Jbar/J)^{1/3} and the gradient that the law sees; 1 and F if full. */
       double                 alpha;
       dealii::Tensor<2, dim> F_bar;
-      /** P(Fbar), for modify_tangent(). */
-      dealii::Tensor<2, dim> P;
     };
 
-    const bool                             f_bar;
-    const std::shared_ptr<HyperelasticLaw> law;
-    const unsigned int                     n_nodes, n_points;
-    /** Shapes on the unit cell, [q][a]; gradients on the unit cell and on the
-     * reference cell, [q][J][a]: the innermost loops run over the nodes. */
-    std::vector<double>    shapes, unit_gradients, gradients;
-    std::vector<double>    unit_weights;
-    std::vector<PointData> points;
-    /** Reference volume of the cell and its mean dilatation. */
-    double cell_volume = 0., mean_J = 1.;
+    std::vector<Kinematics> kinematics;
+    /** Mean dilatation of the cell. */
+    double mean_J = 1.;
 
-    std::vector<double> nodal_force, blocks, matrix;
-    /** Derivative of ln Jbar, and the mixed derivative of the energy by the
-     * displacements and ln Jbar. */
-    std::vector<double> mean_gradient, mixed;
-
-    double *
-    gradient(const unsigned int q)
-    {
-      return &gradients[q * dim * n_nodes];
-    }
-
-    void
-    set_mean_gradient();
-
-    /** Turn A = dP/dF at Fbar of point @p q into the second derivative by F with Jbar
-     * held, add the terms of ln Jbar to @p mixed, and return the second derivative
-     * by ln Jbar. @p pressure is sum_q w P(Fbar) : Fbar / 3. */
     double
-    modify_tangent(unsigned int q, double pressure, dealii::Tensor<4, dim> &A);
+    deform() override;
+    dealii::Tensor<2, dim>
+    deformation(const unsigned int q) const override
+    {
+      return kinematics[q].F_bar;
+    }
+    void
+    set_mean_gradient() override;
+    dealii::Tensor<2, dim>
+    point_stress(unsigned int q, double &pressure) const override;
+    MeanTerms
+    modify_tangent(unsigned int q, double pressure, dealii::Tensor<4, dim> &A) const override;
+    double
+    mean_curvature(const double pressure) const override
+    {
+      return -pressure;
+    }
   };
 } // namespace Touchstone
 

@@ -4,15 +4,17 @@
 #include <touchstone/algebra/vector.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/scene/scene.h>
-#include <touchstone/solid/finite_strain_cells.h>
+#include <touchstone/solid/nonlinear_cells.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/vector.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 
 namespace Touchstone
@@ -59,17 +61,28 @@ namespace Touchstone
     bool
     linear() const
     {
-      return finite->empty();
+      return nonlinear->empty();
     }
 
     /** @brief Assemble the stiffness of the undeformed bodies. */
     void
     assemble();
 
-    /** @brief Assemble the tangent stiffness at @p u (no ghosts): that of bodies
-     * with a law for finite strain; the others keep what assemble() made. */
+    /** @brief Whether the stiffness is symmetric at all displacements. */
+    bool
+    symmetric() const
+    {
+      return nonlinear->symmetric();
+    }
+
+    /**
+     * @brief Assemble the tangent stiffness at @p u (no ghosts): that of bodies
+     * with a nonlinear material; the others keep what assemble() made.
+     * @param symmetric_part Its symmetric part, where it is not symmetric().
+     * @throws MaterialFailure on all ranks
+     */
     void
-    assemble(const Vector &u);
+    assemble(const Vector &u, bool symmetric_part = false);
 
     /** @brief Stiffness, force per length, with no condition applied. */
     const Matrix &
@@ -82,7 +95,8 @@ namespace Touchstone
     Vector
     ghosted(const Vector &u) const;
 
-    /** @brief Internal nodal forces of the displacement @p u (no ghosts). */
+    /** @brief Internal nodal forces of the displacement @p u (no ghosts), which becomes
+     * the one that commit() keeps the history of. @throws MaterialFailure on all ranks */
     void
     internal_force(const Vector &u, Vector &force) const;
 
@@ -117,6 +131,78 @@ namespace Touchstone
     std::vector<dealii::SymmetricTensor<2, dim>>
     cell_stress(const Vector &u) const;
 
+    /** @name History of the material (plasticity)
+     * The present state is a function of the committed one and of the displacement of the
+     * last internal_force(). reinit() brings back virgin material. */
+    /** @{ */
+    bool
+    has_history() const
+    {
+      return nonlinear->has_history();
+    }
+
+    /** @brief Keep the state of the last internal_force(). */
+    void
+    commit()
+    {
+      nonlinear->commit();
+    }
+
+    void
+    rollback()
+    {
+      nonlinear->rollback();
+    }
+
+    /** @brief Committed state of an owned active cell; empty if it has none. The numbers of
+     * its quadrature points follow one another. */
+    std::vector<double>
+    cell_state(const unsigned int active_cell_index) const
+    {
+      return nonlinear->state(active_cell_index);
+    }
+
+    /** @brief Set the state of an owned cell; exchange_cell_states() must follow. */
+    void
+    set_cell_state(const unsigned int active_cell_index, const std::vector<double> &values)
+    {
+      nonlinear->set_state(active_cell_index, values);
+    }
+
+    /** @brief Give the ghost cells the states of their owners. Collective. */
+    void
+    exchange_cell_states();
+
+    /** @brief The law of a body with history; null if it has none. */
+    std::shared_ptr<const MaterialLaw>
+    history_law(const unsigned int body) const
+    {
+      return nonlinear->law(body);
+    }
+
+    unsigned int
+    n_bodies() const
+    {
+      return scene.bodies.size();
+    }
+
+    /** @brief Plastic work of all bodies since the start, dissipated or, with hardening,
+     * stored for good in the material, at the state of the last internal_force(); force
+     * times length. Collective. */
+    double
+    plastic_dissipation() const;
+
+    /** @brief Equivalent plastic strain averaged per owned cell, in the order of active cell
+     * indices, zero elsewhere. */
+    dealii::Vector<double>
+    cell_plastic_strain() const;
+
+    /** @brief Largest equivalent plastic strain at a quadrature point by body number, of
+     * bodies with history. Collective. */
+    std::map<unsigned int, double>
+    largest_plastic_strain() const;
+    /** @} */
+
   private:
     const Scene &scene;
     Matrix       matrix;
@@ -124,7 +210,10 @@ namespace Touchstone
     /** Sum of the absolute entries of each owned row. */
     std::vector<double> row_sums;
     /** Behind a pointer: its kernels are scratch space of const functions. */
-    std::unique_ptr<FiniteStrainCells> finite;
+    std::unique_ptr<NonlinearCells> nonlinear;
+
+    void
+    check_solved(bool solved) const;
   };
 } // namespace Touchstone
 

@@ -1,0 +1,109 @@
+#ifndef touchstone_solid_material_law_h
+#define touchstone_solid_material_law_h
+
+#include <touchstone/registry.h>
+#include <touchstone/types.h>
+
+#include <deal.II/base/tensor.h>
+
+namespace Touchstone
+{
+  struct MaterialParameters;
+
+  /** @brief What a material answers at one quadrature point. */
+  struct MaterialResponse
+  {
+    /** Energy per reference volume that is stored and dissipated from the committed state on:
+     * where the law is symmetric the stress is its derivative. */
+    double energy = 0.;
+    /** Elastic energy per reference volume. */
+    double elastic_energy = 0.;
+    /** Stress[i][J], force per reference area. */
+    dealii::Tensor<2, dim> stress;
+    /** Derivative of the stress by the deformation, [i][J][k][L], force per area. */
+    dealii::Tensor<4, dim> tangent;
+    /** False if the local equations of the law have no solution that could be found. */
+    bool solved = true;
+  };
+
+  /** @brief What is asked of a material: each includes the state, and the last the stress. */
+  enum class Demand
+  {
+    energy,
+    stress,
+    tangent
+  };
+
+  /**
+   * @brief A nonlinear material at one point, with or without history.
+   *
+   * The history is an array of n_state() numbers. The response and the present state are
+   * functions of the deformation and the committed state alone: evaluating twice changes
+   * nothing.
+   */
+  class MaterialLaw
+  {
+  public:
+    /** Where laws with history keep the equivalent plastic strain and the plastic work per
+     * reference volume since the start. */
+    static constexpr unsigned int plastic_strain = 0, plastic_work = 1;
+
+    virtual ~MaterialLaw() = default;
+
+    /** @brief How many numbers of history a point has. */
+    virtual unsigned int
+    n_state() const
+    {
+      return 0;
+    }
+
+    /** @brief Write the state of the virgin material. */
+    virtual void
+    start(double * /*state*/) const
+    {
+    }
+
+    /** @brief Make a state that is an average of several one that the law admits. */
+    virtual void
+    restore(double * /*state*/) const
+    {
+    }
+
+    /** @brief Whether the tangent is symmetric, A[i][J][k][L] = A[k][L][i][J]. */
+    virtual bool
+    symmetric() const
+    {
+      return true;
+    }
+
+    /**
+     * @brief The response to a deformation that follows upon the committed state.
+     * @param deformation Finite strain: deformation gradient F, det F > 0. Small strain:
+     *                    the displacement gradient, of which the symmetric part counts.
+     * @param committed   State at the end of the last step.
+     * @param present     State that belongs to the deformation.
+     */
+    virtual void
+    respond(const dealii::Tensor<2, dim> &deformation,
+            const double                 *committed,
+            Demand                        demand,
+            MaterialResponse             &response,
+            double                       *present) const = 0;
+  };
+
+  /** @brief A law with history for small strain. */
+  class SmallStrainLaw : public MaterialLaw
+  {
+  };
+
+  /** @brief A law with history for finite strain; those without are HyperelasticLaws. */
+  class FiniteStrainLaw : public MaterialLaw
+  {
+  };
+
+  /** @brief The laws by the name that the key "Law" of a material takes. */
+  using SmallStrainRegistry  = Registry<SmallStrainLaw, const MaterialParameters &>;
+  using FiniteStrainRegistry = Registry<FiniteStrainLaw, const MaterialParameters &>;
+} // namespace Touchstone
+
+#endif

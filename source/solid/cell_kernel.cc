@@ -1,0 +1,261 @@
+#include <touchstone/solid/cell_kernel.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Add w A : (grad N_a, grad N_b) of a quadrature point to the blocks
+     * [a][i][k][b], of symmetric A only for a <= b. The number of nodes is known to the
+     * compiler: this loop takes most of the time of an assembly. */
+    template <unsigned int n, bool symmetric>
+    void
+    add_point(const double *gradient, const double weight, const Tensor<4, dim> &A, double *blocks)
+    {
+      const double *g[dim] = {gradient, gradient + n, gradient + 2 * n};
+      for (unsigned int a = 0; a < n; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              double left[dim];
+              for (unsigned int l = 0; l < dim; ++l)
+                left[l] = weight * (g[0][a] * A[i][0][k][l] + g[1][a] * A[i][1][k][l] +
+                                    g[2][a] * A[i][2][k][l]);
+              double *block = blocks + ((a * dim + i) * dim + k) * n;
+              for (unsigned int b = symmetric ? a : 0; b < n; ++b)
+                block[b] += left[0] * g[0][b] + left[1] * g[1][b] + left[2] * g[2][b];
+            }
+    }
+
+    void
+    symmetrise(Tensor<4, dim> &A)
+    {
+      for (unsigned int r = 0; r < dim * dim; ++r)
+        for (unsigned int s = 0; s < r; ++s)
+          {
+            double &x = A[r / dim][r % dim][s / dim][s % dim];
+            double &y = A[s / dim][s % dim][r / dim][r % dim];
+            x = y = 0.5 * (x + y);
+          }
+    }
+
+    /** To @p sum, over the unknowns, add that of @p stress with the gradients. */
+    void
+    add_product(const Tensor<2, dim> &stress,
+                const double         *g,
+                const unsigned int    n_nodes,
+                std::vector<double>  &sum)
+    {
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          sum[dim * a + i] +=
+            stress[i][0] * g[a] + stress[i][1] * g[n_nodes + a] + stress[i][2] * g[2 * n_nodes + a];
+    }
+  } // namespace
+
+
+
+  CellKernel::CellKernel(const unsigned int                 degree,
+                         std::shared_ptr<const MaterialLaw> material_law,
+                         const bool                         averaged)
+    : law(std::move(material_law))
+    , averaged(averaged)
+    , n_nodes(Utilities::pow(degree + 1, dim))
+    , n_points(Utilities::pow(degree + 1, dim))
+    , points(n_points)
+    , mean_gradient(dim * n_nodes)
+    , virgin(n_points * law->n_state())
+    , present_state(virgin.size())
+    , nodal_force(dim * n_nodes)
+    , blocks(dim * dim * n_nodes * n_nodes)
+    , matrix(dim * dim * n_nodes * n_nodes)
+    , left(dim * n_nodes)
+    , right(dim * n_nodes)
+  {
+    const QGauss<dim> quadrature(degree + 1);
+    const FE_Q<dim>   fe(degree);
+    unit_weights = quadrature.get_weights();
+    gradients.resize(n_points * dim * n_nodes);
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          shapes.push_back(fe.shape_value(a, quadrature.point(q)));
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            unit_gradients.push_back(fe.shape_grad(a, quadrature.point(q))[d]);
+      }
+    start(virgin.data());
+  }
+
+
+
+  void
+  CellKernel::start(double *state) const
+  {
+    for (unsigned int q = 0; q < n_points; ++q)
+      law->start(state + q * law->n_state());
+  }
+
+
+
+  double
+  CellKernel::reinit(const double *positions, const double *displacement, const double *committed)
+  {
+    committed_state = committed ? committed : virgin.data();
+    has_stress      = false;
+    cell_volume     = 0.;
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        PointData    &point = points[q];
+        const double *unit  = &unit_gradients[q * dim * n_nodes];
+        // dX/dxi and du/dxi: the cell is isoparametric.
+        Tensor<2, dim> jacobian, unit_gradient;
+        point.position = Point<dim>();
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              point.position[i] += shapes[q * n_nodes + a] * positions[dim * a + i];
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  jacobian[i][d] += positions[dim * a + i] * unit[d * n_nodes + a];
+                  unit_gradient[i][d] += displacement[dim * a + i] * unit[d * n_nodes + a];
+                }
+            }
+        const Tensor<2, dim> inverse = invert(jacobian);
+        double              *g       = shape_gradient(q);
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            g[d * n_nodes + a] = unit[a] * inverse[0][d] + unit[n_nodes + a] * inverse[1][d] +
+                                 unit[2 * n_nodes + a] * inverse[2][d];
+        point.weight   = unit_weights[q] * determinant(jacobian);
+        point.gradient = unit_gradient * inverse;
+        cell_volume += point.weight;
+      }
+    return deform();
+  }
+
+
+
+  void
+  CellKernel::respond(const Demand demand)
+  {
+    all_solved = true;
+    has_stress = has_stress || demand != Demand::energy;
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        const unsigned int at = q * law->n_state();
+        law->respond(deformation(q),
+                     committed_state + at,
+                     demand,
+                     points[q].response,
+                     present_state.data() + at);
+        all_solved = all_solved && points[q].response.solved;
+      }
+  }
+
+
+
+  double
+  CellKernel::energy()
+  {
+    respond(Demand::energy);
+    double sum = 0.;
+    for (const PointData &point : points)
+      sum += point.weight * point.response.energy;
+    return sum;
+  }
+
+
+
+  double
+  CellKernel::elastic_energy()
+  {
+    respond(Demand::energy);
+    double sum = 0.;
+    for (const PointData &point : points)
+      sum += point.weight * point.response.elastic_energy;
+    return sum;
+  }
+
+
+
+  const std::vector<double> &
+  CellKernel::force()
+  {
+    respond(Demand::stress);
+    std::fill(nodal_force.begin(), nodal_force.end(), 0.);
+    double pressure = 0.;
+    for (unsigned int q = 0; q < n_points; ++q)
+      add_product(points[q].weight * point_stress(q, pressure),
+                  shape_gradient(q),
+                  n_nodes,
+                  nodal_force);
+    if (averaged)
+      {
+        set_mean_gradient();
+        for (unsigned int i = 0; i < n_dofs(); ++i)
+          nodal_force[i] += pressure * mean_gradient[i];
+      }
+    return nodal_force;
+  }
+
+
+
+  const std::vector<double> &
+  CellKernel::stiffness(const bool symmetric)
+  {
+    respond(Demand::tangent);
+    const bool mirrored = symmetric || law->symmetric();
+    std::fill(blocks.begin(), blocks.end(), 0.);
+    double pressure = 0., second = 0.;
+    if (averaged)
+      {
+        set_mean_gradient();
+        std::fill(left.begin(), left.end(), 0.);
+        std::fill(right.begin(), right.end(), 0.);
+        for (unsigned int q = 0; q < n_points; ++q)
+          point_stress(q, pressure);
+        second = mean_curvature(pressure);
+      }
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        const double    weight = points[q].weight;
+        const double   *g      = shape_gradient(q);
+        Tensor<4, dim> &A      = points[q].response.tangent;
+        if (symmetric && !law->symmetric())
+          symmetrise(A);
+        if (averaged)
+          {
+            const MeanTerms terms = modify_tangent(q, pressure, A);
+            add_product(weight * terms.left, g, n_nodes, left);
+            add_product(weight * terms.right, g, n_nodes, right);
+            second += weight * terms.second;
+          }
+        const auto add = n_nodes == 8 ? (mirrored ? add_point<8, true> : add_point<8, false>)
+                                      : (mirrored ? add_point<27, true> : add_point<27, false>);
+        add(g, weight, A, blocks.data());
+      }
+    const unsigned int n = n_dofs();
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int b = mirrored ? a : 0; b < n_nodes; ++b)
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int k = 0; k < dim; ++k)
+            {
+              double value = blocks[((a * dim + i) * dim + k) * n_nodes + b];
+              if (averaged)
+                value += left[dim * a + i] * mean_gradient[dim * b + k] +
+                         mean_gradient[dim * a + i] * right[dim * b + k] +
+                         second * mean_gradient[dim * a + i] * mean_gradient[dim * b + k];
+              matrix[(dim * a + i) * n + dim * b + k] = value;
+              if (mirrored)
+                matrix[(dim * b + k) * n + dim * a + i] = value;
+            }
+    return matrix;
+  }
+} // namespace Touchstone

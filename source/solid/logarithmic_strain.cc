@@ -1,0 +1,159 @@
+#include <touchstone/solid/logarithmic_strain.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** [ln b - ln a] / 2 over b - a, accurate for neighbours, too. */
+    double
+    first_difference(const double a, const double b)
+    {
+      const double x = (b - a) / a;
+      return x == 0. ? 0.5 / a : 0.5 * std::log1p(x) / (x * a);
+    }
+
+    double
+    second_difference(double a, double b, double c)
+    {
+      // The difference of two first ones would cancel between neighbours: there, the
+      // Taylor series about the mean m. Its first omitted term is less than 1e-12 of the
+      // whole.
+      if (a > b)
+        std::swap(a, b);
+      if (b > c)
+        std::swap(b, c);
+      if (a > b)
+        std::swap(a, b);
+      const double m = (a + b + c) / 3.;
+      if (c - a > 2e-3 * m)
+        return (first_difference(b, c) - first_difference(a, b)) / (c - a);
+      const double x = (a - m) / m, y = (b - m) / m, z = (c - m) / m;
+      return (-0.25 - (x * x + y * y + z * z) / 16. + x * y * z / 10.) / (m * m);
+    }
+
+    SymmetricTensor<2, dim>
+    assemble(const std::array<double, dim> &value, const Tensor<2, dim> &frame)
+    {
+      SymmetricTensor<2, dim> result;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          for (unsigned int a = 0; a < dim; ++a)
+            result[i][j] += value[a] * frame[i][a] * frame[j][a];
+      return result;
+    }
+
+    void
+    decompose(const SymmetricTensor<2, dim> &tensor,
+              std::array<double, dim>       &value,
+              Tensor<2, dim>                &frame)
+    {
+      const auto pairs = eigenvectors(tensor, SymmetricTensorEigenvectorMethod::jacobi);
+      for (unsigned int a = 0; a < dim; ++a)
+        {
+          value[a] = pairs[a].first;
+          for (unsigned int i = 0; i < dim; ++i)
+            frame[i][a] = pairs[a].second[i];
+        }
+    }
+  } // namespace
+
+
+
+  LogarithmicStrain::LogarithmicStrain(const SymmetricTensor<2, dim> &C)
+  {
+    decompose(C, value, frame);
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = 0; b < dim; ++b)
+        {
+          first[a][b] = first_difference(value[a], value[b]);
+          for (unsigned int c = 0; c < dim; ++c)
+            second[a][b][c] = second_difference(value[a], value[b], value[c]);
+        }
+  }
+
+
+
+  SymmetricTensor<2, dim>
+  LogarithmicStrain::strain() const
+  {
+    // Elastic strains of metals are small: ln(1 + x) keeps their digits.
+    std::array<double, dim> logarithm;
+    for (unsigned int a = 0; a < dim; ++a)
+      logarithm[a] = 0.5 * std::log1p(value[a] - 1.);
+    return assemble(logarithm, frame);
+  }
+
+
+
+  SymmetricTensor<2, dim>
+  LogarithmicStrain::inverse_stretch() const
+  {
+    std::array<double, dim> stretch;
+    for (unsigned int a = 0; a < dim; ++a)
+      stretch[a] = 1. / std::sqrt(value[a]);
+    return assemble(stretch, frame);
+  }
+
+
+
+  Tensor<2, dim>
+  LogarithmicStrain::to_frame(const SymmetricTensor<2, dim> &H) const
+  {
+    return transpose(frame) * (Tensor<2, dim>(H) * frame);
+  }
+
+
+
+  SymmetricTensor<2, dim>
+  LogarithmicStrain::from_frame(const Tensor<2, dim> &H) const
+  {
+    return symmetrize(frame * H * transpose(frame));
+  }
+
+
+
+  SymmetricTensor<2, dim>
+  LogarithmicStrain::derivative(const SymmetricTensor<2, dim> &H) const
+  {
+    Tensor<2, dim> turned = to_frame(H);
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = 0; b < dim; ++b)
+        turned[a][b] *= first[a][b];
+    return from_frame(turned);
+  }
+
+
+
+  SymmetricTensor<2, dim>
+  LogarithmicStrain::curvature(const SymmetricTensor<2, dim> &T,
+                               const SymmetricTensor<2, dim> &H) const
+  {
+    // T : D2E(H, G) = sum_abc e[a,b,c] T_ab (H_ac G_cb + G_ac H_cb): the coefficients of
+    // G_cb and G_ac are each other's transposes.
+    const Tensor<2, dim> t = to_frame(T), h = to_frame(H);
+    Tensor<2, dim>       result;
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = 0; b < dim; ++b)
+        for (unsigned int c = 0; c < dim; ++c)
+          result[c][b] += second[a][b][c] * t[a][b] * h[a][c];
+    return from_frame(result + transpose(result));
+  }
+
+
+
+  SymmetricTensor<2, dim>
+  exponential(const SymmetricTensor<2, dim> &E)
+  {
+    std::array<double, dim> value;
+    Tensor<2, dim>          frame;
+    decompose(E, value, frame);
+    for (double &x : value)
+      x = std::exp(x);
+    return assemble(value, frame);
+  }
+} // namespace Touchstone

@@ -1,0 +1,241 @@
+#include <touchstone/solid/finite_strain_kernel.h>
+#include <touchstone/solid/nonlinear_cells.h>
+#include <touchstone/solid/small_strain_kernel.h>
+
+#include <deal.II/fe/fe_q.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  NonlinearCells::NonlinearCells(const Scene           &scene,
+                                 const FESystem<dim>   &fe,
+                                 const MappingQ<dim>   &mapping,
+                                 const DoFHandler<dim> &dof_handler,
+                                 const Matrix          &stiffness)
+    : n_nodes(fe.n_dofs_per_cell() / dim)
+    , kernels(scene.bodies.size())
+    , displacement(fe.n_dofs_per_cell())
+  {
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      if (const BodyParameters &body = scene.bodies[b]; !body.material.linear())
+        {
+          if (body.material.finite_strain())
+            kernels[b] =
+              std::make_unique<FiniteStrainKernel>(fe.degree, body.element(), body.material);
+          else
+            kernels[b] =
+              std::make_unique<SmallStrainKernel>(fe.degree, body.element(), body.material);
+          any_body      = true;
+          any_history   = any_history || kernels[b]->n_state() > 0;
+          all_symmetric = all_symmetric && kernels[b]->material()->symmetric();
+        }
+    if (!any_body)
+      return;
+
+    const Epetra_Map             &row_map = stiffness.trilinos_matrix().RowMap();
+    const Epetra_Map             &col_map = stiffness.trilinos_matrix().ColMap();
+    std::vector<Index>            cell_dofs(fe.n_dofs_per_cell());
+    const std::vector<Point<dim>> unit_points = FE_Q<dim>(fe.degree).get_unit_support_points();
+    std::vector<char>             known(row_map.NumMyElements());
+    size.assign(row_map.NumMyElements(), 0.);
+    number.assign(dof_handler.get_triangulation().n_active_cells(), -1);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial() && kernels[cell->material_id()])
+        {
+          cell->get_dof_indices(cell_dofs);
+          bool any = false;
+          for (const Index dof : cell_dofs)
+            any = any || row_map.LID(static_cast<int>(dof)) >= 0;
+          if (!any && !cell->is_locally_owned())
+            continue;
+          number[cell->active_cell_index()] = cells.size();
+          const CellKernel &kernel          = *kernels[cell->material_id()];
+          cells.push_back({cell->material_id(),
+                           cell->is_locally_owned(),
+                           cell->active_cell_index(),
+                           committed.size()});
+          committed.resize(committed.size() + kernel.n_state());
+          kernel.start(committed.data() + cells.back().state);
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            {
+              const Index first = cell_dofs[fe.component_to_system_index(0, a)];
+              const int   row   = row_map.LID(static_cast<int>(first));
+              dofs.push_back(first);
+              rows.push_back(row);
+              for (unsigned int d = 0; d < dim; ++d)
+                columns.push_back(col_map.LID(static_cast<int>(first + d)));
+              const Point<dim> x = mapping.transform_unit_to_real_cell(cell, unit_points[a]);
+              positions.insert(positions.end(), {x[0], x[1], x[2]});
+              if (row < 0)
+                continue;
+              if (!known[row])
+                node_rows.push_back(row);
+              known[row] = 1;
+              if (kernel.finite_strain())
+                for (unsigned int d = 0; d < dim; ++d)
+                  size[row + d] = std::max(size[row + d], cell->diameter() / fe.degree);
+            }
+        }
+    present = committed;
+  }
+
+
+
+  CellKernel &
+  NonlinearCells::go_to(const std::size_t c, const Vector &u, double &determinant)
+  {
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        displacement[dim * a + d] = u(dofs[c * n_nodes + a] + d);
+    CellKernel &kernel = *kernels[cells[c].body];
+    determinant        = kernel.reinit(&positions[c * dim * n_nodes],
+                                displacement.data(),
+                                committed.data() + cells[c].state);
+    return kernel;
+  }
+
+
+
+  bool
+  NonlinearCells::assemble(const Vector &u, const bool symmetric_part, RowWriter &writer)
+  {
+    for (const int row : node_rows)
+      writer.clear_node(row);
+    double determinant;
+    bool   solved = true;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        CellKernel &kernel = go_to(c, u, determinant);
+        writer.add(n_nodes,
+                   &rows[c * n_nodes],
+                   &columns[c * dim * n_nodes],
+                   kernel.stiffness(symmetric_part).data());
+        solved = solved && kernel.solved();
+      }
+    return solved;
+  }
+
+
+
+  bool
+  NonlinearCells::internal_force(const Vector &u, Vector &force)
+  {
+    double *values = force.begin();
+    for (const int row : node_rows)
+      std::fill(values + row, values + row + dim, 0.);
+    double determinant;
+    bool   solved = true;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      {
+        CellKernel                &kernel = go_to(c, u, determinant);
+        const std::vector<double> &forces = kernel.force();
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          if (const int row = rows[c * n_nodes + a]; row >= 0)
+            for (unsigned int d = 0; d < dim; ++d)
+              values[row + d] += forces[dim * a + d];
+        std::copy(kernel.present().begin(),
+                  kernel.present().end(),
+                  present.begin() + cells[c].state);
+        solved = solved && kernel.solved();
+      }
+    return solved;
+  }
+
+
+
+  double
+  NonlinearCells::elastic_energy(const Vector &u)
+  {
+    double sum = 0., determinant;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (cells[c].owned)
+        sum += go_to(c, u, determinant).elastic_energy();
+    return sum;
+  }
+
+
+
+  double
+  NonlinearCells::smallest_determinant(const Vector &u)
+  {
+    double smallest = std::numeric_limits<double>::max(), determinant;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (cells[c].owned && kernels[cells[c].body]->can_invert())
+        {
+          go_to(c, u, determinant);
+          smallest = std::min(smallest, determinant);
+        }
+    return smallest;
+  }
+
+
+
+  CellKernel *
+  NonlinearCells::at(const unsigned int cell, const Vector &u)
+  {
+    if (empty() || number[cell] < 0)
+      return nullptr;
+    double determinant;
+    return &go_to(number[cell], u, determinant);
+  }
+
+
+
+  std::vector<double>
+  NonlinearCells::state(const unsigned int cell) const
+  {
+    if (empty() || number[cell] < 0)
+      return {};
+    const Cell &data  = cells[number[cell]];
+    const auto  begin = committed.begin() + data.state;
+    return std::vector<double>(begin, begin + kernels[data.body]->n_state());
+  }
+
+
+
+  void
+  NonlinearCells::set_state(const unsigned int cell, const std::vector<double> &values)
+  {
+    const bool         known = !empty() && number[cell] >= 0;
+    const unsigned int n     = known ? kernels[cells[number[cell]].body]->n_state() : 0;
+    AssertThrow(values.size() == n || !known, ExcDimensionMismatch(values.size(), n));
+    if (!known)
+      return;
+    const std::size_t begin = cells[number[cell]].state;
+    std::copy(values.begin(), values.end(), committed.begin() + begin);
+    std::copy(values.begin(), values.end(), present.begin() + begin);
+  }
+
+
+
+  std::shared_ptr<const MaterialLaw>
+  NonlinearCells::law(const unsigned int body) const
+  {
+    return kernels[body] && kernels[body]->n_state() > 0 ? kernels[body]->material() : nullptr;
+  }
+
+
+
+  void
+  NonlinearCells::for_each_state(
+    const std::function<void(unsigned int, unsigned int, double, const double *)> &visit)
+  {
+    std::fill(displacement.begin(), displacement.end(), 0.);
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (cells[c].owned && law(cells[c].body))
+        {
+          CellKernel        &kernel  = *kernels[cells[c].body];
+          const unsigned int n_state = kernel.material()->n_state();
+          kernel.reinit(&positions[c * dim * n_nodes], displacement.data());
+          for (unsigned int q = 0; q < kernel.n_quadrature_points(); ++q)
+            visit(cells[c].body,
+                  cells[c].number,
+                  kernel.weight(q),
+                  present.data() + cells[c].state + q * n_state);
+        }
+  }
+} // namespace Touchstone

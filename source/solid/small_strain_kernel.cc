@@ -1,0 +1,119 @@
+#include <touchstone/solid/small_strain_kernel.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  SmallStrainKernel::SmallStrainKernel(const unsigned int        degree,
+                                       const ElementType         type,
+                                       const MaterialParameters &material)
+    : CellKernel(degree,
+                 SmallStrainRegistry::make(material.law, material),
+                 type == ElementType::b_bar)
+  {
+    Assert(type == ElementType::b_bar || type == ElementType::full, ExcNotImplemented());
+  }
+
+
+
+  double
+  SmallStrainKernel::deform()
+  {
+    mean_dilatation = 0.;
+    if (averaged)
+      for (const PointData &point : points)
+        mean_dilatation += point.weight / cell_volume * trace(point.gradient);
+    return 1.;
+  }
+
+
+
+  Tensor<2, dim>
+  SmallStrainKernel::deformation(const unsigned int q) const
+  {
+    Tensor<2, dim> gradient = points[q].gradient;
+    if (averaged)
+      {
+        const double change = (mean_dilatation - trace(gradient)) / dim;
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient[d][d] += change;
+      }
+    return gradient;
+  }
+
+
+
+  void
+  SmallStrainKernel::set_mean_gradient()
+  {
+    std::fill(mean_gradient.begin(), mean_gradient.end(), 0.);
+    for (unsigned int q = 0; q < n_points; ++q)
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          mean_gradient[dim * a + i] +=
+            points[q].weight / cell_volume * shape_gradient(q)[i * n_nodes + a];
+  }
+
+
+
+  Tensor<2, dim>
+  SmallStrainKernel::point_stress(const unsigned int q, double &pressure) const
+  {
+    Tensor<2, dim> stress = points[q].response.stress;
+    if (averaged)
+      {
+        const double third = trace(stress) / dim;
+        pressure += points[q].weight * third;
+        for (unsigned int d = 0; d < dim; ++d)
+          stress[d][d] -= third;
+      }
+    return stress;
+  }
+
+
+
+  CellKernel::MeanTerms
+  SmallStrainKernel::modify_tangent(const unsigned int, const double, Tensor<4, dim> &A) const
+  {
+    // The strain is dev(grad u) + t I / 3: with S = A : I / 3 and T = I : A / 3 the
+    // second derivatives are, by grad u twice, A - S x I - I x T + s I x I, mixed
+    // S - s I and T - s I, and by t twice s = I : A : I / 9.
+    MeanTerms terms;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            terms.left[i][j] += A[i][j][k][k] / dim;
+            terms.right[i][j] += A[k][k][i][j] / dim;
+          }
+    terms.second = trace(terms.left) / dim;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        for (unsigned int k = 0; k < dim; ++k)
+          {
+            A[i][j][k][k] -= terms.left[i][j];
+            A[k][k][i][j] -= terms.right[i][j];
+          }
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int k = 0; k < dim; ++k)
+        A[i][i][k][k] += terms.second;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        terms.left[d][d] -= terms.second;
+        terms.right[d][d] -= terms.second;
+      }
+    return terms;
+  }
+
+
+
+  SymmetricTensor<2, dim>
+  SmallStrainKernel::stress(const unsigned int q)
+  {
+    if (!has_stress)
+      respond(Demand::stress);
+    return symmetrize(points[q].response.stress);
+  }
+} // namespace Touchstone

@@ -1,0 +1,248 @@
+#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/logarithmic_strain.h>
+#include <touchstone/solid/material_law.h>
+#include <touchstone/solid/von_mises.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_independent = SymmetricTensor<2, dim>::n_independent_components;
+
+    SymmetricTensor<2, dim>
+    read(const double *values)
+    {
+      SymmetricTensor<2, dim> result;
+      for (unsigned int c = 0; c < n_independent; ++c)
+        result.access_raw_entry(c) = values[c];
+      return result;
+    }
+
+    void
+    write(const SymmetricTensor<2, dim> &tensor, double *values)
+    {
+      for (unsigned int c = 0; c < n_independent; ++c)
+        values[c] = tensor.access_raw_entry(c);
+    }
+
+    /** Plastic strain and work, the numbers of the law, and the back stress if there is
+     * one. */
+    constexpr unsigned int own = MaterialLaw::plastic_work + 1;
+
+    /** Copy energies and the scalar history. */
+    void
+    keep(const ReturnMapping &point,
+         const double        *committed,
+         MaterialResponse    &response,
+         double              *present)
+    {
+      response.solved                      = point.solved;
+      response.energy                      = point.elastic_energy + point.plastic_work;
+      response.elastic_energy              = point.elastic_energy;
+      present[MaterialLaw::plastic_strain] = point.plastic_strain;
+      present[MaterialLaw::plastic_work] =
+        committed[MaterialLaw::plastic_work] + point.plastic_work;
+    }
+
+
+
+    /** State: plastic strain tensor. */
+    class SmallStrainVonMises : public SmallStrainLaw
+    {
+    public:
+      explicit SmallStrainVonMises(const MaterialParameters &material)
+        : von_mises(material)
+      {
+      }
+
+      unsigned int
+      n_state() const override
+      {
+        return own + n_independent * (von_mises.kinematic() ? 2 : 1);
+      }
+
+      void
+      start(double *state) const override
+      {
+        std::fill(state, state + n_state(), 0.);
+      }
+
+      bool
+      symmetric() const override
+      {
+        return von_mises.symmetric();
+      }
+
+      void
+      respond(const Tensor<2, dim> &deformation,
+              const double         *committed,
+              const Demand          demand,
+              MaterialResponse     &response,
+              double               *present) const override
+      {
+        const SymmetricTensor<2, dim> strain  = symmetrize(deformation);
+        const SymmetricTensor<2, dim> plastic = read(committed + own);
+        SymmetricTensor<2, dim>       back_stress;
+        if (von_mises.kinematic())
+          back_stress = read(committed + own + n_independent);
+        const ReturnMapping point = von_mises.respond(strain - plastic,
+                                                      committed[plastic_strain],
+                                                      back_stress,
+                                                      demand == Demand::tangent);
+        keep(point, committed, response, present);
+        write(plastic + point.plastic_increment, present + own);
+        if (von_mises.kinematic())
+          write(point.back_stress, present + own + n_independent);
+        response.stress = point.stress;
+        if (demand == Demand::tangent)
+          response.tangent = Tensor<4, dim>(point.tangent);
+      }
+
+    private:
+      const VonMises von_mises;
+    };
+
+
+
+    /**
+     * @brief Multiplicative plasticity F = F_e F_p in logarithmic elastic strain.
+     *
+     * State: the inverse of F_p, det F_p = 1. With the trial elastic deformation
+     * F_e = F F_p^{-1} (F_p of the last step) and E = 1/2 ln F_e^T F_e the step is the
+     * return mapping of small strain with E for the trial strain, and F_p follows by the
+     * exponential map: without kinematic hardening this is the algorithm in principal
+     * strains of Simo (1992), Comput. Methods Appl. Mech. Engng 99; de Souza Neto, Peric
+     * and Owen (2008), chapter 14. The back stress lives in the intermediate configuration,
+     * as in Eterovic and Bathe (1990), Int. J. Numer. Meth. Engng 30, so the law is
+     * objective; that the plastic spin vanishes and elastic strains are small is their
+     * assumption for kinematic hardening.
+     *
+     * The stress is the derivative of the energy of the step by F, T : dE/dF with T the
+     * stress conjugate to E, so the tangent is symmetric wherever the return mapping is.
+     */
+    class FiniteStrainVonMises : public FiniteStrainLaw
+    {
+    public:
+      explicit FiniteStrainVonMises(const MaterialParameters &material)
+        : von_mises(material)
+      {
+      }
+
+      unsigned int
+      n_state() const override
+      {
+        return own + dim * dim + (von_mises.kinematic() ? n_independent : 0);
+      }
+
+      void
+      start(double *state) const override
+      {
+        std::fill(state, state + n_state(), 0.);
+        for (unsigned int d = 0; d < dim; ++d)
+          state[own + dim * d + d] = 1.;
+      }
+
+      void
+      restore(double *state) const override
+      {
+        Tensor<2, dim> inverse = plastic_inverse(state);
+        inverse /= std::cbrt(determinant(inverse));
+        write_inverse(inverse, state);
+      }
+
+      bool
+      symmetric() const override
+      {
+        return von_mises.symmetric();
+      }
+
+      void
+      respond(const Tensor<2, dim> &F,
+              const double         *committed,
+              const Demand          demand,
+              MaterialResponse     &response,
+              double               *present) const override
+      {
+        const Tensor<2, dim>    inverse = plastic_inverse(committed);
+        const Tensor<2, dim>    F_e     = F * inverse;
+        const LogarithmicStrain logarithm(symmetrize(transpose(F_e) * F_e));
+        SymmetricTensor<2, dim> back_stress;
+        if (von_mises.kinematic())
+          back_stress = read(committed + own + dim * dim);
+        const ReturnMapping point = von_mises.respond(logarithm.strain(),
+                                                      committed[plastic_strain],
+                                                      back_stress,
+                                                      demand == Demand::tangent);
+        keep(point, committed, response, present);
+        // F_e at the end is R exp(E_e) with the rotation R of the trial, so that the elastic
+        // strain, evaluated anew after the step, is that of the return mapping. Where both
+        // strains are coaxial this is the exponential map, exp(dE_p) F_p.
+        if (point.increment > 0.)
+          write_inverse(inverse * Tensor<2, dim>(logarithm.inverse_stretch()) *
+                          Tensor<2, dim>(exponential(point.elastic_strain)),
+                        present);
+        else
+          write_inverse(inverse, present);
+        if (von_mises.kinematic())
+          write(point.back_stress, present + own + dim * dim);
+        if (demand == Demand::energy)
+          return;
+
+        // P_e = F_e S with S = 2 DE T, and P = P_e F_p^{-T}.
+        const Tensor<2, dim> S(2. * logarithm.derivative(point.stress));
+        const Tensor<2, dim> transposed = transpose(inverse);
+        response.stress                 = F_e * S * transposed;
+        if (demand == Demand::stress)
+          return;
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int l = 0; l < dim; ++l)
+            {
+              Tensor<2, dim> dF;
+              dF[k]                                = inverse[l];
+              const SymmetricTensor<2, dim> dC     = 2. * symmetrize(transpose(F_e) * dF);
+              const SymmetricTensor<2, dim> change = point.tangent * logarithm.derivative(dC);
+              const SymmetricTensor<2, dim> dS =
+                2. * (logarithm.derivative(change) + logarithm.curvature(point.stress, dC));
+              const Tensor<2, dim> dP = (dF * S + F_e * Tensor<2, dim>(dS)) * transposed;
+              for (unsigned int i = 0; i < dim; ++i)
+                for (unsigned int j = 0; j < dim; ++j)
+                  response.tangent[i][j][k][l] = dP[i][j];
+            }
+      }
+
+    private:
+      const VonMises von_mises;
+
+      static Tensor<2, dim>
+      plastic_inverse(const double *state)
+      {
+        Tensor<2, dim> result;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            result[i][j] = state[own + dim * i + j];
+        return result;
+      }
+
+      static void
+      write_inverse(const Tensor<2, dim> &inverse, double *state)
+      {
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            state[own + dim * i + j] = inverse[i][j];
+      }
+    };
+
+    const SmallStrainRegistry::Entry<SmallStrainVonMises>
+      small("small-strain von Mises",
+            "elastoplastic for small strain and small rotations, J2 flow with hardening.");
+    const FiniteStrainRegistry::Entry<FiniteStrainVonMises>
+      finite("finite-strain von Mises",
+             "elastoplastic for large strain, multiplicative, J2 flow with hardening in "
+             "logarithmic elastic strain.");
+  } // namespace
+} // namespace Touchstone
