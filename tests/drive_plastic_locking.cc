@@ -66,6 +66,5 @@ main(int argc, char **argv)
                 << std::setprecision(3) << best / (2. * 0.25) / (2. * 2. / std::sqrt(3.))
                 << ", automatic of degree 1 " << (std::abs(bar) < 0.02 ? "agrees" : "DIFFERS")
                 << ", full of degree 1 " << (full > 0.05 ? "locks" : "DOES NOT LOCK") << std::endl;
-      std::cerr << bar << ' ' << full << std::endl;
     }
 }

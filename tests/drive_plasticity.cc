@@ -47,8 +47,8 @@ namespace
     Steps(const std::vector<std::string> &overrides, const bool fail)
       : Run(blocks, overrides, MPI_COMM_WORLD)
     {
-      constexpr double size = 0.25;
-      for (unsigned int step = 0; step < 5; ++step)
+      constexpr double size = 0.125;
+      for (unsigned int step = 0; step < 10; ++step)
         {
           if (fail)
             {

@@ -12,8 +12,8 @@ namespace Touchstone
     /** Yield is exceeded if it is by more than this part of the yield stress: the state at
      * the end of a step lies on the yield surface but for round-off. */
     constexpr double yield_tolerance = 1e-10;
-    /** The scalar equation is solved to this part of the yield stress. */
-    constexpr double root_tolerance = 1e-13;
+    /** The scalar equation is solved to this part of its terms: round-off. */
+    constexpr double root_tolerance = 2e-16;
     const double     root_3_2       = std::sqrt(1.5);
   } // namespace
 
@@ -55,14 +55,13 @@ namespace Touchstone
           slope += root_3_2 * recovery * theta * theta * (relative * back_stress) / norm;
         if (!std::isfinite(g) || !std::isfinite(slope))
           return false;
-        // The terms of g are known to some digits of the largest only.
         if (std::abs(g) <= root_tolerance * (yield.value + root_3_2 * trial_stress.norm()))
           return true;
         (g > 0. ? low : high) = increment;
         double next           = slope < 0. ? increment - g / slope : high;
         if (!(next > low && next < high))
           next = 0.5 * (low + high);
-        if (next == increment)
+        if (next == low || next == high || std::abs(next - increment) <= 1e-16 * increment)
           return true; // to the last digit
         increment = next;
       }
