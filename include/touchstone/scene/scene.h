@@ -34,6 +34,7 @@ namespace Touchstone
     NewtonParameters                   newton;
     LinearSolverParameters             linear_solver;
     OutputParameters                   output;
+    CheckpointParameters               checkpoints;
     ReferenceParameters                reference;
 
     /**
@@ -56,6 +57,10 @@ namespace Touchstone
      * that can be read back. */
     void
     print(std::ostream &out) const;
+
+    /** @brief The same without documentation, a text to be kept and compared. */
+    std::string
+    complete_entries() const;
 
     /** @brief Number of the body called @p name. */
     unsigned int
