@@ -27,10 +27,10 @@ namespace
     return ArchiveReader([&pieces](const unsigned int i) { return pieces[i]; }, pieces.size());
   }
 
-  Vector
+  Touchstone::Vector
   positions(const Solid &solid)
   {
-    Vector result(solid.owned, solid.communicator);
+    Touchstone::Vector result(solid.owned, solid.communicator);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
     return result;
   }
@@ -67,8 +67,8 @@ namespace
     Solid  solid(scene, forest, MPI_COMM_WORLD);
     if (refined)
       refine(forest, solid);
-    const Vector  x = positions(solid);
-    ArchiveWriter writer(solid);
+    const Touchstone::Vector x = positions(solid);
+    ArchiveWriter            writer(solid);
     writer.put("number", 0.1);
     writer.put_field("positions", x);
     std::vector<std::vector<double>> values(forest.triangulation.n_active_cells());
@@ -88,7 +88,7 @@ namespace
     other_forest.refine(archive.refined_cells(other_forest.first_level()));
     Solid other_solid(other, other_forest, MPI_COMM_WORLD);
     archive.connect(other_solid);
-    Vector difference = positions(other_solid);
+    Touchstone::Vector difference = positions(other_solid);
     difference -= archive.field("positions");
     bool         same = archive.get<double>("number") == 0.1;
     unsigned int n    = 0;
@@ -124,8 +124,8 @@ namespace
   std::vector<double>
   figures(const Run &run)
   {
-    const Vector       &u      = run.problem.displacement();
-    std::vector<double> result = {u.l2_norm(), run.problem.strain_energy()};
+    const Touchstone::Vector &u      = run.problem.displacement();
+    std::vector<double>       result = {u.l2_norm(), run.problem.strain_energy()};
     for (const PairResult &pair :
          run.problem.contact_state().results(run.problem.ghosted_displacement()))
       result.insert(result.end(),

@@ -34,8 +34,8 @@ namespace Touchstone
     NewtonParameters                   newton;
     LinearSolverParameters             linear_solver;
     OutputParameters                   output;
-    CheckpointParameters               checkpoints;
     ReferenceParameters                reference;
+    CheckpointParameters               checkpoints;
 
     /**
      * @brief Read a scene file and the overrides of the command line.
