@@ -54,7 +54,8 @@ namespace
         return 0;
       }
 
-    Simulation simulation(scene, folder, line.results_only ? nullptr : &std::cout, communicator);
+    Simulation simulation(
+      scene, folder, line.results_only ? nullptr : &std::cout, communicator, line.resume);
     const RunSummary summary = simulation.run();
     if (first)
       {

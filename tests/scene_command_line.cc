@@ -25,7 +25,8 @@ namespace
         std::cout << "scene '" << line.scene_file << "'" << (line.help ? ", help" : "")
                   << (line.version ? ", version" : "") << (line.validate ? ", validate" : "")
                   << (line.print_parameters ? ", print parameters" : "")
-                  << (line.results_only ? ", results only" : "");
+                  << (line.results_only ? ", results only" : "")
+                  << (line.resume ? ", resume" : "");
         if (!line.export_model.empty())
           std::cout << ", export model '" << line.export_model << "'";
         for (const std::string &override_text : line.overrides)

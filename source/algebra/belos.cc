@@ -37,6 +37,12 @@ namespace Touchstone
         return true;
       }
 
+      void
+      forget() override
+      {
+        preconditioner.reset();
+      }
+
     private:
       /** The matrix that the multigrid was made from; ML keeps a reference. */
       std::shared_ptr<Epetra_CrsMatrix>                    preconditioned_matrix;

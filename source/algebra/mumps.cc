@@ -32,6 +32,12 @@ namespace Touchstone
         finish();
       }
 
+      void
+      forget() override
+      {
+        finish();
+      }
+
     private:
       /** Numbering of the control parameters as in MUMPS' own manual. */
       int &

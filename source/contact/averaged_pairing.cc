@@ -58,6 +58,18 @@ namespace Touchstone
       void
       differentiate(const Vector &, double, std::vector<ContactRow> &rows) override;
 
+      PairingMemory
+      memory() const override
+      {
+        return {{}, facing.last_touched()};
+      }
+
+      void
+      remember(const PairingMemory &memory) override
+      {
+        facing.remember(memory.of_faces);
+      }
+
       SearchWork
       search_work() const override
       {

@@ -1,3 +1,4 @@
+#include <touchstone/archive/archive.h>
 #include <touchstone/contact/contact.h>
 
 namespace Touchstone
@@ -84,6 +85,241 @@ namespace Touchstone
       }
     if (history)
       committed = rows;
+  }
+
+
+
+  namespace
+  {
+    /**
+     * What a row has to know when a step begins, the one list of it. What is not here is
+     * made by the constructor, or by each update before it is read.
+     */
+    template <class Row, class Visitor>
+    void
+    visit_state(Row &row, Visitor &&visit)
+    {
+      visit(row.status);
+      visit(row.stencil);
+      visit(row.normal);
+      visit(row.gap_vector);
+      visit(row.gap);
+      visit(row.area);
+      visit(row.position);
+      visit(row.accepted);
+      visit(row.refused);
+      visit(row.closes_circle);
+      visit(row.normal_accepted);
+      visit(row.granted_gap);
+      visit(row.augmented_lambda);
+      visit(row.augmented);
+      visit(row.force);
+      visit(row.lambda);
+      visit(row.shift);
+      if (!row.friction)
+        return;
+      auto &f = *row.friction;
+      visit(f.has_anchor);
+      visit(f.anchor);
+      visit(f.anchor_offset);
+      visit(f.anchor_way);
+      visit(f.anchor_gap);
+      visit(f.way_to_touch);
+      visit(f.area);
+      visit(f.stored);
+      visit(f.slip_length);
+      visit(f.work);
+      visit(f.slip);
+      visit(f.frame);
+      visit(f.start);
+      visit(f.hold);
+      visit(f.c);
+      visit(f.base);
+      visit(f.carried);
+      visit(f.direction);
+      visit(f.last_direction);
+      visit(f.slope);
+      visit(f.last_slope);
+      visit(f.rest);
+      visit(f.coupling);
+      visit(f.turn);
+      visit(f.limit);
+      visit(f.excess);
+    }
+
+    /** Whole numbers, flags and states fit into a double. */
+    class Packer
+    {
+    public:
+      explicit Packer(NodeRecord &record)
+        : record(record)
+      {
+      }
+
+      template <class Number>
+      std::enable_if_t<std::is_arithmetic<Number>::value || std::is_enum<Number>::value>
+      operator()(const Number &value)
+      {
+        record.values.push_back(static_cast<double>(value));
+      }
+
+      template <int rank>
+      void
+      operator()(const Tensor<rank, dim> &value)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          (*this)(value[d]);
+      }
+
+      template <class T, std::size_t n>
+      void
+      operator()(const std::array<T, n> &value)
+      {
+        for (const T &entry : value)
+          (*this)(entry);
+      }
+
+      void
+      operator()(const Stencil &stencil)
+      {
+        (*this)(stencil.size());
+        for (const StencilEntry &entry : stencil)
+          {
+            record.nodes.push_back(entry.node);
+            (*this)(entry.weight);
+          }
+      }
+
+    private:
+      NodeRecord &record;
+    };
+
+    class Unpacker
+    {
+    public:
+      explicit Unpacker(const NodeRecord &record)
+        : record(record)
+      {
+      }
+
+      template <class Number>
+      std::enable_if_t<std::is_arithmetic<Number>::value || std::is_enum<Number>::value>
+      operator()(Number &value)
+      {
+        value = static_cast<Number>(
+          static_cast<std::conditional_t<std::is_floating_point<Number>::value, double, long>>(
+            next()));
+      }
+
+      template <int rank>
+      void
+      operator()(Tensor<rank, dim> &value)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          (*this)(value[d]);
+      }
+
+      template <class T, std::size_t n>
+      void
+      operator()(std::array<T, n> &value)
+      {
+        for (T &entry : value)
+          (*this)(entry);
+      }
+
+      void
+      operator()(Stencil &stencil)
+      {
+        stencil.resize(static_cast<std::size_t>(next()));
+        for (StencilEntry &entry : stencil)
+          {
+            entry.node = record.nodes.at(n_nodes++);
+            (*this)(entry.weight);
+          }
+      }
+
+      bool
+      complete() const
+      {
+        return n_values == record.values.size() && n_nodes == record.nodes.size();
+      }
+
+    private:
+      const NodeRecord &record;
+      std::size_t       n_values = 0, n_nodes = 0;
+
+      double
+      next()
+      {
+        if (n_values == record.values.size())
+          throw ArchiveError("the state of a contact row is too short");
+        return record.values[n_values++];
+      }
+    };
+  } // namespace
+
+
+
+  void
+  Contact::save(ArchiveWriter &archive) const
+  {
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        const Pair             &pair   = pairs[p];
+        const PairingMemory     memory = pair.pairing->memory();
+        std::vector<NodeRecord> records;
+        for (std::size_t k = 0; k < committed[p].size(); ++k)
+          {
+            NodeRecord record;
+            record.node = committed[p][k].slave;
+            Packer pack(record);
+            pack(pair.overlap[k]);
+            visit_state(committed[p][k], pack);
+            if (k < memory.of_rows.size() && memory.of_rows[k])
+              record.keys.push_back(*memory.of_rows[k]);
+            records.push_back(std::move(record));
+          }
+        archive.put_nodes(pair.parameters->section(), records);
+        archive.put_keys(pair.parameters->section(),
+                         {memory.of_faces.begin(), memory.of_faces.end()});
+      }
+  }
+
+
+
+  void
+  Contact::load(const ArchiveReader &archive, const Vector &u, const double t)
+  {
+    time    = t;
+    ghosted = u;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      {
+        Pair         &pair    = pairs[p];
+        const auto   &records = archive.nodes(pair.parameters->section());
+        PairingMemory memory;
+        for (std::size_t k = 0; k < rows[p].size(); ++k)
+          {
+            const auto found = records.find(rows[p][k].slave);
+            if (found == records.end())
+              throw ArchiveError("a contact row of the pair '" + pair.parameters->name +
+                                 "' is missing");
+            Unpacker unpack(found->second);
+            unpack(pair.overlap[k]);
+            visit_state(rows[p][k], unpack);
+            if (!unpack.complete())
+              throw ArchiveError("the state of a contact row is too long");
+            memory.of_rows.emplace_back();
+            if (!found->second.keys.empty())
+              memory.of_rows.back() = found->second.keys.front();
+          }
+        const KeyPairs &faces = archive.keys(pair.parameters->section());
+        memory.of_faces.insert(faces.begin(), faces.end());
+        if (pair.small)
+          continue;
+        pair.pairing->commit_positions(ghosted);
+        pair.pairing->remember(memory);
+      }
+    committed = rows;
   }
 
 

@@ -47,6 +47,18 @@ namespace Touchstone
       void
       differentiate(const Vector &, double, std::vector<ContactRow> &rows) override;
 
+      PairingMemory
+      memory() const override
+      {
+        return {present_faces, {}};
+      }
+
+      void
+      remember(const PairingMemory &memory) override
+      {
+        present_faces = memory.of_rows;
+      }
+
       SearchWork
       search_work() const override
       {

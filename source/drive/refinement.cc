@@ -253,7 +253,7 @@ namespace Touchstone
 
 
   std::vector<Vector>
-  Refinement::execute(const std::vector<Vector> &fields)
+  Refinement::carry_over(const std::vector<Vector> &fields, const std::function<void()> &change)
   {
     parallel::distributed::SolutionTransfer<dim, Vector> transfer(solid.dof_handler);
     // Ghosts cannot be assigned to a vector that has none.
@@ -265,7 +265,7 @@ namespace Touchstone
       before.push_back(&field);
     transfer.prepare_for_coarsening_and_refinement(before);
     StateTransfer state_transfer(forest.triangulation, solid);
-    forest.triangulation.execute_coarsening_and_refinement();
+    change();
     solid.reinit();
 
     std::vector<Vector>   result(fields.size(), Vector(solid.owned, solid.communicator));
@@ -276,6 +276,19 @@ namespace Touchstone
     state_transfer.finish();
     for (Vector &field : result)
       solid.hanging.distribute(field);
+    return result;
+  }
+
+
+
+  std::vector<Vector>
+  Refinement::execute(const std::vector<Vector> &fields)
+  {
+    auto &mesh   = forest.triangulation;
+    auto  result = carry_over(fields, [&mesh]() { mesh.execute_coarsening_and_refinement(); });
+    // The weights of cells have been estimated for their children.
+    if (forest.weighted())
+      result = carry_over(result, [this]() { forest.repartition(); });
     return result;
   }
 } // namespace Touchstone

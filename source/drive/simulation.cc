@@ -2,6 +2,7 @@
 #include <touchstone/drive/simulation.h>
 #include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
+#include <touchstone/scene/parameter_changes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -40,14 +41,19 @@ namespace Touchstone
   Simulation::Simulation(const Scene       &scene,
                          const std::string &folder_of_scene,
                          std::ostream      *terminal,
-                         const MPI_Comm     communicator)
+                         const MPI_Comm     communicator,
+                         const bool         resume)
     : scene(scene)
     , communicator(communicator)
+    , origin(find_origin(scene, resume, communicator))
+    , changed_parameters(
+        resume ? compare_parameters(origin.checkpoint->parameters(), scene, origin.checkpoint->time)
+               : std::vector<std::string>())
     // Without a communicator: with one its destructor waits for other ranks and
     // prints when an exception passes.
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , folder(scene.output.directory, communicator)
-    , log(folder, terminal)
+    , log(folder, terminal, resume)
     , forest(scene, folder_of_scene, communicator)
     , solid(scene, forest, communicator)
     , problem(std::make_unique<StepProblem>(scene, forest, solid, timer))
@@ -57,6 +63,7 @@ namespace Touchstone
     , volume_output(solid, folder)
     , contact_output(folder)
     , reference(make_reference(scene))
+    , checkpoints(folder, origin.checkpoint)
   {
     folder.write_file_atomically("parameters.prm", complete_parameters(scene));
     summary.title    = scene.title;
@@ -214,10 +221,10 @@ namespace Touchstone
   {
     const LoadSteppingParameters &parameters = scene.load_stepping;
     const double                  nominal    = parameters.end_time / parameters.steps;
-    double                        time = 0., size = nominal;
+    double                        time = start.time, size = start.size > 0. ? start.size : nominal;
+    unsigned int                  step = start.step, cuts = start.cuts;
     /** What an impact leaves of the next step. */
-    double       part = 1.;
-    unsigned int step = 1, cuts = 0;
+    double part = 1.;
     while (time < parameters.end_time * (1. - 1e-12))
       {
         // The last step ends at the end; no sliver of a step is left over.
@@ -259,6 +266,8 @@ namespace Touchstone
                 size *= 2.;
                 --cuts;
               }
+            if (checkpoint_due({time, size, step, cuts}))
+              write_checkpoint({time, size, step, cuts});
           }
         catch (const NonConvergence &failure)
           {
@@ -271,6 +280,8 @@ namespace Touchstone
                                   std::to_string(next) + ", cut " + std::to_string(cuts) +
                                   " times)";
                 write_pictures(step - 1, time);
+                // With other parameters it may go on, from the size that the user asked for.
+                write_last_checkpoint({time, nominal, step, 0});
                 return;
               }
             ++cuts;
@@ -280,6 +291,7 @@ namespace Touchstone
       }
     if (scene.output.vtu_interval > 0)
       write_pictures(step - 1, time);
+    write_last_checkpoint({time, size, step, cuts});
     summary.converged = true;
   }
 
@@ -288,13 +300,15 @@ namespace Touchstone
   RunSummary
   Simulation::run()
   {
+    if (origin.checkpoint)
+      log.line(); // the last line of a run that died may not have ended
     log.line("Touchstone " + summary.version + ", deal.II " DEAL_II_PACKAGE_VERSION ": " +
              summary.title);
     log.line(std::to_string(summary.cells) + " cells, " + std::to_string(summary.unknowns / dim) +
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
              std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement + ", " +
              scene.linear_solver.type);
-    for (const std::string &line : problem->start())
+    for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
     load_stepping();
     finish_summary();
@@ -339,6 +353,22 @@ namespace Touchstone
 
 
 
+  RunSummary::Seconds
+  Simulation::seconds_so_far()
+  {
+    RunSummary::Seconds result;
+    auto                phases = timer.get_summary_data(TimerOutput::total_wall_time);
+    result.assembly            = earlier_seconds.assembly + phases["assembly"];
+    result.linear_solver       = earlier_seconds.linear_solver + phases["linear solver"];
+    result.search              = earlier_seconds.search + phases["search"];
+    result.output              = earlier_seconds.output + phases["output"];
+    result.wall                = earlier_seconds.wall + wall.wall_time();
+    result.cpu                 = earlier_seconds.cpu + cpu_seconds(communicator);
+    return result;
+  }
+
+
+
   void
   Simulation::finish_summary()
   {
@@ -368,14 +398,8 @@ namespace Touchstone
     summary.counts.preconditioner_setups = counts.preconditioner_setups;
     summary.counts.searches              = problem->n_searches();
 
-    auto seconds                  = timer.get_summary_data(TimerOutput::total_wall_time);
-    summary.seconds.assembly      = seconds["assembly"];
-    summary.seconds.linear_solver = seconds["linear solver"];
-    summary.seconds.search        = seconds["search"];
-    summary.seconds.output        = seconds["output"];
-    summary.seconds.wall          = wall.wall_time();
-    summary.seconds.cpu           = cpu_seconds(communicator);
-    summary.peak_memory_mb        = peak_memory_mb(communicator);
+    summary.seconds        = seconds_so_far();
+    summary.peak_memory_mb = peak_memory_mb(communicator);
   }
 
 

@@ -3,6 +3,9 @@
 #include <touchstone/mesh/partition.h>
 #include <touchstone/scene/input_error.h>
 
+#include <deal.II/base/mpi.h>
+#include <deal.II/distributed/tria.h>
+
 namespace Touchstone
 {
   using namespace dealii;
@@ -138,7 +141,38 @@ namespace Touchstone
     if (parameters.partitioner != "p4est")
       return partition_by_graph(
         all, level, contact_work, parameters.partitioner == "METIS", communicator);
+    has_weights = parameters.contact_weight > 0.;
     return partition_by_curve(all, level, contact_work, parameters.contact_weight, communicator);
+  }
+
+
+
+  void
+  Forest::refine(const std::set<CellId::binary_type> &cells)
+  {
+    for (bool any = true; any;)
+      {
+        int marked = 0;
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (cell->is_locally_owned() && cells.count(cell->id().to_binary<dim>()) > 0)
+            {
+              cell->set_refine_flag();
+              marked = 1;
+            }
+        any = Utilities::MPI::max(marked, triangulation.get_communicator()) == 1;
+        if (any)
+          triangulation.execute_coarsening_and_refinement();
+      }
+    if (weighted())
+      repartition();
+  }
+
+
+
+  void
+  Forest::repartition()
+  {
+    dynamic_cast<parallel::distributed::Triangulation<dim> &>(triangulation).repartition();
   }
 
 

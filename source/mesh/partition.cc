@@ -99,8 +99,11 @@ namespace Touchstone
                      const MPI_Comm     communicator)
   {
     using Mesh = parallel::distributed::Triangulation<dim>;
-    auto triangulation =
-      std::make_unique<Mesh>(communicator, Mesh::limit_level_difference_at_vertices);
+    // Cells and unknowns are numbered by the mesh alone, and not by how it came about:
+    // a run that goes on from a checkpoint makes it another way.
+    auto triangulation = std::make_unique<Mesh>(communicator,
+                                                Mesh::limit_level_difference_at_vertices,
+                                                Mesh::mesh_reconstruction_after_repartitioning);
     create_triangulation(mesh, *triangulation);
     triangulation->refine_global(refinements);
     if (contact_weight > 0.)

@@ -14,16 +14,16 @@ namespace Touchstone
 
 
 
-  Log::Log(const OutputFolder &folder, std::ostream *terminal)
+  Log::Log(const OutputFolder &folder, std::ostream *terminal, const bool append)
     : folder(folder)
     , terminal(terminal)
   {
-    folder.together([this]() {
+    folder.together([this, append]() {
       if (this->folder.rank != 0)
         return;
       const std::string path = this->folder.path("log");
       errno                  = 0;
-      file.open(path);
+      file.open(path, append ? std::ios::app : std::ios::trunc);
       if (!file)
         throw OutputError(path, std::strerror(errno), remedy);
     });

@@ -46,6 +46,24 @@ namespace Touchstone
 
     // The list comes last: it only names pictures that exist.
     times_and_names.emplace_back(time, picture);
+    write_list();
+  }
+
+
+
+  void
+  PictureSeries::restore(const List &before)
+  {
+    times_and_names = before;
+    if (!before.empty())
+      write_list();
+  }
+
+
+
+  void
+  PictureSeries::write_list() const
+  {
     std::ostringstream list;
     dealii::DataOutBase::write_pvd_record(list, times_and_names);
     folder.write_file_atomically(name + ".pvd", list.str());

@@ -79,8 +79,9 @@ namespace Touchstone
     const double elapsed = timer.wall_time();
     std::string  text =
       format("  converged in %u iterations, ", newton_iterations) + readable_duration(elapsed);
-    if (time < end_time && time > 0.)
-      text += ", about " + readable_duration(elapsed * (end_time - time) / time) + " left";
+    if (time < end_time && time > start_time)
+      text +=
+        ", about " + readable_duration(elapsed * (end_time - time) / (time - start_time)) + " left";
     log.line(text);
   }
 

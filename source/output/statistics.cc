@@ -36,7 +36,6 @@ namespace Touchstone
   void
   Statistics::add_step(const StepRecord &record)
   {
-    std::ostringstream text;
     if (folder.rank == 0)
       {
         table.add_value("step", record.step);
@@ -65,9 +64,27 @@ namespace Touchstone
             add("momentum", *record.momentum);
             add("angular momentum", *record.angular_momentum);
           }
-
-        table.write_text(text, dealii::TableHandler::table_with_separate_column_description);
       }
+    write();
+  }
+
+
+
+  void
+  Statistics::restore(const dealii::TableHandler &rows)
+  {
+    table = rows;
+    write();
+  }
+
+
+
+  void
+  Statistics::write() const
+  {
+    std::ostringstream text;
+    if (folder.rank == 0)
+      table.write_text(text, dealii::TableHandler::table_with_separate_column_description);
     folder.write_file_atomically("statistics", text.str());
   }
 } // namespace Touchstone

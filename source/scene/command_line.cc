@@ -44,7 +44,8 @@ namespace Touchstone
                                                     {"--version", &line.version},
                                                     {"--validate", &line.validate},
                                                     {"--print-parameters", &line.print_parameters},
-                                                    {"--results-only", &line.results_only}};
+                                                    {"--results-only", &line.results_only},
+                                                    {"--resume", &line.resume}};
 
     for (std::size_t i = 0; i < arguments.size(); ++i)
       {
@@ -83,12 +84,6 @@ namespace Touchstone
             else
               line.overrides.push_back(option == "--set" ? value : "Output/Directory=" + value);
           }
-        else if (option == "--resume")
-          throw InputError(section,
-                           option,
-                           "",
-                           "this version cannot resume a run",
-                           "run the scene from its beginning, without --resume");
         else if (equals == std::string::npos && switches.count(option) > 0)
           *switches.at(option) = true;
         else
@@ -130,6 +125,8 @@ namespace Touchstone
            "  --print-parameters      print the complete scene with all keys, then stop\n"
            "  --set \"Section/Key=value\"  change one key of the scene; can be repeated\n"
            "  --output FOLDER         write there instead of to output/STEM\n"
+           "  --resume                go on from the newest checkpoint in the output folder;\n"
+           "                          section \"Checkpoints\" has them written\n"
            "  --export-model FILE     write mesh, supports, loads and contact surfaces as\n"
            "                          JSON for other programs, then stop\n"
            "  --results-only          print nothing but the results\n"

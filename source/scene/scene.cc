@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <ostream>
 #include <set>
+#include <sstream>
 
 namespace Touchstone
 {
@@ -174,6 +175,7 @@ namespace Touchstone
     declare_in("Newton", newton);
     declare_in("Linear solver", linear_solver);
     declare_in("Output", output);
+    declare_in("Checkpoints", checkpoints);
     declare_in("Reference solution", reference);
   }
 
@@ -213,6 +215,18 @@ namespace Touchstone
     prm.print_parameters(out,
                          dealii::ParameterHandler::PRM |
                            dealii::ParameterHandler::KeepDeclarationOrder);
+  }
+
+
+
+  std::string
+  Scene::complete_entries() const
+  {
+    std::ostringstream text;
+    prm.print_parameters(text,
+                         dealii::ParameterHandler::ShortPRM |
+                           dealii::ParameterHandler::KeepDeclarationOrder);
+    return text.str();
   }
 
 

@@ -307,6 +307,23 @@ namespace Touchstone
 
 
   void
+  CheckpointParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Steps between",
+                      steps_between,
+                      "Write a checkpoint, from which --resume goes on, every so many steps and at "
+                      "the end; 0: not by steps.",
+                      Patterns::Integer(0));
+    prm.add_parameter("Minutes between",
+                      minutes_between,
+                      "Write a checkpoint after a step if the last one is this long ago, and at "
+                      "the end; 0: not by time. [minutes]",
+                      Patterns::Double(0.));
+  }
+
+
+
+  void
   ReferenceParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Type",

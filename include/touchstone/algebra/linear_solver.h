@@ -60,6 +60,13 @@ namespace Touchstone
       return false;
     }
 
+    /** @brief Drop what is kept from one solve for the next: what follows must not
+     * depend on what was before, as a checkpoint knows nothing of it. Collective. */
+    virtual void
+    forget()
+    {
+    }
+
     const LinearSolverCounts &
     counts() const
     {

@@ -12,6 +12,8 @@
 
 namespace Touchstone
 {
+  class ArchiveReader;
+  class ArchiveWriter;
   class ConstraintGraph;
 
   /**
@@ -121,6 +123,16 @@ namespace Touchstone
      */
     void
     adopt(const std::vector<Vector> &fields, bool history);
+
+    /** @brief Put the committed state into a checkpoint. Collective. */
+    void
+    save(ArchiveWriter &archive) const;
+
+    /** @brief Go on from save(), with the committed displacement @p u (owned unknowns) at
+     * time @p t. The rows have been made by an update() in the reference state.
+     * Collective. @throws ArchiveError */
+    void
+    load(const ArchiveReader &archive, const Vector &u, double t);
 
     /** @brief Boundaries of the slave and of the master surface of each pair, by
      * body; empty for an obstacle. */

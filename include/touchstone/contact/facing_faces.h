@@ -44,10 +44,26 @@ namespace Touchstone
     void
     commit(const std::vector<const Face *> &faces);
 
+    /** By the keys of slave faces, those of the master faces that they touched. */
+    using Touched = std::unordered_map<std::uint64_t, std::uint64_t>;
+
+    /** @brief What commit() has found. */
+    const Touched &
+    last_touched() const
+    {
+      return touched;
+    }
+
+    /** @brief Let this be what commit() has found. */
+    void
+    remember(const Touched &found)
+    {
+      touched = found;
+    }
+
   private:
     const Search &search;
-    /** Key of a master face that the slave face with the given key touched. */
-    std::unordered_map<std::uint64_t, std::uint64_t> touched;
+    Touched       touched;
 
     /** Master faces where @p slave has gone in since the start of the step; the last
      * one, if @p last_touched, is that which it touched then. */

@@ -7,7 +7,10 @@
 #include <touchstone/registry.h>
 #include <touchstone/scene/contact_parameters.h>
 
+#include <cstdint>
 #include <functional>
+#include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace Touchstone
@@ -21,6 +24,15 @@ namespace Touchstone
     const Surface               *slave;
     /** Null for an obstacle. */
     const Surface *master;
+  };
+
+  /** @brief What a pairing knows of earlier steps besides positions, in keys of faces. */
+  struct PairingMemory
+  {
+    /** The master face of each row, in the order of the rows; or nothing at all. */
+    std::vector<std::optional<std::uint64_t>> of_rows;
+    /** Slave faces of this rank, each with a master face. */
+    std::unordered_map<std::uint64_t, std::uint64_t> of_faces;
   };
 
   /**
@@ -67,6 +79,21 @@ namespace Touchstone
      */
     virtual void
     commit_positions(const Vector & /*u*/)
+    {
+    }
+
+    /** @brief What it knows of earlier steps, for checkpoints; nothing if each update
+     * begins anew from positions alone. */
+    virtual PairingMemory
+    memory() const
+    {
+      return {};
+    }
+
+    /** @brief Go on with a memory(); comes after commit_positions(). Faces that this rank
+     * does not have may be among it. */
+    virtual void
+    remember(const PairingMemory &)
     {
     }
 

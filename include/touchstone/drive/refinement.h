@@ -7,6 +7,7 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/lac/vector.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -60,6 +61,9 @@ namespace Touchstone
      * the pressure over their slave faces. */
     Values errors, variation;
 
+    /** Change the mesh, and take fields along. */
+    std::vector<Vector>
+    carry_over(const std::vector<Vector> &fields, const std::function<void()> &change);
     /** @param fields Of Contact::fields(). */
     Values
     pressure_variation(const std::vector<Vector>                  &fields,

@@ -1,6 +1,7 @@
 #ifndef touchstone_drive_simulation_h
 #define touchstone_drive_simulation_h
 
+#include <touchstone/archive/checkpoints.h>
 #include <touchstone/drive/refinement.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/output/contact_output.h>
@@ -25,12 +26,14 @@ namespace Touchstone
     /**
      * @param folder_of_scene For mesh files with relative names.
      * @param terminal        Where progress is shown; null shows none.
+     * @param resume          Go on from the newest checkpoint in the output folder.
      * @throws InputError, OutputError
      */
     Simulation(const Scene       &scene,
                const std::string &folder_of_scene,
                std::ostream      *terminal,
-               MPI_Comm           communicator);
+               MPI_Comm           communicator,
+               bool               resume = false);
 
     /**
      * @brief Run all load steps and write all output.
@@ -51,6 +54,8 @@ namespace Touchstone
   private:
     const Scene                       &scene;
     const MPI_Comm                     communicator;
+    const FoundCheckpoint              origin;
+    const std::vector<std::string>     changed_parameters;
     dealii::Timer                      wall;
     dealii::TimerOutput                timer;
     OutputFolder                       folder;
@@ -64,11 +69,44 @@ namespace Touchstone
     VolumeOutput                       volume_output;
     ContactOutput                      contact_output;
     std::shared_ptr<ReferenceSolution> reference;
+    Checkpoints                        checkpoints;
     RunSummary                         summary;
     std::vector<std::string>           comparison_lines;
     /** Time of the last step that was kept. */
     double       committed_time = 0.;
     unsigned int last_picture   = dealii::numbers::invalid_unsigned_int;
+
+    /** @name Checkpoints, see source/drive/restart.cc */
+    /** @{ */
+    /** Where load stepping is between two steps: the time, the size and number of the next
+     * step, and how often it has been cut. */
+    struct Position
+    {
+      double       time = 0., size = 0.;
+      unsigned int step = 1, cuts = 0;
+    };
+    dealii::Timer since_checkpoint;
+    unsigned int  last_checkpoint = 0;
+    /** Look for the checkpoint to go on from, if that is asked for.
+     * @throws InputError if there is none. */
+    static FoundCheckpoint
+    find_origin(const Scene &scene, bool resume, MPI_Comm communicator);
+    /** Whether the scene asks for a checkpoint after the step that has ended. */
+    bool
+    checkpoint_due(const Position &position) const;
+    void
+    write_checkpoint(const Position &position);
+    /** After the last step, unless that has been done. */
+    void
+    write_last_checkpoint(const Position &position);
+    /** Restore all that the checkpoint has. @return lines for the log. */
+    std::vector<std::string>
+    resume();
+    /** Where load stepping begins. */
+    Position start;
+    /** Seconds that the run took before. */
+    RunSummary::Seconds earlier_seconds;
+    /** @} */
 
     /** Solve the step to @p time. @return Newton iterations. */
     unsigned int
@@ -87,6 +125,9 @@ namespace Touchstone
     write_pictures(unsigned int step, double time);
     void
     load_stepping();
+    /** Wall clock and processor time of the whole run. Collective. */
+    RunSummary::Seconds
+    seconds_so_far();
     void
     finish_summary();
     /** Counts of work, not seconds, which depend on the machine. */

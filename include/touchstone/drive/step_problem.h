@@ -111,6 +111,20 @@ namespace Touchstone
     void
     adopt(const std::vector<Vector> &fields, double committed_time, double t);
 
+    /** @brief Drop what earlier solutions have left behind to speed up or judge later
+     * ones, and is in no checkpoint: a run that writes one and a run that goes on from it
+     * must take the same way. Collective. */
+    void
+    forget();
+
+    /** @brief Put the committed state and all counts into a checkpoint. Collective. */
+    void
+    save(ArchiveWriter &archive) const;
+
+    /** @brief Go on from save(); comes after start(). Collective. @throws ArchiveError */
+    void
+    load(const ArchiveReader &archive);
+
     /** @brief Count on from what another problem has counted. */
     void
     count_on(const StepProblem &before);

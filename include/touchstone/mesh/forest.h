@@ -6,6 +6,9 @@
 #include <touchstone/types.h>
 
 #include <deal.II/distributed/tria_base.h>
+#include <deal.II/grid/cell_id.h>
+
+#include <set>
 
 namespace Touchstone
 {
@@ -23,6 +26,7 @@ namespace Touchstone
     std::vector<std::map<std::string, dealii::types::boundary_id>>               names;
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
     unsigned int                                                                 level = 0;
+    bool has_weights                                                                   = false;
     /** Which class it is, the partitioner decides. */
     std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>> mesh;
 
@@ -40,6 +44,22 @@ namespace Touchstone
     {
       return level;
     }
+
+    /** @brief Refine @p cells, and their children that are among them, and so on: a
+     * mesh that the run had before. Nothing may refer to the present one. Collective. */
+    void
+    refine(const std::set<dealii::CellId::binary_type> &cells);
+
+    /** @brief Whether p4est's pieces have the same sum of weights that cells differ in. */
+    bool
+    weighted() const
+    {
+      return has_weights;
+    }
+
+    /** @brief Share the present cells out to the ranks, whatever they came from. Collective. */
+    void
+    repartition();
 
     unsigned int
     n_bodies() const;

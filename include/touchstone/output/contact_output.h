@@ -69,6 +69,13 @@ namespace Touchstone
           unsigned int                     step,
           double                           time);
 
+    /** @brief The pictures so far, which a run that goes on adds to. */
+    PictureSeries &
+    series()
+    {
+      return pictures;
+    }
+
   private:
     const OutputFolder &folder;
     PictureSeries       pictures;

@@ -16,9 +16,10 @@ namespace Touchstone
     /**
      * @param folder   Must outlive this object.
      * @param terminal Where lines are shown as well; null shows nothing.
+     * @param append   Go on with a file that is there.
      * @throws OutputError if the file cannot be opened. Collective.
      */
-    Log(const OutputFolder &folder, std::ostream *terminal);
+    Log(const OutputFolder &folder, std::ostream *terminal, bool append = false);
 
     /** @brief Write one line, or several separated by newlines. Only rank 0
      * does, the others may call or not. A failing write is not reported here,

@@ -42,10 +42,27 @@ namespace Touchstone
       write(piece.str(), record.str(), step, time);
     }
 
+    /** @brief Times and file names so far. */
+    using List = std::vector<std::pair<double, std::string>>;
+
+    const List &
+    list() const
+    {
+      return times_and_names;
+    }
+
+    /** @brief Go on after pictures that were written before. Collective.
+     * @throws OutputError */
+    void
+    restore(const List &before);
+
   private:
-    const OutputFolder                         &folder;
-    const std::string                           name;
-    std::vector<std::pair<double, std::string>> times_and_names;
+    const OutputFolder &folder;
+    const std::string   name;
+    List                times_and_names;
+
+    void
+    write_list() const;
 
     std::string
     stem(unsigned int step) const;

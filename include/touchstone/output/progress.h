@@ -32,6 +32,13 @@ namespace Touchstone
      */
     Progress(Log &log, double end_time);
 
+    /** @brief The run goes on from this time: what is left is reckoned from here. */
+    void
+    start_at(const double time)
+    {
+      start_time = time;
+    }
+
     /** @brief "Step 2/4   t = 0.5": a step to the time @p time begins.
      * @param steps Number of steps expected in all. */
     void
@@ -52,6 +59,7 @@ namespace Touchstone
   private:
     Log          &log;
     const double  end_time;
+    double        start_time = 0.;
     double        time;
     bool          header_due;
     dealii::Timer timer;

@@ -49,6 +49,18 @@ namespace Touchstone
     void
     add_step(const StepRecord &record);
 
+    /** @brief The table as it is, for restore(). */
+    const dealii::TableHandler &
+    rows() const
+    {
+      return table;
+    }
+
+    /** @brief Go on from rows that were written before. Collective; those of rank 0
+     * count. @throws OutputError */
+    void
+    restore(const dealii::TableHandler &rows);
+
   private:
     const OutputFolder  &folder;
     dealii::TableHandler table;
@@ -56,6 +68,9 @@ namespace Touchstone
     /** @brief Add a value with the format of all real numbers of the table. */
     void
     add(const std::string &column, double value);
+
+    void
+    write() const;
 
     /** @brief Add the three columns of a vector. */
     void

@@ -34,6 +34,13 @@ namespace Touchstone
     void
     write(const Vector &displacement, unsigned int step, double time);
 
+    /** @brief The pictures so far, which a run that goes on adds to. */
+    PictureSeries &
+    series()
+    {
+      return pictures;
+    }
+
   private:
     using NodeField = dealii::LinearAlgebra::distributed::Vector<double>;
 

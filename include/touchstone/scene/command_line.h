@@ -15,6 +15,8 @@ namespace Touchstone
     bool print_parameters = false;
     /** Print nothing but the results, which do not depend on the machine. */
     bool results_only = false;
+    /** Go on from the newest checkpoint in the output folder. */
+    bool resume = false;
     /** Entries "Section/Key=value"; "--output DIR" is one of them. */
     std::vector<std::string> overrides;
     std::string              scene_file;

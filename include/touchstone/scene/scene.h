@@ -37,6 +37,7 @@ namespace Touchstone
     LinearSolverParameters             linear_solver;
     OutputParameters                   output;
     ReferenceParameters                reference;
+    CheckpointParameters               checkpoints;
 
     /**
      * @brief Read a scene file and the overrides of the command line.
@@ -58,6 +59,10 @@ namespace Touchstone
      * that can be read back. */
     void
     print(std::ostream &out) const;
+
+    /** @brief The same without documentation, a text to be kept and compared. */
+    std::string
+    complete_entries() const;
 
     /** @brief Number of the body called @p name. */
     unsigned int

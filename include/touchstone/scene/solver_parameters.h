@@ -132,6 +132,24 @@ namespace Touchstone
     check(const std::string &section) const;
   };
 
+  /** @brief Section "Checkpoints": from which a run that was stopped goes on. */
+  struct CheckpointParameters
+  {
+    /** Write one every so many steps; 0: not by steps. */
+    unsigned int steps_between = 0;
+    /** Write one after a step if the last is as long ago, minutes; 0: not by time. */
+    double minutes_between = 0.;
+
+    bool
+    active() const
+    {
+      return steps_between > 0 || minutes_between > 0.;
+    }
+
+    void
+    declare(dealii::ParameterHandler &prm);
+  };
+
   /**
    * @brief Section "Reference solution": the exact answer that the result is
    * held against; what it gives stands under `errors` in summary.json.

@@ -1,0 +1,396 @@
+#include <touchstone/archive/archive.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const char *const cells_block = "cells";
+
+    template <class T>
+    T
+    unpack(const std::vector<char> &bytes)
+    {
+      return Utilities::unpack<T>(bytes, /*allow_compression=*/false);
+    }
+
+    /** The active cells of a rank: their ids, and the numbers of their nodes. */
+    struct CellList
+    {
+      static constexpr std::size_t id_size = std::tuple_size<CellId::binary_type>::value;
+
+      std::vector<unsigned int> ids;
+      std::vector<Index>        nodes;
+
+      std::size_t
+      size() const
+      {
+        return ids.size() / id_size;
+      }
+
+      CellId::binary_type
+      id(const std::size_t cell) const
+      {
+        CellId::binary_type result;
+        std::copy_n(ids.begin() + cell * id_size, id_size, result.begin());
+        return result;
+      }
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &ids &nodes;
+      }
+    };
+
+    /** A part of a field: the values of consecutive unknowns. */
+    struct FieldPart
+    {
+      Index               first = 0;
+      std::vector<double> values;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &first &values;
+      }
+    };
+
+    /** Numbers of the nodes of a cell, in the order of the element. */
+    template <class Cell>
+    std::vector<Index>
+    nodes_of_cell(const Solid &solid, const Cell &cell)
+    {
+      std::vector<Index> dofs(solid.fe.n_dofs_per_cell()), nodes;
+      cell->get_dof_indices(dofs);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (solid.fe.system_to_component_index(i).first == 0)
+          nodes.push_back(dofs[i] / dim);
+      return nodes;
+    }
+
+    /** Visit the blocks of one kind with their names. */
+    template <class Visitor>
+    void
+    for_each_block(const std::map<std::string, std::vector<char>> &blocks,
+                   const std::string                              &prefix,
+                   const Visitor                                  &visit)
+    {
+      for (const auto &[name, bytes] : blocks)
+        if (name.compare(0, prefix.size(), prefix) == 0)
+          visit(name.substr(prefix.size()), bytes);
+    }
+  } // namespace
+
+
+
+  ArchiveWriter::ArchiveWriter(const Solid &solid)
+    : solid(solid)
+  {
+    CellList list;
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const auto id    = cell->id().template to_binary<dim>();
+          const auto nodes = nodes_of_cell(solid, cell);
+          list.ids.insert(list.ids.end(), id.begin(), id.end());
+          list.nodes.insert(list.nodes.end(), nodes.begin(), nodes.end());
+        }
+    put_block(cells_block, list);
+  }
+
+
+
+  void
+  ArchiveWriter::put_field(const std::string &name, const Vector &field)
+  {
+    FieldPart part;
+    if (solid.owned.n_elements() > 0)
+      part.first = solid.owned.nth_index_in_set(0);
+    AssertThrow(solid.owned.is_contiguous(), ExcInternalError());
+    part.values.assign(field.begin(), field.begin() + solid.owned.n_elements());
+    put_block(field_prefix + name, part);
+  }
+
+
+
+  void
+  ArchiveWriter::put_cells(const std::string                                           &name,
+                           const std::function<std::vector<double>(unsigned int cell)> &values)
+  {
+    std::vector<std::vector<double>> all;
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        all.push_back(values(cell->active_cell_index()));
+    put_block(cell_prefix + name, all);
+  }
+
+
+
+  void
+  ArchiveWriter::put_nodes(const std::string &name, const std::vector<NodeRecord> &all)
+  {
+    put_block(node_prefix + name, all);
+  }
+
+
+
+  void
+  ArchiveWriter::put_keys(const std::string &name, const KeyPairs &keys)
+  {
+    put_block(key_prefix + name, keys);
+  }
+
+
+
+  std::vector<char>
+  ArchiveWriter::piece() const
+  {
+    return Utilities::pack(blocks, /*allow_compression=*/false);
+  }
+
+
+
+  ArchiveReader::ArchiveReader(const std::function<std::vector<char>(unsigned int)> &source,
+                               const unsigned int                                    n_pieces)
+    : source(source)
+    , n_pieces(n_pieces)
+  {
+  }
+
+
+
+  const ArchiveReader::Blocks &
+  ArchiveReader::piece(const unsigned int number) const
+  {
+    if (present != number)
+      {
+        blocks  = unpack<Blocks>(source(number));
+        present = number;
+      }
+    return blocks;
+  }
+
+
+
+  const std::vector<char> &
+  ArchiveReader::block(const Blocks &piece, const std::string &name)
+  {
+    const auto found = piece.find(name);
+    if (found == piece.end())
+      throw ArchiveError("it has no '" + name + "'");
+    return found->second;
+  }
+
+
+
+  std::set<CellId::binary_type>
+  ArchiveReader::refined_cells(const unsigned int level) const
+  {
+    std::set<CellId::binary_type> result;
+    for (unsigned int i = 0; i < n_pieces; ++i)
+      {
+        const CellList list = unpack<CellList>(block(piece(i), cells_block));
+        for (std::size_t c = 0; c < list.size(); ++c)
+          {
+            const CellId id(list.id(c));
+            const auto   path = id.get_child_indices();
+            for (std::size_t depth = path.size(); depth > level; --depth)
+              if (!result
+                     .insert(CellId(id.get_coarse_cell_id(), depth - 1, path.data())
+                               .template to_binary<dim>())
+                     .second)
+                break; // nor are those above it new
+          }
+      }
+    return result;
+  }
+
+
+
+  void
+  ArchiveReader::connect(const Solid &solid)
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(solid.communicator);
+
+    std::map<CellId::binary_type, typename DoFHandler<dim>::active_cell_iterator> cells;
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        cells.emplace(cell->id().template to_binary<dim>(), cell);
+
+    // Each rank begins with its own piece: then they do not all read the same file.
+    std::unordered_map<Index, Index>       present_nodes;
+    std::vector<std::vector<unsigned int>> present_cells(n_pieces);
+    std::size_t                            found_cells = 0, all_cells = 0;
+    for (unsigned int k = 0; k < n_pieces; ++k)
+      {
+        const unsigned int i    = (rank + k) % n_pieces;
+        const CellList     list = unpack<CellList>(block(piece(i), cells_block));
+        all_cells += list.size();
+        const std::size_t n = list.size() > 0 ? list.nodes.size() / list.size() : 0;
+        present_cells[i].assign(list.size(), numbers::invalid_unsigned_int);
+        for (std::size_t c = 0; c < list.size(); ++c)
+          {
+            const auto found = cells.find(list.id(c));
+            if (found == cells.end())
+              continue;
+            const auto nodes = nodes_of_cell(solid, found->second);
+            for (unsigned int m = 0; m < std::min(n, nodes.size()); ++m)
+              present_nodes[list.nodes[c * n + m]] = nodes[m];
+            if (found->second->is_locally_owned() && n == nodes.size())
+              {
+                present_cells[i][c] = found->second->active_cell_index();
+                ++found_cells;
+              }
+          }
+      }
+    const auto &mesh = solid.dof_handler.get_triangulation();
+    if (Utilities::MPI::sum(found_cells, solid.communicator) != all_cells ||
+        all_cells != mesh.n_global_active_cells())
+      throw ArchiveError("it has another mesh, of " + std::to_string(all_cells) + " cells");
+
+    for (unsigned int k = 0; k < n_pieces; ++k)
+      {
+        const unsigned int i         = (rank + k) % n_pieces;
+        const Blocks      &all       = piece(i);
+        const auto         own_place = [&](const Index node) {
+          const auto found = present_nodes.find(node);
+          return found != present_nodes.end() && solid.owned.is_element(dim * found->second)
+                           ? found->second
+                           : invalid_index;
+        };
+        for_each_block(all, ArchiveWriter::field_prefix, [&](const auto &name, const auto &bytes) {
+          const FieldPart part  = unpack<FieldPart>(bytes);
+          Vector         &field = fields[name];
+          if (field.size() == 0)
+            field.reinit(solid.owned, solid.communicator);
+          for (std::size_t j = 0; j < part.values.size(); j += dim)
+            if (const Index node = own_place((part.first + j) / dim); node != invalid_index)
+              for (unsigned int d = 0; d < dim; ++d)
+                field(dim * node + d) = part.values[j + d];
+        });
+        for_each_block(all, ArchiveWriter::cell_prefix, [&](const auto &name, const auto &bytes) {
+          const auto values = unpack<std::vector<std::vector<double>>>(bytes);
+          auto      &data   = cell_data[name];
+          data.resize(mesh.n_active_cells());
+          for (std::size_t c = 0; c < values.size(); ++c)
+            if (present_cells[i][c] != numbers::invalid_unsigned_int)
+              data[present_cells[i][c]] = values[c];
+        });
+        for_each_block(all, ArchiveWriter::node_prefix, [&](const auto &name, const auto &bytes) {
+          auto &mine = records[name];
+          for (NodeRecord &record : unpack<std::vector<NodeRecord>>(bytes))
+            if (const Index node = own_place(record.node); node != invalid_index)
+              {
+                record.node = node;
+                mine.emplace(node, std::move(record));
+              }
+        });
+        for_each_block(all, ArchiveWriter::key_prefix, [&](const auto &name, const auto &bytes) {
+          const auto part = unpack<KeyPairs>(bytes);
+          auto      &list = key_pairs[name];
+          list.insert(list.end(), part.begin(), part.end());
+        });
+      }
+    for (auto &[name, field] : fields)
+      field.compress(VectorOperation::insert);
+    translate_references(present_nodes, solid);
+    present = numbers::invalid_unsigned_int;
+    blocks.clear();
+  }
+
+
+
+  void
+  ArchiveReader::translate_references(const std::unordered_map<Index, Index> &present_nodes,
+                                      const Solid                            &solid)
+  {
+    // A dictionary that is spread over the ranks: that of a node's old number is asked.
+    using Translations         = std::vector<std::pair<Index, Index>>;
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(solid.communicator);
+    std::map<unsigned int, Translations> published;
+    for (const auto &[old, node] : present_nodes)
+      if (solid.owned.is_element(dim * node))
+        published[old % n_ranks].emplace_back(old, node);
+    std::unordered_map<Index, Index> dictionary;
+    for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, published))
+      dictionary.insert(list.begin(), list.end());
+
+    std::map<unsigned int, std::vector<Index>> questions;
+    for (const auto &[name, list] : records)
+      for (const auto &[node, record] : list)
+        for (const Index old : record.nodes)
+          questions[old % n_ranks].push_back(old);
+    std::map<unsigned int, Translations> answers;
+    for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, questions))
+      for (const Index old : list)
+        if (const auto found = dictionary.find(old); found != dictionary.end())
+          answers[from].emplace_back(*found);
+    std::unordered_map<Index, Index> translation;
+    for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, answers))
+      translation.insert(list.begin(), list.end());
+
+    for (auto &[name, list] : records)
+      for (auto &[node, record] : list)
+        for (Index &other : record.nodes)
+          other = translation.at(other);
+  }
+
+
+
+  namespace
+  {
+    template <class Map>
+    const typename Map::mapped_type &
+    find(const Map &map, const std::string &what, const std::string &name)
+    {
+      const auto found = map.find(name);
+      if (found == map.end())
+        throw ArchiveError("it has no " + what + "'" + name + "'");
+      return found->second;
+    }
+  } // namespace
+
+
+
+  const Vector &
+  ArchiveReader::field(const std::string &name) const
+  {
+    return find(fields, ArchiveWriter::field_prefix, name);
+  }
+
+
+
+  const std::vector<std::vector<double>> &
+  ArchiveReader::cells(const std::string &name) const
+  {
+    return find(cell_data, ArchiveWriter::cell_prefix, name);
+  }
+
+
+
+  const std::map<Index, NodeRecord> &
+  ArchiveReader::nodes(const std::string &name) const
+  {
+    return find(records, ArchiveWriter::node_prefix, name);
+  }
+
+
+
+  const KeyPairs &
+  ArchiveReader::keys(const std::string &name) const
+  {
+    return find(key_pairs, ArchiveWriter::key_prefix, name);
+  }
+} // namespace Touchstone

@@ -1,0 +1,279 @@
+#include <touchstone/archive/archive.h>
+#include <touchstone/drive/simulation.h>
+#include <touchstone/scene/input_error.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
+#include <cmath>
+
+/**
+ * @file
+ * What a checkpoint holds of the problem and of the run. Contact adds its rows in
+ * contact/history.cc.
+ */
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  template <class Archive>
+  void
+  serialize(Archive &archive, PairResult &result, const unsigned int)
+  {
+    archive &result.force &result.moment &result.area &result.max_pressure &result
+      .max_penetration &result.active &result.stick &result.slip &result.friction_work;
+  }
+
+  template <class Archive>
+  void
+  serialize(Archive &archive, RunSummary::Mesh &mesh, const unsigned int)
+  {
+    archive &mesh.step &mesh.cells &mesh.unknowns &mesh.estimated_error;
+  }
+
+  template <class Archive>
+  void
+  serialize(Archive &archive, Energies &energies, const unsigned int)
+  {
+    archive &energies.kinetic &energies.strain &energies.plastic &energies.contact &energies
+      .friction &energies.damping &energies.external &energies.initial &energies.largest;
+  }
+
+  template <class Archive>
+  void
+  serialize(Archive &archive, Motion::Impact &impact, const unsigned int)
+  {
+    archive &impact.begin &impact.end &impact.openings &impact.touching &impact.touched &impact
+      .impulse &impact.peak_force;
+  }
+
+  template <class Archive>
+  void
+  serialize(Archive &archive, Motion &motion, const unsigned int)
+  {
+    archive &motion.impacts &motion.velocities &motion.energies;
+  }
+
+  /** What is counted or known step by step; the rest is found out at the end. */
+  template <class Archive>
+  void
+  serialize(Archive &archive, RunSummary &summary, const unsigned int)
+  {
+    RunSummary::Iterations &iterations = summary.iterations;
+    RunSummary::Seconds    &seconds    = summary.seconds;
+    archive &summary.steps &summary.meshes &summary.contact &summary.reactions;
+    archive &iterations.newton &iterations.contact &iterations.damped &iterations.linear_total;
+    archive &seconds.wall &seconds.cpu &seconds.assembly &seconds.linear_solver &seconds
+      .search                                                                   &seconds.output;
+  }
+
+
+
+  void
+  StepProblem::forget()
+  {
+    solver->forget();
+    // The tangent tells how large round-off is in the forces of finite strains.
+    if (!solid.linear())
+      solid.assemble(u);
+  }
+
+
+
+  void
+  StepProblem::save(ArchiveWriter &archive) const
+  {
+    const LinearSolverCounts counts = linear_counts();
+    archive.put("committed time", committed_time);
+    archive.put("linear solver counts", counts);
+    archive.put("assemblies", assemblies);
+    archive.put("searches", n_searches());
+    archive.put_field("displacement", committed_u);
+    archive.put("energies", integration->committed_energies());
+    for (const auto &[name, field] : integration->state())
+      archive.put_field(name, *field);
+    if (solid.has_history())
+      archive.put_cells("material",
+                        [this](const unsigned int cell) { return solid.cell_state(cell); });
+    contact.save(archive);
+  }
+
+
+
+  void
+  StepProblem::load(const ArchiveReader &archive)
+  {
+    time = committed_time = archive.get<double>("committed time");
+    u = committed_u = archive.field("displacement");
+    for (const auto &[name, field] : integration->state())
+      *field = archive.field(name);
+    integration->resume(committed_time, archive.get<Energies>("energies"));
+    if (solid.has_history())
+      {
+        const auto &states = archive.cells("material");
+        for (unsigned int cell = 0; cell < states.size(); ++cell)
+          if (!states[cell].empty())
+            solid.set_cell_state(cell, states[cell]);
+        solid.exchange_cell_states();
+      }
+    contact.load(archive, u, time);
+    forget();
+    // What this problem has done to come here was done before by the one that was saved.
+    earlier          = archive.get<LinearSolverCounts>("linear solver counts");
+    assemblies       = archive.get<unsigned int>("assemblies");
+    earlier_searches = archive.get<unsigned int>("searches") - contact.n_searches();
+  }
+
+
+
+  FoundCheckpoint
+  Simulation::find_origin(const Scene &scene, const bool resume, const MPI_Comm communicator)
+  {
+    if (!resume)
+      return {};
+    FoundCheckpoint found = find_checkpoint(scene.output.directory, communicator);
+    if (!found.checkpoint)
+      {
+        std::string text =
+          "there is no complete checkpoint in the folder " + scene.output.directory;
+        for (const std::string &line : found.skipped)
+          text += "; " + line;
+        throw InputError("command line",
+                         "--resume",
+                         "",
+                         text,
+                         "name the folder of the run that was stopped with --output, or run the "
+                         "scene from its beginning, with \"Checkpoints/Steps between\" set");
+      }
+    return found;
+  }
+
+
+
+  bool
+  Simulation::checkpoint_due(const Position &position) const
+  {
+    const CheckpointParameters &parameters = scene.checkpoints;
+    const unsigned int          last_step  = position.step - 1;
+    if (parameters.steps_between > 0 && last_step % parameters.steps_between == 0)
+      return true;
+    // Clocks differ: that of rank 0 counts.
+    return parameters.minutes_between > 0. &&
+           Utilities::MPI::broadcast(
+             communicator, since_checkpoint.wall_time() >= 60. * parameters.minutes_between, 0);
+  }
+
+
+
+  void
+  Simulation::write_checkpoint(const Position &position)
+  {
+    TimerOutput::Scope scope(timer, "output");
+    problem->forget();
+    RunSummary now = summary;
+    now.seconds    = seconds_so_far();
+    ArchiveWriter archive(solid);
+    archive.put("position", position);
+    archive.put("end time", scene.load_stepping.end_time);
+    archive.put("nominal step size", scene.load_stepping.end_time / scene.load_stepping.steps);
+    archive.put("summary", now);
+    if (summary.motion)
+      archive.put("motion", *summary.motion);
+    archive.put("statistics", statistics.rows());
+    archive.put("volume pictures", volume_output.series().list());
+    archive.put("contact pictures", contact_output.series().list());
+    archive.put("last picture", last_picture);
+    problem->save(archive);
+    const std::string name = checkpoints.write(archive.piece(),
+                                               position.step - 1,
+                                               position.time,
+                                               scene.complete_entries());
+    log.line("  " + name + " is written");
+    last_checkpoint = position.step;
+    since_checkpoint.restart();
+  }
+
+
+
+  void
+  Simulation::write_last_checkpoint(const Position &position)
+  {
+    if (scene.checkpoints.active() && last_checkpoint != position.step && position.step > 1)
+      write_checkpoint(position);
+  }
+
+
+
+  std::vector<std::string>
+  Simulation::resume()
+  {
+    const Checkpoint &checkpoint = *origin.checkpoint;
+    ArchiveReader     archive([&checkpoint](const unsigned int i) { return checkpoint.piece(i); },
+                          checkpoint.n_pieces);
+    const auto        refined = archive.refined_cells(forest.first_level());
+    if (!refined.empty())
+      {
+        problem.reset();
+        forest.refine(refined);
+        solid.reinit();
+        volume_output.reinit();
+        problem = std::make_unique<StepProblem>(scene, forest, solid, timer);
+      }
+    try
+      {
+        archive.connect(solid);
+      }
+    catch (const ArchiveError &error)
+      {
+        throw InputError("command line",
+                         "--resume",
+                         checkpoint.name,
+                         std::string("this checkpoint does not belong to the scene: ") +
+                           error.what() + ", the scene has one of " +
+                           std::to_string(forest.triangulation.n_global_active_cells()),
+                         "restore mesh files that have changed, or run the scene from its "
+                         "beginning without --resume");
+      }
+    problem->start();
+    problem->load(archive);
+
+    start = archive.get<Position>("position");
+    // A step that was cut stays so.
+    const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
+    if (nominal != archive.get<double>("nominal step size") ||
+        scene.load_stepping.end_time != archive.get<double>("end time"))
+      start.size = std::ldexp(nominal, -static_cast<int>(start.cuts));
+    committed_time = start.time;
+    progress.start_at(start.time);
+
+    const RunSummary before = archive.get<RunSummary>("summary");
+    summary.steps           = before.steps;
+    summary.meshes          = before.meshes;
+    summary.iterations      = before.iterations;
+    summary.contact         = before.contact;
+    summary.reactions       = before.reactions;
+    summary.cells           = forest.triangulation.n_global_active_cells();
+    summary.unknowns        = solid.dof_handler.n_dofs();
+    earlier_seconds         = before.seconds;
+    if (summary.motion)
+      summary.motion = archive.get<Motion>("motion");
+
+    statistics.restore(archive.get<TableHandler>("statistics"));
+    volume_output.series().restore(archive.get<PictureSeries::List>("volume pictures"));
+    contact_output.series().restore(archive.get<PictureSeries::List>("contact pictures"));
+    last_picture    = archive.get<unsigned int>("last picture");
+    last_checkpoint = start.step;
+
+    std::vector<std::string> lines = origin.skipped;
+    lines.push_back("goes on from " + checkpoint.name + ": step " + std::to_string(start.step - 1) +
+                    " at time " + Utilities::to_string(start.time) + ", written on " +
+                    std::to_string(checkpoint.n_pieces) + " rank(s)" +
+                    (refined.empty() ? "" : "; " + std::to_string(summary.cells) + " cells"));
+    lines.insert(lines.end(), changed_parameters.begin(), changed_parameters.end());
+    return lines;
+  }
+} // namespace Touchstone

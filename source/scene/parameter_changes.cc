@@ -1,0 +1,120 @@
+#include <touchstone/scene/input_error.h>
+#include <touchstone/scene/parameter_changes.h>
+#include <touchstone/scene/scene.h>
+#include <touchstone/scene/scene_text.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <set>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** Sections that may change as a whole. */
+    const std::set<std::string> free_sections =
+      {"Output", "Checkpoints", "Linear solver", "Newton", "Reference solution", "Load stepping"};
+
+    /** And single keys, with their section. The end time is looked at in detail. */
+    const std::set<std::pair<std::string, std::string>> free_keys = {
+      {"", "Title"},
+      {"Contact", "Linearisation"},
+      {"Discretisation", "Partitioner"},
+      {"Discretisation", "Contact weight"}};
+
+    std::vector<std::string>
+    items(const std::string &value)
+    {
+      return dealii::Utilities::split_string_list(value, ',');
+    }
+
+    bool
+    same_item(const std::string &a, const std::string &b)
+    {
+      if (a == b)
+        return true;
+      char        *end_a = nullptr, *end_b = nullptr;
+      const double x = std::strtod(a.c_str(), &end_a), y = std::strtod(b.c_str(), &end_b);
+      return !a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && x == y;
+    }
+
+    bool
+    same(const std::string &a, const std::string &b)
+    {
+      const auto of_a = items(a), of_b = items(b);
+      return a == b || std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), same_item);
+    }
+
+    using Values = std::map<std::pair<std::string, std::string>, std::string>;
+
+    Values
+    values(const std::string &text)
+    {
+      const SceneText entries(text, "parameters.prm");
+      Values          result;
+      for (const SceneEntry &entry : entries.entries())
+        result[{entry.section, entry.key}] = entry.value;
+      return result;
+    }
+  } // namespace
+
+
+
+  bool
+  may_change(const std::string &section, const std::string &key)
+  {
+    return free_sections.count(section) > 0 || free_keys.count({section, key}) > 0;
+  }
+
+
+
+  std::vector<std::string>
+  compare_parameters(const std::string &before, const Scene &scene, const double time)
+  {
+    const Values             old = values(before), now = values(scene.complete_entries());
+    std::vector<std::string> changes;
+    Values                   all = old;
+    all.insert(now.begin(), now.end());
+    for (const auto &[place, unused] : all)
+      {
+        const auto &[section, key] = place;
+        const auto of_old = old.find(place), of_now = now.find(place);
+        const bool was = of_old != old.end(), is = of_now != now.end();
+        if (was && is && same(of_old->second, of_now->second))
+          continue;
+        const std::string then = was ? "'" + of_old->second + "'" : "not there";
+        if (!may_change(section, key))
+          throw InputError(section,
+                           key,
+                           is ? of_now->second : "",
+                           "the checkpoint was written with another value, " + then +
+                             ", and this one would lead to other results",
+                           "set it as it was, or run the scene from its beginning without "
+                           "--resume");
+        changes.push_back(section + (section.empty() ? "" : "/") + key + " is now '" +
+                          (is ? of_now->second : "") + "', was " + then);
+      }
+
+    const std::pair<std::string, std::string> end_key("Load stepping", "End time");
+    const std::string                        &end = now.at(end_key), &old_end = old.at(end_key);
+    if (scene.load_stepping.end_time < time * (1. - 1e-12))
+      throw InputError(end_key.first,
+                       end_key.second,
+                       end,
+                       "the checkpoint is at the later time " + dealii::Utilities::to_string(time),
+                       "set a later end, or run the scene from its beginning without --resume");
+    for (const ContactPairParameters &pair : scene.pairs)
+      if (pair.initial_overlap == "ramp" && !same(old_end, end))
+        throw InputError(end_key.first,
+                         end_key.second,
+                         end,
+                         "the checkpoint was written with '" + old_end +
+                           "', and until then the initial overlap of the pair '" + pair.name +
+                           "' grows",
+                         "set it as it was, or run the scene from its beginning without --resume");
+    return changes;
+  }
+} // namespace Touchstone

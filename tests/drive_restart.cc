@@ -1,0 +1,222 @@
+// A run that is stopped and goes on with another program of another partition: fields and
+// cell data come back exactly where they were, and the steps that follow are the same, for
+// each enforcement. In the same partition they are the same to the last bit, and saving again what
+// was loaded gives the same bytes.
+
+#include <touchstone/archive/archive.h>
+
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+#include "drive_support.h"
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  /** Pieces of all ranks, as a checkpoint would have them on disk. */
+  std::vector<std::vector<char>>
+  all_pieces(const ArchiveWriter &writer)
+  {
+    return Utilities::MPI::all_gather(MPI_COMM_WORLD, writer.piece());
+  }
+
+  ArchiveReader
+  reader(const std::vector<std::vector<char>> &pieces)
+  {
+    return ArchiveReader([&pieces](const unsigned int i) { return pieces[i]; }, pieces.size());
+  }
+
+  Touchstone::Vector
+  positions(const Solid &solid)
+  {
+    Touchstone::Vector result(solid.owned, solid.communicator);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
+    return result;
+  }
+
+  /** Made up, and of another length in each body. */
+  std::vector<double>
+  cell_values(const typename DoFHandler<dim>::active_cell_iterator &cell)
+  {
+    std::vector<double> values(2 + 3 * cell->material_id(), 1. / 3. + cell->level());
+    values.front() = cell->center().norm();
+    return values;
+  }
+
+  /** Refine some cells, in two sweeps. */
+  void
+  refine(Forest &forest, Solid &solid)
+  {
+    for (unsigned int sweep = 0; sweep < 2; ++sweep)
+      {
+        for (const auto &cell : forest.triangulation.active_cell_iterators())
+          if (cell->is_locally_owned() && cell->center()[0] < 0.5 && cell->material_id() == 0)
+            cell->set_refine_flag();
+        forest.triangulation.execute_coarsening_and_refinement();
+      }
+    solid.reinit();
+  }
+
+  void
+  fields_and_cells(const std::string &to, const bool refined)
+  {
+    const Scene scene(blocks, "scene.prm", {"Discretisation/Degree=2"}),
+      other(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/Partitioner=" + to});
+    Forest forest(scene, "", MPI_COMM_WORLD), other_forest(other, "", MPI_COMM_WORLD);
+    Solid  solid(scene, forest, MPI_COMM_WORLD);
+    if (refined)
+      refine(forest, solid);
+    const Touchstone::Vector x = positions(solid);
+    ArchiveWriter            writer(solid);
+    writer.put("number", 0.1);
+    writer.put_field("positions", x);
+    std::vector<std::vector<double>> values(forest.triangulation.n_active_cells());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        values[cell->active_cell_index()] = cell_values(cell);
+    writer.put_cells("made up", [&](const unsigned int cell) { return values[cell]; });
+    // A node of each rank knows all unknowns' first and last node.
+    NodeRecord record;
+    record.node  = solid.owned.nth_index_in_set(0) / dim;
+    record.nodes = {0, solid.dof_handler.n_dofs() / dim - 1};
+    record.keys  = {~std::uint64_t(0)};
+    writer.put_nodes("far", {record});
+    const auto pieces  = all_pieces(writer);
+    auto       archive = reader(pieces);
+
+    other_forest.refine(archive.refined_cells(other_forest.first_level()));
+    Solid other_solid(other, other_forest, MPI_COMM_WORLD);
+    archive.connect(other_solid);
+    Touchstone::Vector difference = positions(other_solid);
+    difference -= archive.field("positions");
+    bool         same = archive.get<double>("number") == 0.1;
+    unsigned int n    = 0;
+    for (const auto &cell : other_solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          same = same && archive.cells("made up")[cell->active_cell_index()] == cell_values(cell);
+          ++n;
+        }
+    n                    = Utilities::MPI::sum(n, MPI_COMM_WORLD);
+    same                 = Utilities::MPI::min(int(same), MPI_COMM_WORLD) == 1;
+    unsigned int records = 0, keys = 0;
+    for (const auto &[node, found] : archive.nodes("far"))
+      {
+        records += found.nodes.size();
+        keys += (found.keys == record.keys);
+      }
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "to " << to << (refined ? ", refined" : "") << ": "
+                << (difference.linfty_norm() == 0. ? "positions" : "OTHER POSITIONS")
+                << " and cell data of "
+                << (n == forest.triangulation.n_global_active_cells() ? "all" : "SOME") << " cells "
+                << (same ? "exact" : "DIFFERENT");
+    records = Utilities::MPI::sum(records, MPI_COMM_WORLD);
+    keys    = Utilities::MPI::sum(keys, MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << ", references "
+                << (records == 2 * pieces.size() && keys == pieces.size() ? "found" : "LOST")
+                << std::endl;
+  }
+
+  /** Figures of a state that do not depend on the partition. */
+  std::vector<double>
+  figures(const Run &run)
+  {
+    const Touchstone::Vector &u      = run.problem.displacement();
+    std::vector<double>       result = {u.l2_norm(), run.problem.strain_energy()};
+    for (const PairResult &pair :
+         run.problem.contact_state().results(run.problem.ghosted_displacement()))
+      result.insert(result.end(),
+                    {pair.force[0],
+                     pair.force[1],
+                     pair.force[2],
+                     pair.moment[0],
+                     pair.moment[1],
+                     pair.moment[2],
+                     pair.friction_work,
+                     double(pair.active),
+                     double(pair.slip)});
+    return result;
+  }
+
+  void
+  steps(Run &run, const unsigned int first, const unsigned int end)
+  {
+    for (unsigned int step = first; step < end; ++step)
+      {
+        run.solve(run.scene.newton, 0.25 * (step + 1));
+        run.problem.commit();
+      }
+  }
+
+  void
+  go_on(const std::string &title, std::vector<std::string> overrides)
+  {
+    overrides.insert(overrides.end(),
+                     {"Newton/Residual tolerance=1e-12", "Newton/Gap tolerance=1e-12"});
+    Run whole(blocks, overrides, MPI_COMM_WORLD);
+    steps(whole, 0, 4);
+    whole.problem.forget();
+    ArchiveWriter writer(whole.solid);
+    whole.problem.save(writer);
+    const auto pieces = all_pieces(writer);
+    steps(whole, 4, 6);
+
+    bool bytes = false, bits = false;
+    {
+      Run  again(blocks, overrides, MPI_COMM_WORLD);
+      auto archive = reader(pieces);
+      archive.connect(again.solid);
+      again.problem.load(archive);
+      ArchiveWriter second(again.solid);
+      again.problem.save(second);
+      bytes = all_pieces(second) == pieces;
+      steps(again, 4, 6);
+      const auto &u = again.problem.displacement(), &v = whole.problem.displacement();
+      bits = std::equal(u.begin(), u.end(), v.begin(), v.end());
+      bits = Utilities::MPI::min(int(bits), MPI_COMM_WORLD) == 1;
+    }
+    overrides.push_back("Discretisation/Partitioner=METIS");
+    Run  other(blocks, overrides, MPI_COMM_WORLD);
+    auto archive = reader(pieces);
+    archive.connect(other.solid);
+    other.problem.load(archive);
+    steps(other, 4, 6);
+    const auto a = figures(whole), b = figures(other);
+    double     difference = 0., size = 0.;
+    for (std::size_t i = 0; i < a.size(); ++i)
+      {
+        difference = std::max(difference, std::abs(a[i] - b[i]));
+        size       = std::max(size, std::abs(a[i]));
+      }
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        std::cout << title << ": saved again " << (bytes ? "the same bytes" : "OTHER BYTES")
+                  << ", then " << (bits ? "the same bits" : "OTHER BITS");
+        print_agreement(difference / size, 1e-10);
+      }
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  fields_and_cells("p4est", false);
+  fields_and_cells("METIS", false);
+  fields_and_cells("p4est", true);
+  for (const std::string enforcement :
+       {"elimination", "lagrange multipliers", "augmented lagrange", "penalty"})
+    for (const std::string pairing : {"averaged", "pointwise"})
+      go_on(enforcement + ", " + pairing,
+            {"Contact/Enforcement=" + enforcement, "Contact pair contact/Pairing=" + pairing});
+  go_on("regularised", {"Contact/Friction=regularised"});
+  go_on("small sliding", {"Contact pair contact/Sliding=small"});
+  go_on("without friction", {"Contact pair contact/Behaviour=frictionless"});
+  go_on("finite strain", {"Body block/Material/Law=neo-Hookean"});
+  go_on("Belos GMRES", {"Linear solver/Type=Belos GMRES"});
+}
