@@ -3,6 +3,8 @@
 // homogeneous deformation of a distorted mesh; the stiffness at rest; a linear body
 // beside a nonlinear one.
 
+#include <touchstone/solid/hyperelastic_law.h>
+
 #include <deal.II/dofs/dof_tools.h>
 
 #include "drive_support.h"

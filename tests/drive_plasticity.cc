@@ -2,11 +2,14 @@
 // plastic strain; without recovery of the back stress or with it, with a solver for
 // symmetric systems only, the same result; one step of ten times the size gives the same
 // under proportional load; evaluating forces again and again changes nothing; the external
-// work is elastic energy and plastic work.
+// work is elastic energy and plastic work. A law without an answer fails on all ranks, and the
+// step can be cut.
 
 #include <touchstone/algebra/non_convergence.h>
+#include <touchstone/solid/hardening_law.h>
 
 #include "drive_support.h"
+#include <limits>
 
 using namespace Touchstone;
 using namespace dealii;
@@ -48,7 +51,7 @@ namespace
       : Run(blocks, overrides, MPI_COMM_WORLD)
     {
       constexpr double size = 0.125;
-      for (unsigned int step = 0; step < 10; ++step)
+      for (unsigned int step = 0; step < 6; ++step)
         {
           if (fail)
             {
@@ -133,6 +136,69 @@ subsection Body bar
 end
 )";
 
+  /** Hardening that has no number for more than a quarter of the plastic strain that the
+   * bar gets in one step. */
+  struct Fragile : public HardeningLaw
+  {
+    void
+    declare(ParameterHandler &) override
+    {
+    }
+    void
+    check(const std::string &) const override
+    {
+    }
+    YieldStress
+    at(const double p) const override
+    {
+      return {p > 0.025 ? std::numeric_limits<double>::quiet_NaN() : 2. + 20. * p,
+              20.,
+              (2. + 10. * p) * p};
+    }
+  };
+  const HardeningLawRegistry::Entry<Fragile> entry("fragile", "for this test.");
+
+  void
+  failure(const std::string &law)
+  {
+    // Without the keys of linear hardening.
+    std::string text = bar;
+    for (const std::string key : {"set Yield stress      = 2", "set Hardening modulus = 20"})
+      text.erase(text.find(key), key.size());
+    Run run(text,
+            {"Body bar/Material/Law=" + law, "Body bar/Material/Plasticity/Hardening=fragile"},
+            MPI_COMM_WORLD);
+    Run whole(bar, {"Body bar/Material/Law=" + law}, MPI_COMM_WORLD);
+    int failures = 0;
+    run.solve(run.scene.newton, 0.1);
+    run.problem.commit();
+    try
+      {
+        run.solve(run.scene.newton, 1.);
+      }
+    catch (const MaterialFailure &)
+      {
+        ++failures;
+      }
+    run.problem.rollback();
+    run.solve(run.scene.newton, 0.2);
+    run.problem.commit();
+    whole.solve(whole.scene.newton, 0.2);
+    Touchstone::Vector difference(run.problem.displacement());
+    difference -= whole.problem.displacement();
+    const double d    = difference.linfty_norm();
+    const int    seen = Utilities::MPI::sum(failures, MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        std::cout << law << ", a law without an answer: "
+                  << (seen == static_cast<int>(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD))
+                        ? "failure on all ranks"
+                        : "NO FAILURE on some rank")
+                  << "; a smaller step";
+        print_agreement(d, 1e-8);
+      }
+  }
+
   void
   large_step(const std::string &law)
   {
@@ -189,5 +255,6 @@ main(int argc, char **argv)
       cut_steps(law, false);
       cut_steps(law, true);
       large_step(law);
+      failure(law);
     }
 }

@@ -246,7 +246,7 @@ namespace Touchstone
               {
                 part *= (next - time) / size;
                 problem->rollback();
-                progress.cut_step("bodies meet", part * size);
+                progress.shorten_step(part * size);
                 continue;
               }
             part                      = 1.;

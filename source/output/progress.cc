@@ -94,4 +94,13 @@ namespace Touchstone
     log.line(format("  trying again with a step of %g", step_size));
     header_due = true;
   }
+
+
+
+  void
+  Progress::shorten_step(const double step_size)
+  {
+    log.line(format("  bodies meet: made again with a step of %g, up to there", step_size));
+    header_due = true;
+  }
 } // namespace Touchstone

@@ -56,6 +56,11 @@ namespace Touchstone
     void
     cut_step(const std::string &reason, double step_size);
 
+    /** @brief The step converged, but is made again with the step size @p step_size, so
+     * that it ends where bodies meet. */
+    void
+    shorten_step(double step_size);
+
   private:
     Log          &log;
     const double  end_time;
