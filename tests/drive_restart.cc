@@ -59,10 +59,10 @@ namespace
   }
 
   void
-  fields_and_cells(const std::string &to, const bool refined)
+  fields_and_cells(const std::string &from, const std::string &to, const bool refined)
   {
-    const Scene scene(blocks, "scene.prm", {"Discretisation/Degree=2"}),
-      other(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/Partitioner=" + to});
+    const Scene scene(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/" + from}),
+      other(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/" + to});
     Forest forest(scene, "", MPI_COMM_WORLD), other_forest(other, "", MPI_COMM_WORLD);
     Solid  solid(scene, forest, MPI_COMM_WORLD);
     if (refined)
@@ -107,7 +107,7 @@ namespace
         keys += (found.keys == record.keys);
       }
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cout << "to " << to << (refined ? ", refined" : "") << ": "
+      std::cout << from << " to " << to << (refined ? ", refined" : "") << ": "
                 << (difference.linfty_norm() == 0. ? "positions" : "OTHER POSITIONS")
                 << " and cell data of "
                 << (n == forest.triangulation.n_global_active_cells() ? "all" : "SOME") << " cells "
@@ -178,7 +178,7 @@ namespace
       bits = std::equal(u.begin(), u.end(), v.begin(), v.end());
       bits = Utilities::MPI::min(int(bits), MPI_COMM_WORLD) == 1;
     }
-    overrides.push_back("Discretisation/Partitioner=METIS");
+    overrides.push_back("Discretisation/Contact weight=50");
     Run  other(blocks, overrides, MPI_COMM_WORLD);
     auto archive = reader(pieces);
     archive.connect(other.solid);
@@ -206,9 +206,9 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  fields_and_cells("p4est", false);
-  fields_and_cells("METIS", false);
-  fields_and_cells("p4est", true);
+  fields_and_cells("Contact weight=0", "Contact weight=50", false);
+  fields_and_cells("Contact weight=0", "Contact weight=50", true);
+  fields_and_cells("Partitioner=METIS", "Partitioner=METIS, cells only", false);
   for (const std::string enforcement :
        {"elimination", "lagrange multipliers", "augmented lagrange", "penalty"})
     for (const std::string pairing : {"averaged", "pointwise"})

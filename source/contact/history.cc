@@ -1,6 +1,8 @@
 #include <touchstone/archive/archive.h>
 #include <touchstone/contact/contact.h>
 
+#include <algorithm>
+
 namespace Touchstone
 {
   using namespace dealii;
@@ -280,8 +282,10 @@ namespace Touchstone
             records.push_back(std::move(record));
           }
         archive.put_nodes(pair.parameters->section(), records);
-        archive.put_keys(pair.parameters->section(),
-                         {memory.of_faces.begin(), memory.of_faces.end()});
+        // In an order that does not depend on how the memory came about.
+        KeyPairs faces(memory.of_faces.begin(), memory.of_faces.end());
+        std::sort(faces.begin(), faces.end());
+        archive.put_keys(pair.parameters->section(), faces);
       }
   }
 

@@ -22,7 +22,6 @@ namespace Touchstone
     const std::set<std::pair<std::string, std::string>> free_keys = {
       {"", "Title"},
       {"Contact", "Linearisation"},
-      {"Discretisation", "Partitioner"},
       {"Discretisation", "Contact weight"}};
 
     std::vector<std::string>

@@ -90,7 +90,8 @@ other() {
 
 other elimination-2 1 "$scene"
 other elimination 3 "$scene"
-other elimination 2 "$scene" --set "Discretisation/Partitioner=METIS"
+goes_on metis-2 2 "$scene" --set "Discretisation/Partitioner=METIS"
+other metis-2 1 "$scene" --set "Discretisation/Partitioner=METIS"
 other adaptive 3 "$adaptive" --set "Checkpoints/Steps between=4"
 other adaptive-2 1 "$adaptive" --set "Checkpoints/Steps between=4"
 
@@ -125,6 +126,7 @@ refused modulus "'Body base/Material', key 'Young modulus', value '999'.*value, 
 refused enforcement "'Contact', key 'Enforcement', value 'penalty'.*'elimination'" \
   --set "Contact/Enforcement=penalty"
 refused end "key 'End time', value '1'.*later time 1.5" --set "Load stepping/End time=1"
+refused partitioner "key 'Partitioner'" --set "Discretisation/Partitioner=METIS"
 refused pairs "key 'Behaviour', value 'tied'" --set "Contact pair contact/Behaviour=tied"
 start 1 later --resume --set "Body base/Material/Young modulus=1.0e3" --set "Title=Other" \
   --set "Newton/Gap tolerance=1e-9" --set "Linear solver/Type=Belos GMRES" "$scene" ||
