@@ -21,6 +21,11 @@ run one 1 "$scene" --set "Load stepping/Steps=1"
 same right two 0.1 contact=0
 same right one 0.3 contact=0
 
+# The pictures show the plastic strain.
+"$program" --results-only --output pictures --set "Load stepping/Steps=1" \
+  --set "Output/VTU interval=1" "$scene" >pictures.txt 2>&1 || fail "pictures"
+grep -q equivalent_plastic_strain pictures/solution_0001.vtu || fail "no plastic strain in pictures"
+
 # Unsymmetric tangent.
 run unsymmetric 1 "$scene" --set "$sharp" --set "$kinematic" --set "$recovery"
 run both        2 "$scene" --set "$sharp" --set "$kinematic" --set "$recovery"
