@@ -106,10 +106,10 @@ namespace
         records += found.nodes.size();
         keys += (found.keys == record.keys);
       }
+    const bool in_place = difference.linfty_norm() == 0.;
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << from << " to " << to << (refined ? ", refined" : "") << ": "
-                << (difference.linfty_norm() == 0. ? "positions" : "OTHER POSITIONS")
-                << " and cell data of "
+                << (in_place ? "positions" : "OTHER POSITIONS") << " and cell data of "
                 << (n == forest.triangulation.n_global_active_cells() ? "all" : "SOME") << " cells "
                 << (same ? "exact" : "DIFFERENT");
     records = Utilities::MPI::sum(records, MPI_COMM_WORLD);
@@ -152,11 +152,13 @@ namespace
   }
 
   void
-  go_on(const std::string &title, std::vector<std::string> overrides)
+  go_on(const std::string       &title,
+        std::vector<std::string> overrides,
+        const std::string       &scene = blocks)
   {
     overrides.insert(overrides.end(),
                      {"Newton/Residual tolerance=1e-12", "Newton/Gap tolerance=1e-12"});
-    Run whole(blocks, overrides, MPI_COMM_WORLD);
+    Run whole(scene, overrides, MPI_COMM_WORLD);
     steps(whole, 0, 4);
     whole.problem.forget();
     ArchiveWriter writer(whole.solid);
@@ -166,7 +168,7 @@ namespace
 
     bool bytes = false, bits = false;
     {
-      Run  again(blocks, overrides, MPI_COMM_WORLD);
+      Run  again(scene, overrides, MPI_COMM_WORLD);
       auto archive = reader(pieces);
       archive.connect(again.solid);
       again.problem.load(archive);
@@ -179,7 +181,7 @@ namespace
       bits = Utilities::MPI::min(int(bits), MPI_COMM_WORLD) == 1;
     }
     overrides.push_back("Discretisation/Contact weight=50");
-    Run  other(blocks, overrides, MPI_COMM_WORLD);
+    Run  other(scene, overrides, MPI_COMM_WORLD);
     auto archive = reader(pieces);
     archive.connect(other.solid);
     other.problem.load(archive);
@@ -216,7 +218,19 @@ main(int argc, char **argv)
             {"Contact/Enforcement=" + enforcement, "Contact pair contact/Pairing=" + pairing});
   go_on("regularised", {"Contact/Friction=regularised"});
   go_on("small sliding", {"Contact pair contact/Sliding=small"});
-  go_on("without friction", {"Contact pair contact/Behaviour=frictionless"});
+  const std::size_t friction = blocks.find("  set Behaviour");
+  go_on("without friction", {}, blocks.substr(0, friction) + "end\n");
   go_on("finite strain", {"Body block/Material/Law=neo-Hookean"});
+  go_on("plasticity",
+        {"Body base/Material/Law=small-strain von Mises",
+         "Body base/Material/Plasticity/Yield stress=5",
+         "Body block/Material/Law=finite-strain von Mises",
+         "Body block/Material/Plasticity/Yield stress=10",
+         "Body block/Material/Plasticity/Kinematic modulus=10"});
+  go_on("inertia",
+        {"Time integration/Scheme=contact_stabilized",
+         "Body base/Material/Density=1",
+         "Body block/Material/Density=1",
+         "Body block/Material/Rayleigh stiffness=1e-3"});
   go_on("Belos GMRES", {"Linear solver/Type=Belos GMRES"});
 }

@@ -190,14 +190,13 @@ namespace Touchstone
       list.set("null space: dimension", modes.NumVectors());
       list.set("null space: vectors", null_space.data());
       list.set("null space: add default vectors", false);
-      if (stiffness_of_motions(system, modes) > 0.05)
+      if (stiffness_of_motions(system, modes) > 0.15)
         {
           // Inertia alone bounds the condition number: coarse spaces have nothing to
           // do, and the aggregates that weak couplings leave would hardly be fewer.
           list.set("max levels", 1);
-          list.set("coarse: type", "Chebyshev");
-          list.set("coarse: sweeps", 2);
-          list.set("coarse: Chebyshev alpha", 20.);
+          list.set("coarse: type", "symmetric Gauss-Seidel");
+          list.set("coarse: sweeps", 1);
         }
       preconditioner =
         std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*preconditioned_matrix, list, true);

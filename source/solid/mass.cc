@@ -142,24 +142,31 @@ namespace Touchstone
                   const Moments            &missing,
                   const BodyParameters     &body)
     {
-      LAPACKFullMatrix<double> inverse(n_moments);
-      inverse = gram;
-      dealii::Vector<double> wanted(missing.begin(), missing.end()), result(n_moments),
-        got(n_moments);
-      inverse.compute_inverse_svd(1e-12);
-      inverse.vmult(result, wanted);
-      gram.vmult(got, result);
-      got -= wanted;
-      if (got.l2_norm() > 1e-8 * std::abs(gram(0, 0)))
-        throw InputError(
-          body.section(),
-          "Geometry",
-          "",
-          "too few nodes are left that could take the mass of the slave nodes: all of "
-          "them lie in a plane",
-          "take more cells through the thickness, make this body the master, or set "
-          "'Time integration/Scheme' to 'generalized_alpha'");
-      return result;
+      // Two layers of nodes bear mass and centre, but not all moments of inertia.
+      for (const unsigned int n : {n_moments, 4U})
+        {
+          FullMatrix<double> part(n, n);
+          part.fill(gram);
+          LAPACKFullMatrix<double> inverse(n);
+          inverse = part;
+          dealii::Vector<double> wanted(missing.begin(), missing.begin() + n), result(n), got(n);
+          inverse.compute_inverse_svd(1e-12);
+          inverse.vmult(result, wanted);
+          part.vmult(got, result);
+          got -= wanted;
+          if (got.l2_norm() <= 1e-8 * std::abs(gram(0, 0)))
+            {
+              result.grow_or_shrink(n_moments);
+              return result;
+            }
+        }
+      throw InputError(body.section(),
+                       "Geometry",
+                       "",
+                       "too few nodes are left that could take the mass of the slave nodes: all of "
+                       "them lie in a plane",
+                       "take more cells through the thickness, make this body the master, or set "
+                       "'Time integration/Scheme' to 'generalized_alpha'");
     }
   } // namespace
 

@@ -26,7 +26,8 @@ namespace Touchstone
    * Nodes can be made massless, for contact that does not chatter (Khenous, Laborde
    * and Renard 2008, Eur. J. Mech. A/Solids 27): what a cell has at them goes to its
    * other nodes, and a correction of these keeps mass, centre of mass and moments of
-   * inertia of each body as they were.
+   * inertia of each body as they were. Where just two layers of nodes are left, the moments of
+   * inertia change with the square of the cell size.
    */
   class Mass
   {
