@@ -36,14 +36,14 @@ row() {
   done
 }
 
-scheme="Time integration/Scheme"
-row newmark lumped --set "$scheme=newmark" --set "Time integration/Gain tolerance=1e9"
-row "newmark, γ = 0.65" lumped --set "$scheme=newmark" --set "Time integration/Newmark gamma=0.65"
-row "hht, α = 0.2" consistent --set "$scheme=hht" --set "Time integration/HHT alpha=0.2"
-row "generalized_alpha, ρ = 0.8" consistent --set "$scheme=generalized_alpha" \
+key="Time integration/Scheme"
+row newmark lumped --set "$key=newmark" --set "Time integration/Gain tolerance=1e9"
+row "newmark, γ = 0.65" lumped --set "$key=newmark" --set "Time integration/Newmark gamma=0.65"
+row "hht, α = 0.2" consistent --set "$key=hht" --set "Time integration/HHT alpha=0.2"
+row "generalized_alpha, ρ = 0.8" consistent --set "$key=generalized_alpha" \
   --set "Time integration/Spectral radius=0.8"
-row contact_stabilized lumped --set "$scheme=contact_stabilized" \
+row contact_stabilized lumped --set "$key=contact_stabilized" \
   --set "Time integration/Spectral radius=1"
-row contact_stabilized "dispersion corrected" --set "$scheme=contact_stabilized" \
+row contact_stabilized "dispersion corrected" --set "$key=contact_stabilized" \
   --set "Time integration/Spectral radius=1"
 row "generalized_alpha, ρ = 1" "dispersion corrected"
