@@ -35,14 +35,6 @@ namespace Touchstone
           sum[k++] += 0.5 * mass * (left[i] * right[j] + left[j] * right[i]);
     }
 
-    Moments
-    monomials(const Point<dim> &x)
-    {
-      Moments result = {};
-      add_moments(1., x, x, result);
-      return result;
-    }
-
     /** Distance between the centres of the faces across a direction. */
     double
     extent(const Triangulation<dim>::active_cell_iterator &cell, const unsigned int d)
@@ -76,18 +68,18 @@ namespace Touchstone
       return Quadrature<dim>(points, std::vector<double>(points.size(), 1. / points.size()));
     }
 
-    /** Coordinates in which a body lies between about -1 and 1. */
+    /** Coordinates in which a body lies between -1 and 1 in each direction: what is thin
+     * counts as much as what is long. */
     struct Frame
     {
-      Point<dim> centre;
-      double     size = 1.;
+      Point<dim> centre, size;
 
       Point<dim>
       operator()(const Vector &positions, const Index node) const
       {
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
-          x[d] = (positions(node + d) - centre[d]) / size;
+          x[d] = (positions(node + d) - centre[d]) / size[d];
         return x;
       }
     };
@@ -117,8 +109,8 @@ namespace Touchstone
               low[d]              = Utilities::MPI::min(low[d], solid.communicator);
               high[d]             = Utilities::MPI::max(high[d], solid.communicator);
               result[b].centre[d] = 0.5 * (low[d] + high[d]);
+              result[b].size[d]   = 0.5 * (high[d] - low[d]);
             }
-          result[b].size = 0.5 * (high - low).norm();
         }
       return result;
     }
@@ -135,39 +127,191 @@ namespace Touchstone
       target.ReplaceDiagonalValues(sum);
     }
 
-    /** Coefficients c of the nodal masses w_a sum_k c_k p_k(x_a) that have the moments
-     * @p missing, where @p gram = sum_a w_a p_k p_l. */
-    dealii::Vector<double>
-    solve_moments(const FullMatrix<double> &gram,
-                  const Moments            &missing,
-                  const BodyParameters     &body)
+    /** The mass matrix of one component in a cell. */
+    class CellMass
     {
-      // Two layers of nodes bear mass and centre, but not all moments of inertia.
-      for (const unsigned int n : {n_moments, 4U})
-        {
-          FullMatrix<double> part(n, n);
-          part.fill(gram);
-          LAPACKFullMatrix<double> inverse(n);
-          inverse = part;
-          dealii::Vector<double> wanted(missing.begin(), missing.begin() + n), result(n), got(n);
-          inverse.compute_inverse_svd(1e-12);
-          inverse.vmult(result, wanted);
-          part.vmult(got, result);
-          got -= wanted;
-          if (got.l2_norm() <= 1e-8 * std::abs(gram(0, 0)))
+    public:
+      CellMass(const Scene &scene, const Solid &solid, const Vector &no_mass, const double step)
+        : scene(scene)
+        , solid(solid)
+        , no_mass(no_mass)
+        , step(step)
+        , scalar_fe(solid.fe.degree)
+        , values(solid.mapping,
+                 scalar_fe,
+                 QGauss<dim>(solid.fe.degree + 1),
+                 update_values | update_JxW_values)
+        , lumped(scalar_fe.n_dofs_per_cell())
+        , dofs(solid.fe.n_dofs_per_cell())
+      {
+        nodes.resize(lumped.size());
+        complete.reinit(lumped.size(), lumped.size());
+      }
+
+      /** First unknowns of the nodes. */
+      std::vector<Index> nodes;
+      /** As it is, and with the mass of massless nodes at the others. */
+      FullMatrix<double> complete, moved;
+
+      void
+      reinit(const DoFHandler<dim>::active_cell_iterator &cell)
+      {
+        const std::string        &kind     = scene.time_integration.mass;
+        const MaterialParameters &material = scene.bodies[cell->material_id()].material;
+        values.reinit(Triangulation<dim>::active_cell_iterator(cell));
+        cell->get_dof_indices(dofs);
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          if (solid.fe.system_to_component_index(i).first == 0)
+            nodes[solid.fe.system_to_component_index(i).second] = dofs[i];
+        const unsigned int n = nodes.size();
+        complete             = 0.;
+        std::fill(lumped.begin(), lumped.end(), 0.);
+        for (const unsigned int q : values.quadrature_point_indices())
+          for (unsigned int a = 0; a < n; ++a)
             {
-              result.grow_or_shrink(n_moments);
-              return result;
+              const double part = material.density * values.JxW(q) * values.shape_value(a, q);
+              lumped[a] += part;
+              if (kind == "consistent")
+                for (unsigned int b = 0; b < n; ++b)
+                  complete(a, b) += part * values.shape_value(b, q);
             }
-        }
-      throw InputError(body.section(),
-                       "Geometry",
-                       "",
-                       "too few nodes are left that could take the mass of the slave nodes: all of "
-                       "them lie in a plane",
-                       "take more cells through the thickness, make this body the master, or set "
-                       "'Time integration/Scheme' to 'generalized_alpha'");
-    }
+        if (kind == "lumped")
+          for (unsigned int a = 0; a < n; ++a)
+            complete(a, a) = lumped[a];
+        if (kind == "dispersion corrected")
+          {
+            // The rule does not know the volume of a distorted cell.
+            const double total = std::accumulate(lumped.begin(), lumped.end(), 0.);
+            const auto   rule  = dispersion_corrected_rule(material, cell, step);
+            for (const Point<dim> &x : rule.get_points())
+              for (unsigned int a = 0; a < n; ++a)
+                for (unsigned int b = 0; b < n; ++b)
+                  complete(a, b) +=
+                    total / rule.size() * scalar_fe.shape_value(a, x) * scalar_fe.shape_value(b, x);
+          }
+        move();
+      }
+
+    private:
+      const Scene        &scene;
+      const Solid        &solid;
+      const Vector       &no_mass;
+      const double        step;
+      const FE_Q<dim>     scalar_fe;
+      FEValues<dim>       values;
+      std::vector<double> lumped;
+      std::vector<Index>  dofs;
+
+      /** What massless nodes lose, the others of the cell take. */
+      void
+      move()
+      {
+        moved       = complete;
+        double kept = 0., lost = 0.;
+        for (unsigned int a = 0; a < nodes.size(); ++a)
+          for (unsigned int b = 0; b < nodes.size(); ++b)
+            if (no_mass(nodes[a]) > 0. || no_mass(nodes[b]) > 0.)
+              {
+                lost += moved(a, b);
+                moved(a, b) = 0.;
+              }
+            else if (a == b)
+              kept += lumped[a];
+        for (unsigned int a = 0; a < nodes.size() && lost > 0.; ++a)
+          if (no_mass(nodes[a]) == 0.)
+            moved(a, a) += lost * lumped[a] / kept;
+      }
+    };
+
+
+
+    /**
+     * Factors for the densities of a body's cells by which its moments change.
+     *
+     * They are 1 + s_e, with the smallest sum of m_e s_e^2 for masses m_e, and stay
+     * at a half or more, so that waves hardly change and no motion has negative kinetic
+     * energy: cells that would fall below are held there.
+     */
+    class DensityFactors
+    {
+    public:
+      /** The moments of all owned cells. */
+      DensityFactors(const std::vector<Moments> &cells, const MPI_Comm communicator)
+        : cells(cells)
+        , communicator(communicator)
+        , factors(cells.size(), 1.)
+      {
+      }
+
+      /** @return whether there are such factors for the change @p wanted of the first @p n
+       * moments. Collective. */
+      bool
+      find(const dealii::Vector<double> &wanted, const unsigned int n)
+      {
+        constexpr double  least = 0.5;
+        std::vector<bool> held(cells.size(), false);
+        for (bool again = true; again;)
+          {
+            FullMatrix<double>     gram(n, n);
+            dealii::Vector<double> rest(n);
+            double                 total = 0.;
+            for (std::size_t e = 0; e < cells.size(); ++e)
+              {
+                total += cells[e][0];
+                for (unsigned int k = 0; k < n; ++k)
+                  if (held[e])
+                    rest(k) += (1. - least) * cells[e][k];
+                  else if (cells[e][0] > 0.)
+                    for (unsigned int l = 0; l < n; ++l)
+                      gram(k, l) += cells[e][k] * cells[e][l] / cells[e][0];
+              }
+            Utilities::MPI::sum(gram, communicator, gram);
+            Utilities::MPI::sum(rest, communicator, rest);
+            total = Utilities::MPI::sum(total, communicator);
+            for (unsigned int k = 0; k < n; ++k)
+              rest(k) += wanted(k);
+            const dealii::Vector<double> c = solve(gram, rest);
+            if (rest.l2_norm() > 1e-10 * total)
+              return false;
+            again = false;
+            for (std::size_t e = 0; e < cells.size(); ++e)
+              {
+                factors[e] = held[e] ? least : 1.;
+                for (unsigned int k = 0; k < n && !held[e] && cells[e][0] > 0.; ++k)
+                  factors[e] += c(k) * cells[e][k] / cells[e][0];
+                held[e] = held[e] || factors[e] < least;
+                again   = again || factors[e] < least;
+              }
+            again = Utilities::MPI::max(static_cast<int>(again), communicator) == 1;
+          }
+        return true;
+      }
+
+      const std::vector<Moments> &cells;
+      const MPI_Comm              communicator;
+      std::vector<double>         factors;
+
+    private:
+      /** Solve with a matrix that may be singular; @p rhs becomes what is left of it. */
+      static dealii::Vector<double>
+      solve(const FullMatrix<double> &matrix, dealii::Vector<double> &rhs)
+      {
+        dealii::Vector<double> result(rhs.size()), correction(rhs.size()), product(rhs.size());
+        if (matrix.linfty_norm() == 0.)
+          return result;
+        LAPACKFullMatrix<double> inverse(rhs.size());
+        inverse = matrix;
+        inverse.compute_inverse_svd(1e-12);
+        for (unsigned int refinement = 0; refinement < 3; ++refinement)
+          {
+            inverse.vmult(correction, rhs);
+            result += correction;
+            matrix.vmult(product, correction);
+            rhs -= product;
+          }
+        return result;
+      }
+    };
   } // namespace
 
 
@@ -179,113 +323,38 @@ namespace Touchstone
     : nodal(solid.owned, solid.communicator)
     , diagonal(scene.time_integration.mass == "lumped")
   {
-    const bool         corrected = (scene.time_integration.mass == "dispersion corrected");
-    const FE_Q<dim>    scalar_fe(solid.fe.degree);
-    FEValues<dim>      values(solid.mapping,
-                         scalar_fe,
-                         QGauss<dim>(solid.fe.degree + 1),
-                         update_values | update_JxW_values);
-    const unsigned int n = scalar_fe.n_dofs_per_cell();
-
-    Vector flag(solid.owned, solid.communicator), coordinates(flag);
+    Vector flag(solid.owned, solid.communicator);
     for (const Index node : massless)
       flag(node) = 1.;
     flag.compress(VectorOperation::insert);
-    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, coordinates);
-    const Vector             no_mass = solid.ghosted(flag), positions = solid.ghosted(coordinates);
-    const std::vector<Frame> frame = frames(scene, solid);
-
+    const Vector              no_mass = solid.ghosted(flag);
+    const std::vector<double> factors = density_factors(scene, solid, massless, no_mass, step);
     if (!diagonal)
       {
         matrix.reinit(solid.stiffness());
         matrix = 0.;
       }
-    std::vector<Index>   dofs(solid.fe.n_dofs_per_cell()), nodes(n), rows(n);
-    FullMatrix<double>   cell_mass(n, n);
-    std::vector<double>  lumped(n), row(n);
-    std::vector<Moments> missing(scene.bodies.size(), Moments{});
-    const auto           add_cell_moments = [&](const double sign, const unsigned int body) {
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int b = 0; b < n; ++b)
-          if (cell_mass(a, b) != 0.)
-            add_moments(sign * cell_mass(a, b),
-                        frame[body](positions, nodes[a]),
-                        frame[body](positions, nodes[b]),
-                        missing[body]);
-    };
+    CellMass            mass(scene, solid, no_mass, step);
+    std::vector<Index>  columns(mass.nodes.size());
+    std::vector<double> row(columns.size());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const unsigned int        body     = cell->material_id();
-          const MaterialParameters &material = scene.bodies[body].material;
-          values.reinit(Triangulation<dim>::active_cell_iterator(cell));
-          cell->get_dof_indices(dofs);
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            if (solid.fe.system_to_component_index(i).first == 0)
-              nodes[solid.fe.system_to_component_index(i).second] = dofs[i];
-          cell_mass = 0.;
-          std::fill(lumped.begin(), lumped.end(), 0.);
-          for (const unsigned int q : values.quadrature_point_indices())
-            for (unsigned int a = 0; a < n; ++a)
-              {
-                const double part = material.density * values.JxW(q) * values.shape_value(a, q);
-                lumped[a] += part;
-                if (diagonal)
-                  cell_mass(a, a) += part;
-                else if (!corrected)
-                  for (unsigned int b = 0; b < n; ++b)
-                    cell_mass(a, b) += part * values.shape_value(b, q);
-              }
-          if (corrected)
-            {
-              // The rule does not know the volume of a distorted cell.
-              const double total = std::accumulate(lumped.begin(), lumped.end(), 0.);
-              const auto   rule  = dispersion_corrected_rule(material, cell, step);
-              for (const Point<dim> &x : rule.get_points())
-                for (unsigned int a = 0; a < n; ++a)
-                  for (unsigned int b = 0; b < n; ++b)
-                    cell_mass(a, b) += total / rule.size() * scalar_fe.shape_value(a, x) *
-                                       scalar_fe.shape_value(b, x);
-            }
-
-          // What massless nodes lose, the others of the cell take.
-          double kept = 0., lost = 0.;
-          for (unsigned int a = 0; a < n; ++a)
-            if (no_mass(nodes[a]) == 0.)
-              kept += lumped[a];
-          const bool all_kept = std::all_of(nodes.begin(), nodes.end(), [&](const Index i) {
-            return no_mass(i) == 0.;
-          });
-          if (!all_kept)
-            {
-              add_cell_moments(1., body);
-              for (unsigned int a = 0; a < n; ++a)
-                for (unsigned int b = 0; b < n; ++b)
-                  if (no_mass(nodes[a]) > 0. || no_mass(nodes[b]) > 0.)
-                    {
-                      lost += cell_mass(a, b);
-                      cell_mass(a, b) = 0.;
-                    }
-              for (unsigned int a = 0; a < n; ++a)
-                if (no_mass(nodes[a]) == 0.)
-                  cell_mass(a, a) += lost * lumped[a] / kept;
-              add_cell_moments(-1., body);
-            }
-          for (unsigned int a = 0; a < n; ++a)
+          mass.reinit(cell);
+          mass.moved *= factors[cell->active_cell_index()];
+          for (unsigned int a = 0; a < columns.size(); ++a)
             for (unsigned int d = 0; d < dim; ++d)
-              {
-                if (diagonal)
-                  nodal(nodes[a] + d) += cell_mass(a, a);
-                else
-                  {
-                    for (unsigned int b = 0; b < n; ++b)
-                      {
-                        rows[b] = nodes[b] + d;
-                        row[b]  = cell_mass(a, b);
-                      }
-                    matrix.add(nodes[a] + d, n, rows.data(), row.data());
-                  }
-              }
+              if (diagonal)
+                nodal(mass.nodes[a] + d) += mass.moved(a, a);
+              else
+                {
+                  for (unsigned int b = 0; b < columns.size(); ++b)
+                    {
+                      columns[b] = mass.nodes[b] + d;
+                      row[b]     = mass.moved(a, b);
+                    }
+                  matrix.add(mass.nodes[a] + d, columns.size(), columns.data(), row.data());
+                }
         }
     if (diagonal)
       nodal.compress(VectorOperation::add);
@@ -296,67 +365,74 @@ namespace Touchstone
         ones = 1.;
         matrix.vmult(nodal, ones);
       }
-    if (Utilities::MPI::max(massless.size(), solid.communicator) > 0)
-      restore_moments(scene, solid, positions, missing);
   }
 
 
 
-  void
-  Mass::restore_moments(const Scene                &scene,
-                        const Solid                &solid,
-                        const Vector               &positions,
-                        const std::vector<Moments> &missing)
+  std::vector<double>
+  Mass::density_factors(const Scene           &scene,
+                        const Solid           &solid,
+                        const std::set<Index> &massless,
+                        const Vector          &no_mass,
+                        const double           step)
   {
-    // The first unknowns of the owned nodes of each body.
-    std::vector<std::set<Index>> nodes(scene.bodies.size());
-    std::vector<Index>           dofs(solid.fe.n_dofs_per_cell());
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          cell->get_dof_indices(dofs);
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            if (solid.fe.system_to_component_index(i).first == 0 &&
-                solid.owned.is_element(dofs[i]) && nodal(dofs[i]) > 0.)
-              nodes[cell->material_id()].insert(dofs[i]);
-        }
-    const std::vector<Frame> frame = frames(scene, solid);
-    Vector                   correction(nodal);
-    correction = 0.;
+    std::vector<double> result(solid.dof_handler.get_triangulation().n_active_cells(), 1.);
+    if (Utilities::MPI::max(massless.size(), solid.communicator) == 0)
+      return result;
+    Vector coordinates(solid.owned, solid.communicator);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, coordinates);
+    const Vector             positions = solid.ghosted(coordinates);
+    const std::vector<Frame> frame     = frames(scene, solid);
+    CellMass                 mass(scene, solid, no_mass, step);
     for (unsigned int body = 0; body < scene.bodies.size(); ++body)
       {
-        Moments sum;
-        Utilities::MPI::sum(ArrayView<const double>(missing[body].data(), n_moments),
-                            solid.communicator,
-                            ArrayView<double>(sum.data(), n_moments));
-        FullMatrix<double> gram(n_moments, n_moments);
-        for (const Index node : nodes[body])
+        dealii::Vector<double>    missing(n_moments);
+        std::vector<Moments>      moments;
+        std::vector<unsigned int> numbers;
+        for (const auto &cell : solid.dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned() && cell->material_id() == body)
+            {
+              mass.reinit(cell);
+              Moments before = {}, after = {};
+              for (unsigned int a = 0; a < mass.nodes.size(); ++a)
+                for (unsigned int b = 0; b < mass.nodes.size(); ++b)
+                  {
+                    const Point<dim> x = frame[body](positions, mass.nodes[a]),
+                                     y = frame[body](positions, mass.nodes[b]);
+                    add_moments(mass.complete(a, b), x, y, before);
+                    add_moments(mass.moved(a, b), x, y, after);
+                  }
+              for (unsigned int k = 0; k < n_moments; ++k)
+                missing(k) += before[k] - after[k];
+              moments.push_back(after);
+              numbers.push_back(cell->active_cell_index());
+            }
+        Utilities::MPI::sum(missing, solid.communicator, missing);
+        if (missing.linfty_norm() == 0.)
+          continue;
+        DensityFactors density(moments, solid.communicator);
+        // The moments of inertia as far as such factors can keep them, mass and centre always.
+        bool found = false;
+        for (double part = 1.; part > 0.1 && !found; part -= 0.25)
           {
-            const Moments p = monomials(frame[body](positions, node));
-            for (unsigned int k = 0; k < n_moments; ++k)
-              for (unsigned int l = 0; l < n_moments; ++l)
-                gram(k, l) += nodal(node) * p[k] * p[l];
+            dealii::Vector<double> wanted(missing);
+            for (unsigned int k = 1 + dim; k < n_moments; ++k)
+              wanted(k) *= part;
+            found = density.find(wanted, n_moments);
           }
-        Utilities::MPI::sum(gram, solid.communicator, gram);
-        const dealii::Vector<double> factors = solve_moments(gram, sum, scene.bodies[body]);
-        for (const Index node : nodes[body])
-          {
-            const Moments p     = monomials(frame[body](positions, node));
-            double        share = 0.;
-            for (unsigned int k = 0; k < n_moments; ++k)
-              share += factors(k) * p[k];
-            for (unsigned int d = 0; d < dim; ++d)
-              correction(node + d) = share * nodal(node);
-          }
+        found = found || density.find(missing, 1 + dim);
+        if (!found)
+          throw InputError(scene.bodies[body].section(),
+                           "Geometry",
+                           "",
+                           "the nodes beside the slave nodes are too few to take their mass and "
+                           "keep its centre",
+                           "take more cells through the thickness, make this body the master, "
+                           "or set 'Time integration/Scheme' to 'generalized_alpha'");
+        for (std::size_t e = 0; e < numbers.size(); ++e)
+          result[numbers[e]] = density.factors[e];
       }
-    correction.compress(VectorOperation::insert);
-    nodal += correction;
-    if (!diagonal)
-      {
-        Vector ones(nodal);
-        ones = 1.;
-        add_to_diagonal(matrix, ones, correction);
-      }
+    return result;
   }
 
 

@@ -5,7 +5,6 @@
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/solid.h>
 
-#include <array>
 #include <set>
 #include <vector>
 
@@ -25,9 +24,9 @@ namespace Touchstone
    *
    * Nodes can be made massless, for contact that does not chatter (Khenous, Laborde
    * and Renard 2008, Eur. J. Mech. A/Solids 27): what a cell has at them goes to its
-   * other nodes, and a correction of these keeps mass, centre of mass and moments of
-   * inertia of each body as they were. Where just two layers of nodes are left, the moments of
-   * inertia change with the square of the cell size.
+   * other nodes, and then the density of each cell is multiplied by a factor such that
+   * mass and centre of mass of each body are as they were, and its moments of inertia
+   * too unless the factors, which stay positive, cannot do that.
    */
   class Mass
   {
@@ -61,13 +60,14 @@ namespace Touchstone
     Vector nodal;
     bool   diagonal;
 
-    /** Correct the masses of the nodes by a polynomial of degree 2 in each body,
-     * so that the moments change by @p missing. */
-    void
-    restore_moments(const Scene                               &scene,
-                    const Solid                               &solid,
-                    const Vector                              &positions,
-                    const std::vector<std::array<double, 10>> &missing);
+    /** Factors of the density of each cell, by its active index, that make up for the
+     * moments that massless nodes would change. */
+    static std::vector<double>
+    density_factors(const Scene           &scene,
+                    const Solid           &solid,
+                    const std::set<Index> &massless,
+                    const Vector          &no_mass,
+                    double                 step);
   };
 } // namespace Touchstone
 
