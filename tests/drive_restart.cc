@@ -228,7 +228,7 @@ main(int argc, char **argv)
          "Body block/Material/Plasticity/Yield stress=10",
          "Body block/Material/Plasticity/Kinematic modulus=10"});
   go_on("inertia",
-        {"Time integration/Scheme=contact_stabilized",
+        {"Time integration/Scheme=generalized_alpha",
          "Body base/Material/Density=1",
          "Body block/Material/Density=1",
          "Body block/Material/Rayleigh stiffness=1e-3"});

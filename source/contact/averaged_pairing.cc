@@ -67,7 +67,13 @@ namespace Touchstone
       void
       remember(const PairingMemory &memory) override
       {
-        facing.remember(memory.of_faces);
+        // Of all ranks; those of this one are enough.
+        FacingFaces::Touched own;
+        for (const Covered &covered : slave_faces)
+          if (const auto found = memory.of_faces.find(covered.slave.key);
+              found != memory.of_faces.end())
+            own.insert(*found);
+        facing.remember(own);
       }
 
       SearchWork

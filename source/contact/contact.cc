@@ -18,6 +18,21 @@ namespace Touchstone
      * contact: otherwise a body that only rests on another would have no support
      * in the first iteration. */
     constexpr double touching = 1e-6;
+
+    Tensor<1, dim>
+    part_of_force(const ContactRow &row, const Contact::Part part)
+    {
+      const Tensor<1, dim> normal = (row.force * row.normal) * row.normal;
+      switch (part)
+        {
+          case Contact::Part::normal:
+            return normal;
+          case Contact::Part::tangential:
+            return row.force - normal;
+          default:
+            return row.force;
+        }
+    }
   } // namespace
 
 
@@ -230,10 +245,7 @@ namespace Touchstone
       for (const ContactRow &row : pair_rows)
         if (row.active())
           {
-            const Tensor<1, dim> normal = (row.force * row.normal) * row.normal;
-            const Tensor<1, dim> f      = part == Part::all      ? row.force
-                                          : part == Part::normal ? normal
-                                                                 : row.force - normal;
+            const Tensor<1, dim> f = part_of_force(row, part);
             for (unsigned int d = 0; d < dim; ++d)
               if (f[d] != 0.)
                 {
@@ -249,6 +261,19 @@ namespace Touchstone
     force.add(unknowns, values);
     force.compress(VectorOperation::add);
     solid.condense(force); // master nodes can hang
+  }
+
+
+
+  double
+  Contact::work_of_obstacles(const Part part) const
+  {
+    double work = 0.;
+    for (unsigned int p = 0; p < rows.size(); ++p)
+      for (std::size_t k = 0; k < rows[p].size(); ++k)
+        if (rows[p][k].active())
+          work += part_of_force(rows[p][k], part) * (rows[p][k].shift - committed[p][k].shift);
+    return Utilities::MPI::sum(work, solid.communicator);
   }
 
 

@@ -277,9 +277,11 @@ namespace Touchstone
     result.kinetic  = kinetic_energy(velocity);
     result.strain   = solid.strain_energy(u);
     result.plastic  = solid.has_history() ? solid.plastic_dissipation() : 0.;
-    result.contact -= work(old_normal, *forces.normal, at_end);
-    result.friction -= work(old_tangential, *forces.tangential, at_end);
-    result.external += work(old_support, *forces.support, at_end) +
+    result.contact += forces.obstacles_normal - work(old_normal, *forces.normal, at_end);
+    result.friction +=
+      forces.obstacles_tangential - work(old_tangential, *forces.tangential, at_end);
+    result.external += forces.obstacles_normal + forces.obstacles_tangential +
+                       work(old_support, *forces.support, at_end) +
                        work(old_external, *forces.external, at_end - scheme.alpha_f);
     if (damped)
       {

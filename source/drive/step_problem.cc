@@ -158,12 +158,18 @@ namespace Touchstone
   {
     // In statics nobody asks.
     if (!integration->dynamic())
-      return use({});
+      return use(StepForces());
     Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
     contact.add_forces(normal, Contact::Part::normal);
     contact.add_forces(tangential, Contact::Part::tangential);
     support *= -1.;
-    use({&external, &internal, &normal, &tangential, &support});
+    use({&external,
+         &internal,
+         &normal,
+         &tangential,
+         &support,
+         contact.work_of_obstacles(Contact::Part::normal),
+         contact.work_of_obstacles(Contact::Part::tangential)});
   }
 
 
@@ -181,8 +187,8 @@ namespace Touchstone
       if (parameters.adapt == "impacts" && touch < 1. - 1e-6 &&
           std::abs(change) > parameters.impact_tolerance * now.largest)
         part = touch;
-      if (now.balance_error() > parameters.gain_tolerance * now.largest)
-        throw EnergyGain("energy " + std::to_string(now.balance_error() / now.largest) +
+      if (now.gain() > parameters.gain_tolerance * now.largest)
+        throw EnergyGain("energy " + std::to_string(now.gain() / now.largest) +
                          " times the largest so far came from nowhere ('Time integration/Gain "
                          "tolerance')");
     });

@@ -72,6 +72,12 @@ namespace Touchstone
     void
     add_forces(Vector &force, Part part = Part::all) const;
 
+    /** @brief Work of a part of the contact forces on the motion that obstacles made
+     * since the committed state, force times length: the bodies get it from outside.
+     * Collective. */
+    double
+    work_of_obstacles(Part part) const;
+
     /** @brief The part of the motion since the committed state after which the first
      * open row closes; 1 if none does. Collective. */
     double

@@ -19,11 +19,14 @@ namespace Touchstone
   struct StepForces
   {
     /** Of loads and of the stress in the bodies. */
-    const Vector *external, *internal;
+    const Vector *external = nullptr, *internal = nullptr;
     /** Of contact, along the normals and across them. */
-    const Vector *normal, *tangential;
+    const Vector *normal = nullptr, *tangential = nullptr;
     /** What supports add for the nodes to move as they do. */
-    const Vector *support;
+    const Vector *support = nullptr;
+    /** Work that moving obstacles do by the normal and by the tangential contact forces,
+     * force times length. */
+    double obstacles_normal = 0., obstacles_tangential = 0.;
   };
 
   /**

@@ -47,6 +47,14 @@ namespace Touchstone
       return present() + plastic + contact + friction + damping - initial - external;
     }
 
+    /** @brief Energy that nothing explains: it came from nowhere, or from contact, which
+     * cannot have any but what its springs have stored. */
+    double
+    gain() const
+    {
+      return std::max(0., balance_error()) + std::max(0., -contact);
+    }
+
     /** @brief Take note of the size of the energies. */
     void
     update_largest()
