@@ -1,4 +1,5 @@
 #include <touchstone/algebra/rigid_body_modes.h>
+#include <touchstone/solid/bodies.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -34,33 +35,20 @@ namespace Touchstone
     , centres(scene.bodies.size())
     , sizes(scene.bodies.size())
   {
-    const unsigned int  n_bodies = scene.bodies.size();
-    std::vector<double> count(n_bodies), lower(dim * n_bodies, 1e300),
-      upper(dim * n_bodies, -1e300);
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        for (const unsigned int v : cell->vertex_indices())
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              double &l = lower[dim * cell->material_id() + d];
-              double &u = upper[dim * cell->material_id() + d];
-              l         = std::min(l, cell->vertex(v)[d]);
-              u         = std::max(u, cell->vertex(v)[d]);
-            }
-    Utilities::MPI::min(lower, solid.communicator, lower);
-    Utilities::MPI::max(upper, solid.communicator, upper);
-    for (unsigned int b = 0; b < n_bodies; ++b)
+    const std::vector<BoundingBox<dim>> boxes = body_boxes(scene, solid);
+    for (unsigned int b = 0; b < boxes.size(); ++b)
       {
-        double diagonal = 0.;
+        const auto &[low, high] = boxes[b].get_boundary_points();
+        double diagonal         = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            centres[b][d] = 0.5 * (lower[dim * b + d] + upper[dim * b + d]);
-            diagonal += std::pow(upper[dim * b + d] - lower[dim * b + d], 2);
+            centres[b][d] = 0.5 * (low[d] + high[d]);
+            diagonal += std::pow(high[d] - low[d], 2);
           }
         sizes[b] = 0.5 * std::sqrt(diagonal);
       }
 
-    row_body.resize(modes->MyLength());
+    row_body = bodies_of_unknowns(solid);
     std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
@@ -71,7 +59,6 @@ namespace Touchstone
               const int row = modes->Map().LID(static_cast<int>(dofs[i]));
               if (row < 0)
                 continue;
-              row_body[row] = cell->material_id();
               const Tensor<1, dim> x =
                 solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i)) -
                 centres[0];

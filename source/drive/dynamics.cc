@@ -1,5 +1,7 @@
 #include <touchstone/drive/dynamics.h>
 #include <touchstone/scene/expression.h>
+#include <touchstone/solid/bodies.h>
+#include <touchstone/solid/row_writer.h>
 
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
@@ -44,23 +46,6 @@ namespace Touchstone
       solid.hanging.distribute(result);
       return result;
     }
-
-    /** Number of the body of each owned unknown. */
-    std::vector<unsigned int>
-    bodies_of_unknowns(const Solid &solid)
-    {
-      std::vector<unsigned int> result(solid.owned.n_elements());
-      std::vector<Index>        dofs(solid.fe.n_dofs_per_cell());
-      for (const auto &cell : solid.dof_handler.active_cell_iterators())
-        if (!cell->is_artificial())
-          {
-            cell->get_dof_indices(dofs);
-            for (const Index i : dofs)
-              if (solid.owned.is_element(i))
-                result[solid.owned.index_within_set(i)] = cell->material_id();
-          }
-      return result;
-    }
   } // namespace
 
 
@@ -100,7 +85,7 @@ namespace Touchstone
 
 
   Vector
-  Dynamics::initial_displacement(const Scene &scene, const Solid &solid)
+  Dynamics::initial_displacement() const
   {
     return interpolate(scene, solid, &BodyParameters::initial_displacement);
   }
@@ -221,15 +206,11 @@ namespace Touchstone
       factor += of_mass;
     mass.add_to(effective, factors);
     if (damped)
-      for (int i = 0; i < effective.trilinos_matrix().NumMyRows(); ++i)
-        {
-          int     n, *columns;
-          double *values, *added;
-          effective.trilinos_matrix().ExtractMyRowView(i, n, values, columns);
-          damping_matrix().trilinos_matrix().ExtractMyRowView(i, n, added, columns);
-          for (int j = 0; j < n; ++j)
-            values[j] += of_damping * damping_stiffness.begin()[i] * added[j];
-        }
+      {
+        factors = damping_stiffness;
+        factors *= of_damping;
+        add_rows(effective, factors, damping_matrix());
+      }
     return effective;
   }
 
@@ -296,9 +277,9 @@ namespace Touchstone
 
 
   void
-  Dynamics::commit(const Vector &u, const StepForces &forces)
+  Dynamics::commit(const Vector &u, const StepForces &forces, const Energies &end)
   {
-    committed = energies(u, forces);
+    committed = end;
     Vector velocity(v), acceleration(v);
     end_of_step(u, velocity, acceleration);
     // What has no mass has no momentum to go on with: its velocity is that of the step.

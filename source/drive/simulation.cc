@@ -241,19 +241,17 @@ namespace Touchstone
           {
             unsigned int newton = solve_step(next);
             newton += adapt(step, next);
-            part = problem->acceptable_part();
-            if (part < 1. && part * (next - time) >= scene.time_integration.smallest_step * nominal)
+            const std::string remarks = problem->remarks();
+            part = problem->try_commit(scene.time_integration.smallest_step * nominal / now);
+            if (part < 1.)
               {
                 part *= (next - time) / size;
                 problem->rollback();
                 progress.shorten_step(part * size);
                 continue;
               }
-            part                      = 1.;
-            const std::string remarks = problem->remarks();
             if (!remarks.empty())
               log.line("  " + remarks);
-            problem->commit();
             committed_time = time = next;
             progress.end_step(newton);
             record_step(step, time, now, newton, cuts);

@@ -21,6 +21,12 @@ namespace Touchstone
       {
       }
 
+      Vector
+      initial_displacement() const override
+      {
+        return Vector(solid.owned, solid.communicator);
+      }
+
       void
       start(const Vector &, const Vector &, const Supports &) override
       {
@@ -88,9 +94,9 @@ namespace Touchstone
       }
 
       void
-      commit(const Vector &u, const StepForces &forces) override
+      commit(const Vector &u, const StepForces &, const Energies &end) override
       {
-        committed = energies(u, forces);
+        committed = end;
         // The first step is no motion that goes on.
         if (guesses && committed_time > 0.)
           {

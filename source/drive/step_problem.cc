@@ -1,7 +1,5 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/contact/row_terms.h>
-#include <touchstone/drive/dynamics.h>
-#include <touchstone/drive/energy_gain.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
@@ -76,8 +74,7 @@ namespace Touchstone
   std::vector<std::string>
   StepProblem::start()
   {
-    if (integration->dynamic())
-      u = committed_u = Dynamics::initial_displacement(scene, solid);
+    u = committed_u = integration->initial_displacement();
     {
       TimerOutput::Scope scope(timer, "search");
       contact.update(u, 0.);
@@ -144,7 +141,32 @@ namespace Touchstone
   void
   StepProblem::commit()
   {
-    with_forces([&](const StepForces &forces) { integration->commit(u, forces); });
+    with_forces([&](const StepForces &forces) { keep(forces, integration->energies(u, forces)); });
+  }
+
+
+
+  double
+  StepProblem::try_commit(const double smallest_part)
+  {
+    double part = 1.;
+    with_forces([&](const StepForces &forces) {
+      const Energies end = integration->energies(u, forces);
+      part               = acceptable_part(end);
+      if (part < smallest_part)
+        part = 1.;
+      if (part == 1.)
+        keep(forces, end);
+    });
+    return part;
+  }
+
+
+
+  void
+  StepProblem::keep(const StepForces &forces, const Energies &end)
+  {
+    integration->commit(u, forces, end);
     committed_u    = u;
     committed_time = time;
     solid.commit();
@@ -175,24 +197,19 @@ namespace Touchstone
 
 
   double
-  StepProblem::acceptable_part() const
+  StepProblem::acceptable_part(const Energies &end) const
   {
-    double part = 1.;
     if (!integration->dynamic())
-      return part;
-    with_forces([&](const StepForces &forces) {
-      const TimeIntegrationParameters &parameters = scene.time_integration;
-      const Energies                   now        = integration->energies(u, forces);
-      const double change = now.contact - integration->committed_energies().contact;
-      if (parameters.adapt == "impacts" && touch < 1. - 1e-6 &&
-          std::abs(change) > parameters.impact_tolerance * now.largest)
-        part = touch;
-      if (now.gain() > parameters.gain_tolerance * now.largest)
-        throw EnergyGain("energy " + std::to_string(now.gain() / now.largest) +
-                         " times the largest so far came from nowhere ('Time integration/Gain "
-                         "tolerance')");
-    });
-    return part;
+      return 1.;
+    const TimeIntegrationParameters &parameters = scene.time_integration;
+    if (end.gain() > parameters.gain_tolerance * end.largest)
+      throw EnergyGain("energy " + std::to_string(end.gain() / end.largest) +
+                       " times the largest so far came from nowhere ('Time integration/Gain "
+                       "tolerance')");
+    const double change = end.contact - integration->committed_energies().contact;
+    const bool   impact = parameters.adapt == "impacts" && touch < 1. - 1e-6 &&
+                        std::abs(change) > parameters.impact_tolerance * end.largest;
+    return impact ? touch : 1.;
   }
 
 

@@ -1,8 +1,9 @@
 #include <touchstone/scene/input_error.h>
+#include <touchstone/solid/bodies.h>
 #include <touchstone/solid/mass.h>
+#include <touchstone/solid/row_writer.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
@@ -72,6 +73,13 @@ namespace Touchstone
      * counts as much as what is long. */
     struct Frame
     {
+      explicit Frame(const BoundingBox<dim> &box)
+        : centre(box.center())
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          size[d] = 0.5 * box.side_length(d);
+      }
+
       Point<dim> centre, size;
 
       Point<dim>
@@ -83,49 +91,6 @@ namespace Touchstone
         return x;
       }
     };
-
-    std::vector<Frame>
-    frames(const Scene &scene, const Solid &solid)
-    {
-      std::vector<Frame> result(scene.bodies.size());
-      for (unsigned int b = 0; b < result.size(); ++b)
-        {
-          Point<dim> low, high;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              low[d]  = std::numeric_limits<double>::max();
-              high[d] = -low[d];
-            }
-          for (const auto &cell : solid.dof_handler.active_cell_iterators())
-            if (cell->is_locally_owned() && cell->material_id() == b)
-              for (const unsigned int v : cell->vertex_indices())
-                for (unsigned int d = 0; d < dim; ++d)
-                  {
-                    low[d]  = std::min(low[d], cell->vertex(v)[d]);
-                    high[d] = std::max(high[d], cell->vertex(v)[d]);
-                  }
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              low[d]              = Utilities::MPI::min(low[d], solid.communicator);
-              high[d]             = Utilities::MPI::max(high[d], solid.communicator);
-              result[b].centre[d] = 0.5 * (low[d] + high[d]);
-              result[b].size[d]   = 0.5 * (high[d] - low[d]);
-            }
-        }
-      return result;
-    }
-
-    /** Add the products of @p factors and @p entries to the diagonal. */
-    void
-    add_to_diagonal(Matrix &matrix, const Vector &factors, const Vector &entries)
-    {
-      auto         &target = const_cast<Epetra_CrsMatrix &>(matrix.trilinos_matrix());
-      Epetra_Vector sum(target.RowMap());
-      target.ExtractDiagonalCopy(sum);
-      for (int i = 0; i < sum.MyLength(); ++i)
-        sum[i] += factors.begin()[i] * entries.begin()[i];
-      target.ReplaceDiagonalValues(sum);
-    }
 
     /** The mass matrix of one component in a cell. */
     class CellMass
@@ -381,11 +346,12 @@ namespace Touchstone
       return result;
     Vector coordinates(solid.owned, solid.communicator);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, coordinates);
-    const Vector             positions = solid.ghosted(coordinates);
-    const std::vector<Frame> frame     = frames(scene, solid);
-    CellMass                 mass(scene, solid, no_mass, step);
+    const Vector positions = solid.ghosted(coordinates);
+    const auto   boxes     = body_boxes(scene, solid);
+    CellMass     mass(scene, solid, no_mass, step);
     for (unsigned int body = 0; body < scene.bodies.size(); ++body)
       {
+        const Frame               frame(boxes[body]);
         dealii::Vector<double>    missing(n_moments);
         std::vector<Moments>      moments;
         std::vector<unsigned int> numbers;
@@ -397,8 +363,8 @@ namespace Touchstone
               for (unsigned int a = 0; a < mass.nodes.size(); ++a)
                 for (unsigned int b = 0; b < mass.nodes.size(); ++b)
                   {
-                    const Point<dim> x = frame[body](positions, mass.nodes[a]),
-                                     y = frame[body](positions, mass.nodes[b]);
+                    const Point<dim> x = frame(positions, mass.nodes[a]),
+                                     y = frame(positions, mass.nodes[b]);
                     add_moments(mass.complete(a, b), x, y, before);
                     add_moments(mass.moved(a, b), x, y, after);
                   }
@@ -456,19 +422,14 @@ namespace Touchstone
   {
     if (diagonal)
       {
-        add_to_diagonal(sum, factors, nodal);
+        auto         &target = const_cast<Epetra_CrsMatrix &>(sum.trilinos_matrix());
+        Epetra_Vector entries(target.RowMap());
+        target.ExtractDiagonalCopy(entries);
+        for (int i = 0; i < entries.MyLength(); ++i)
+          entries[i] += factors.begin()[i] * nodal.begin()[i];
+        target.ReplaceDiagonalValues(entries);
         return;
       }
-    const Epetra_CrsMatrix &target = sum.trilinos_matrix();
-    for (int i = 0; i < target.NumMyRows(); ++i)
-      {
-        int     n, m, *columns;
-        double *values, *added;
-        target.ExtractMyRowView(i, n, values, columns);
-        matrix.trilinos_matrix().ExtractMyRowView(i, m, added, columns);
-        AssertThrow(n == m, ExcMessage("The matrices have different patterns."));
-        for (int j = 0; j < n; ++j)
-          values[j] += factors.begin()[i] * added[j];
-      }
+    add_rows(sum, factors, matrix);
   }
 } // namespace Touchstone

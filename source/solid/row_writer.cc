@@ -89,4 +89,21 @@ namespace Touchstone
       sum += std::abs(values[k]);
     return sum;
   }
+
+
+
+  void
+  add_rows(Matrix &sum, const Vector &factors, const Matrix &added)
+  {
+    for (int i = 0; i < sum.trilinos_matrix().NumMyRows(); ++i)
+      {
+        int     n, m, *columns;
+        double *values, *others;
+        sum.trilinos_matrix().ExtractMyRowView(i, n, values, columns);
+        added.trilinos_matrix().ExtractMyRowView(i, m, others, columns);
+        AssertThrow(n == m, dealii::ExcMessage("The matrices have different patterns."));
+        for (int j = 0; j < n; ++j)
+          values[j] += factors.begin()[i] * others[j];
+      }
+  }
 } // namespace Touchstone

@@ -49,6 +49,12 @@ namespace Touchstone
   {
     using NonConvergence::NonConvergence;
   };
+
+  /** @brief A step has made energy from nothing. */
+  class EnergyGain : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
 } // namespace Touchstone
 
 #endif

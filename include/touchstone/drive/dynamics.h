@@ -32,9 +32,8 @@ namespace Touchstone
              const std::set<Index> &slaves,
              const Vector          &committed_u);
 
-    /** @brief The displacement at time 0. Collective. */
-    static Vector
-    initial_displacement(const Scene &scene, const Solid &solid);
+    Vector
+    initial_displacement() const override;
 
     void
     start(const Vector &external, const Vector &internal, const Supports &supports) override;
@@ -69,7 +68,7 @@ namespace Touchstone
     Energies
     energies(const Vector &u, const StepForces &forces) const override;
     void
-    commit(const Vector &u, const StepForces &forces) override;
+    commit(const Vector &u, const StepForces &forces, const Energies &end) override;
     void
     rollback() override
     {
@@ -83,11 +82,6 @@ namespace Touchstone
     }
     void
     adopt(const std::vector<Vector> &rates, const StepForces &forces) override;
-    const Vector *
-    velocity() const override
-    {
-      return &v;
-    }
     std::vector<dealii::Tensor<1, dim>>
     body_velocities() const override;
     std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>

@@ -37,6 +37,17 @@ namespace Touchstone
     void
     commit();
 
+    /**
+     * @brief commit(), if the energies at the end of the step allow it: always in
+     * statics.
+     * @param smallest_part A shorter part than this of the step is not worth it.
+     * @return 1 if the state is kept; else the part of the step that is to be made
+     * instead, up to where bodies meet.
+     * @throws EnergyGain
+     */
+    double
+    try_commit(double smallest_part);
+
     /** @brief Return to the committed state. */
     void
     rollback();
@@ -72,16 +83,6 @@ namespace Touchstone
     {
       return solid.strain_energy(u);
     }
-
-    /**
-     * @brief Whether the converged step may be kept as far as its energies are
-     * concerned: always in statics.
-     * @return 1, or the part of the step that is to be made instead, up to where
-     * bodies meet.
-     * @throws EnergyGain
-     */
-    double
-    acceptable_part() const;
 
     const TimeIntegration &
     time_integration() const
@@ -206,6 +207,12 @@ namespace Touchstone
     /** Take from the forces on nodes what their supports carry. */
     void
     remove_supported(Vector &force) const;
+    /** Keep the present state, whose forces and energies these are. */
+    void
+    keep(const StepForces &forces, const Energies &end);
+    /** See try_commit(). */
+    double
+    acceptable_part(const Energies &end) const;
     /** Call @p use with the forces at the end of the step. */
     void
     with_forces(const std::function<void(const StepForces &)> &use) const;

@@ -42,6 +42,10 @@ namespace Touchstone
   public:
     virtual ~TimeIntegration() = default;
 
+    /** @brief The displacement at time 0, without ghosts. Collective. */
+    virtual Vector
+    initial_displacement() const = 0;
+
     /** @brief What is known of the supports at time 0: sets the components that they
      * prescribe, of a velocity to their own and of a force to zero. */
     struct Supports
@@ -90,9 +94,9 @@ namespace Touchstone
     virtual Energies
     energies(const Vector &u, const StepForces &forces) const = 0;
 
-    /** @brief Keep the end of the step. */
+    /** @brief Keep the end of the step, with its energies(). */
     virtual void
-    commit(const Vector &u, const StepForces &forces) = 0;
+    commit(const Vector &u, const StepForces &forces, const Energies &end) = 0;
 
     /** @brief The step is repeated. */
     virtual void
@@ -128,13 +132,6 @@ namespace Touchstone
     /** @brief Set time and energies of the committed state, as state() cannot. */
     void
     resume(double time, const Energies &energies);
-
-    /** @brief Committed velocity, length per time, without ghosts; null in statics. */
-    virtual const Vector *
-    velocity() const
-    {
-      return nullptr;
-    }
 
     /** @brief Momentum and angular momentum about the origin of the committed state;
      * zero in statics. Collective. */

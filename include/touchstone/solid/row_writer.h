@@ -49,6 +49,11 @@ namespace Touchstone
     int
     position(int row, int column) const;
   };
+
+  /** @brief Add the rows of @p added, each multiplied by one of the @p factors, to those of
+   * @p sum, which has the same pattern. */
+  void
+  add_rows(Matrix &sum, const Vector &factors, const Matrix &added);
 } // namespace Touchstone
 
 #endif

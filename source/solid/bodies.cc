@@ -1,0 +1,61 @@
+#include <touchstone/solid/bodies.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  std::vector<BoundingBox<dim>>
+  body_boxes(const Scene &scene, const Solid &solid)
+  {
+    const unsigned int  n_bodies = scene.bodies.size();
+    constexpr double    far      = std::numeric_limits<double>::max();
+    std::vector<double> lower(dim * n_bodies, far), upper(dim * n_bodies, -far);
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              double &l = lower[dim * cell->material_id() + d];
+              double &u = upper[dim * cell->material_id() + d];
+              l         = std::min(l, cell->vertex(v)[d]);
+              u         = std::max(u, cell->vertex(v)[d]);
+            }
+    Utilities::MPI::min(lower, solid.communicator, lower);
+    Utilities::MPI::max(upper, solid.communicator, upper);
+    std::vector<BoundingBox<dim>> result;
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        Point<dim> low, high;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            low[d]  = lower[dim * b + d];
+            high[d] = upper[dim * b + d];
+          }
+        result.emplace_back(std::make_pair(low, high));
+      }
+    return result;
+  }
+
+
+
+  std::vector<unsigned int>
+  bodies_of_unknowns(const Solid &solid)
+  {
+    std::vector<unsigned int> result(solid.owned.n_elements());
+    std::vector<Index>        dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell->get_dof_indices(dofs);
+          for (const Index i : dofs)
+            if (solid.owned.is_element(i))
+              result[solid.owned.index_within_set(i)] = cell->material_id();
+        }
+    return result;
+  }
+} // namespace Touchstone
