@@ -375,6 +375,11 @@ main(int argc, char **argv)
   energy({conserving,
           "Time integration/Spectral radius=1",
           "Time integration/Mass=dispersion corrected"});
+  for (const std::string mass : {"consistent", "lumped"})
+    energy({conserving,
+            "Time integration/Spectral radius=1",
+            "Time integration/Impact=plastic",
+            "Time integration/Mass=" + mass});
   energy({"Time integration/Scheme=contact_stabilized"});
   energy({"Time integration/Scheme=contact_stabilized", "Time integration/Mass=lumped"});
   for (const std::string law : {"linear elastic", "neo-Hookean"})

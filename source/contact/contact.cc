@@ -208,6 +208,7 @@ namespace Touchstone
         {
           ContactRow &row  = pair_rows[k];
           Pair       &pair = pairs[row.pair];
+          row.jump         = Tensor<1, dim>();
           for (unsigned int d = 0; d < dim; ++d)
             row.position[d] = ghosted(dim * row.slave + d);
           row.position += pair.slave->owned_nodes()[k].reference;
@@ -346,8 +347,8 @@ namespace Touchstone
           point.normal   = row.normal;
           point.gap      = row.gap;
           point.area     = row.area;
-          point.pressure = row.lambda / row.area;
-          point.traction = row.force / row.area;
+          point.pressure = (row.lambda + row.jump * row.normal) / row.area;
+          point.traction = (row.force + row.jump) / row.area;
           point.status   = row.status;
           if (row.friction)
             {

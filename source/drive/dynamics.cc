@@ -1,4 +1,5 @@
 #include <touchstone/drive/dynamics.h>
+#include <touchstone/drive/impact.h>
 #include <touchstone/scene/expression.h>
 #include <touchstone/solid/bodies.h>
 #include <touchstone/solid/row_writer.h>
@@ -70,6 +71,10 @@ namespace Touchstone
     , old_normal(v)
     , old_tangential(v)
     , old_support(v)
+    , end_v(v)
+    , end_a(v)
+    , end_normal(v)
+    , end_tangential(v)
   {
     for (std::size_t i = 0; i < body.size(); ++i)
       {
@@ -241,13 +246,16 @@ namespace Touchstone
 
 
   Energies
-  Dynamics::energies(const Vector &u, const StepForces &forces) const
+  Dynamics::end_step(const Vector &u, const StepForces &forces)
   {
-    Vector velocity(v), acceleration(v), way(u), mean(v);
-    end_of_step(u, velocity, acceleration);
-    way -= committed_u;
+    end_of_step(u, end_v, end_a);
+    end_normal     = *forces.normal;
+    end_tangential = *forces.tangential;
+
     // The forces that change the momentum over the step: those in the balance stand
     // for the time n + 1 - m, and Newmark's formula asks for n + gamma.
+    Vector way(u), mean(v);
+    way -= committed_u;
     const double at_end = scheme.gamma + scheme.alpha_m;
     const auto   work   = [&](const Vector &old, const Vector &now, const double theta) {
       mean = old;
@@ -255,21 +263,34 @@ namespace Touchstone
       return mean * way;
     };
     Energies result = committed;
-    result.kinetic  = kinetic_energy(velocity);
-    result.strain   = solid.strain_energy(u);
-    result.plastic  = solid.has_history() ? solid.plastic_dissipation() : 0.;
+    if (damped)
+      {
+        Vector velocity(v);
+        velocity.sadd(0.5, 0.5, end_v);
+        damping_force(velocity, mean);
+        result.damping += mean * way;
+      }
+    // What has no mass has no momentum to go on with: its velocity is that of the step.
+    for (const Index node : massless)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Index i = node + d;
+          end_v(i)      = (u(i) - committed_u(i)) / step;
+          end_a(i)      = 0.;
+        }
+    end_v.compress(VectorOperation::insert);
+    end_a.compress(VectorOperation::insert);
+    if (forces.pressing != nullptr)
+      lose_rebound(forces, result);
+    result.kinetic = kinetic_energy(end_v);
+    result.strain  = solid.strain_energy(u);
+    result.plastic = solid.has_history() ? solid.plastic_dissipation() : 0.;
     result.contact += forces.obstacles_normal - work(old_normal, *forces.normal, at_end);
     result.friction +=
       forces.obstacles_tangential - work(old_tangential, *forces.tangential, at_end);
     result.external += forces.obstacles_normal + forces.obstacles_tangential +
                        work(old_support, *forces.support, at_end) +
                        work(old_external, *forces.external, at_end - scheme.alpha_f);
-    if (damped)
-      {
-        velocity.sadd(0.5, 0.5, v);
-        damping_force(velocity, mean);
-        result.damping += mean * way;
-      }
     result.update_largest();
     return result;
   }
@@ -277,25 +298,32 @@ namespace Touchstone
 
 
   void
-  Dynamics::commit(const Vector &u, const StepForces &forces, const Energies &end)
+  Dynamics::lose_rebound(const StepForces &forces, Energies &energies)
   {
-    committed = end;
-    Vector velocity(v), acceleration(v);
-    end_of_step(u, velocity, acceleration);
-    // What has no mass has no momentum to go on with: its velocity is that of the step.
-    for (const Index node : massless)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const Index i   = node + d;
-          velocity(i)     = (u(i) - committed_u(i)) / step;
-          acceleration(i) = 0.;
-        }
-    velocity.compress(VectorOperation::insert);
-    acceleration.compress(VectorOperation::insert);
-    v              = velocity;
-    a              = acceleration;
+    Impact             impact(*forces.pressing, mass, solid, forces.remove_support);
+    const Impact::Loss of_acceleration = impact.stop(end_a, false);
+    end_normal -= of_acceleration.normal;
+    end_tangential -= of_acceleration.tangential;
+    Vector             mean(end_v);
+    const Impact::Loss loss = impact.stop(end_v, true);
+    mean.sadd(0.5, 0.5, end_v);
+    energies.contact += mean * loss.normal - loss.of_obstacles;
+    energies.friction += mean * loss.tangential;
+    energies.external -= loss.of_obstacles;
+  }
+
+
+
+  void
+  Dynamics::commit(const Vector & /*u*/, const StepForces &forces, const Energies &end)
+  {
+    committed      = end;
+    v              = end_v;
+    a              = end_a;
     committed_time = time;
     keep(forces);
+    old_normal     = end_normal;
+    old_tangential = end_tangential;
   }
 
 

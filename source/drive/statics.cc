@@ -85,7 +85,7 @@ namespace Touchstone
       }
 
       Energies
-      energies(const Vector &u, const StepForces &) const override
+      end_step(const Vector &u, const StepForces &) override
       {
         Energies result = committed;
         result.strain   = solid.strain_energy(u);

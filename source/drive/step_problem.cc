@@ -141,7 +141,7 @@ namespace Touchstone
   void
   StepProblem::commit()
   {
-    with_forces([&](const StepForces &forces) { keep(forces, integration->energies(u, forces)); });
+    with_forces([&](const StepForces &forces) { keep(forces, integration->end_step(u, forces)); });
   }
 
 
@@ -151,7 +151,7 @@ namespace Touchstone
   {
     double part = 1.;
     with_forces([&](const StepForces &forces) {
-      const Energies end = integration->energies(u, forces);
+      const Energies end = integration->end_step(u, forces);
       part               = acceptable_part(end);
       if (part < smallest_part)
         part = 1.;
@@ -167,6 +167,8 @@ namespace Touchstone
   StepProblem::keep(const StepForces &forces, const Energies &end)
   {
     integration->commit(u, forces, end);
+    if (forces.pressing != nullptr)
+      contact.add_jumps(*forces.pressing, time - committed_time);
     committed_u    = u;
     committed_time = time;
     solid.commit();
@@ -176,7 +178,7 @@ namespace Touchstone
 
 
   void
-  StepProblem::with_forces(const std::function<void(const StepForces &)> &use) const
+  StepProblem::with_forces(const std::function<void(const StepForces &)> &use)
   {
     // In statics nobody asks.
     if (!integration->dynamic())
@@ -185,11 +187,17 @@ namespace Touchstone
     contact.add_forces(normal, Contact::Part::normal);
     contact.add_forces(tangential, Contact::Part::tangential);
     support *= -1.;
+    std::vector<PressingNode> pressing;
+    const bool                plastic = scene.time_integration.plastic_impacts();
+    if (plastic && time > committed_time)
+      pressing = contact.pressing(graph, time - committed_time);
     use({&external,
          &internal,
          &normal,
          &tangential,
          &support,
+         plastic ? &pressing : nullptr,
+         [this](Vector &force) { remove_supported(force); },
          contact.work_of_obstacles(Contact::Part::normal),
          contact.work_of_obstacles(Contact::Part::tangential)});
   }
@@ -207,7 +215,7 @@ namespace Touchstone
                        " times the largest so far came from nowhere ('Time integration/Gain "
                        "tolerance')");
     const double change = end.contact - integration->committed_energies().contact;
-    const bool   impact = parameters.adapt == "impacts" && touch < 1. - 1e-6 &&
+    const bool   impact = parameters.adapts_to_impacts() && touch < 1. - 1e-6 &&
                         std::abs(change) > parameters.impact_tolerance * end.largest;
     return impact ? touch : 1.;
   }

@@ -48,11 +48,22 @@ namespace Touchstone
       "Part of an infinitely fast oscillation that a step of 'generalized_alpha' or "
       "'contact_stabilized' leaves: 0 to 1, or 'automatic': 0.8 and 1. [no unit]",
       Patterns::Anything());
+    prm.add_parameter("Impact",
+                      impact,
+                      "What becomes of nodes that meet. 'elastic': contact forces alone decide; "
+                      "no energy is lost in steps that end where bodies meet, and single nodes "
+                      "rebound. 'plastic': nodes that press lose their relative velocity, so that "
+                      "contact does not chatter, at the price of the kinetic energy of these "
+                      "nodes. 'automatic': 'elastic' for 'contact_stabilized' and 'Spectral "
+                      "radius' 1, which conserve energy, and for the dispersion-corrected mass; "
+                      "'plastic' for others.",
+                      Patterns::Selection("automatic|elastic|plastic"));
     prm.add_parameter("Adapt steps",
                       adapt,
                       "'impacts': a step in which contact takes or gives much energy is repeated "
-                      "with a size that ends where the bodies meet; 'none'.",
-                      Patterns::Selection("none|impacts"));
+                      "with a size that ends where the bodies meet; 'none'; 'automatic': "
+                      "'impacts' where impacts are elastic.",
+                      Patterns::Selection("automatic|none|impacts"));
     prm.add_parameter("Impact tolerance",
                       impact_tolerance,
                       "Energy that contact may take or give in a step, relative to the "
@@ -129,6 +140,19 @@ namespace Touchstone
 
 
 
+  bool
+  TimeIntegrationParameters::plastic_impacts() const
+  {
+    if (!dynamic() || impact == "elastic")
+      return false;
+    const Coefficients c = coefficients();
+    // Spectral radius 1 is the midpoint rule.
+    return impact == "plastic" ||
+           !(mass == "dispersion corrected" || (c.alpha_m == 0.5 && c.alpha_f == 0.5));
+  }
+
+
+
   void
   TimeIntegrationParameters::check(const std::string &section) const
   {
@@ -139,6 +163,18 @@ namespace Touchstone
                  newmark_gamma / 2.,
                  1.,
                  "take 'automatic': below gamma/2 large steps are not stable");
+    if (impact == "plastic" && scheme == "contact_stabilized")
+      throw InputError(section,
+                       "Impact",
+                       impact,
+                       "nodes without mass have no velocity to lose",
+                       "take 'elastic', or another 'Scheme'");
+    if (impact == "plastic" && mass == "dispersion corrected")
+      throw InputError(section,
+                       "Impact",
+                       impact,
+                       "the dispersion-corrected mass gives some motions of nodes no inertia",
+                       "take 'elastic', or another 'Mass'");
     check_number(section, "Spectral radius", spectral_radius, 0., 1., "take 'automatic'");
   }
 } // namespace Touchstone

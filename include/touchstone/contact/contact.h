@@ -1,6 +1,7 @@
 #ifndef touchstone_contact_contact_h
 #define touchstone_contact_contact_h
 
+#include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/contact/pairing.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/scene/scene.h>
@@ -14,7 +15,21 @@ namespace Touchstone
 {
   class ArchiveReader;
   class ArchiveWriter;
-  class ConstraintGraph;
+
+  /** @brief A velocity that contact leaves no room for. */
+  struct PressingNode
+  {
+    /** Of the node and what it touches, with the velocity that they should have,
+     * length per time. */
+    Condition condition;
+    /** Along the normal, not across it. */
+    bool normal;
+    /** Number of the pair, and of the row in it. */
+    unsigned int pair;
+    std::size_t  row;
+    /** What was taken to make it so, force times time. */
+    double impulse = 0.;
+  };
 
   /**
    * @brief All contact pairs of a scene: their surfaces, their rows, the active
@@ -82,6 +97,16 @@ namespace Touchstone
      * open row closes; 1 if none does. Collective. */
     double
     part_to_touch() const;
+
+    /** @brief The relative velocities that are left no room where nodes press, in a step
+     * of length @p step: along normals, and across them where nodes stick. None that
+     * @p supports decide. */
+    std::vector<PressingNode>
+    pressing(const ConstraintGraph &supports, double step) const;
+
+    /** @brief Results of the step are to show the impulses, which acts during @p step. */
+    void
+    add_jumps(const std::vector<PressingNode> &pressing, double step);
 
     /**
      * @brief Take out rows that depend on each other in a circle.

@@ -105,6 +105,9 @@ namespace Touchstone
     ContactStatus status = ContactStatus::no_partner;
     /** Motion of the obstacle since time 0, length; zero for a master body. */
     dealii::Tensor<1, dim> shift;
+    /** What an impact without rebound adds to the force of the last step, for results
+     * only; force. */
+    dealii::Tensor<1, dim> jump;
     /** Only where there is friction. */
     std::optional<FrictionState> friction;
 

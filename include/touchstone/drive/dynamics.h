@@ -66,7 +66,7 @@ namespace Touchstone
     double
     round_off(const Vector &u) const override;
     Energies
-    energies(const Vector &u, const StepForces &forces) const override;
+    end_step(const Vector &u, const StepForces &forces) override;
     void
     commit(const Vector &u, const StepForces &forces, const Energies &end) override;
     void
@@ -109,10 +109,17 @@ namespace Touchstone
     /** Velocity, acceleration and forces of the committed state. */
     Vector v, a, old_external, old_internal, old_normal, old_tangential, old_support;
     double inertial_force = 0.;
+    /** Velocity and acceleration at the end of the step, and the contact forces there
+     * without what an impact has taken from the acceleration. */
+    Vector end_v, end_a, end_normal, end_tangential;
 
     /** Acceleration and velocity at the end of the step if it ends at @p u. */
     void
     end_of_step(const Vector &u, Vector &velocity, Vector &acceleration) const;
+    /** Lose the velocity that an impact leaves no room for; into @p energies goes the
+     * work of the impulses. */
+    void
+    lose_rebound(const StepForces &forces, Energies &energies);
     void
     keep(const StepForces &forces);
     /** C times a velocity. */

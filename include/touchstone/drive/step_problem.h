@@ -215,7 +215,7 @@ namespace Touchstone
     acceptable_part(const Energies &end) const;
     /** Call @p use with the forces at the end of the step. */
     void
-    with_forces(const std::function<void(const StepForces &)> &use) const;
+    with_forces(const std::function<void(const StepForces &)> &use);
   };
 } // namespace Touchstone
 

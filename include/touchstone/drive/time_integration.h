@@ -2,6 +2,7 @@
 #define touchstone_drive_time_integration_h
 
 #include <touchstone/algebra/vector.h>
+#include <touchstone/contact/contact.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/energies.h>
 #include <touchstone/solid/solid.h>
@@ -24,6 +25,10 @@ namespace Touchstone
     const Vector *normal = nullptr, *tangential = nullptr;
     /** What supports add for the nodes to move as they do. */
     const Vector *support = nullptr;
+    /** For impacts without rebound, else null: where nodes press. It gets the impulses. */
+    std::vector<PressingNode> *pressing = nullptr;
+    /** Takes from forces on nodes what supports carry. */
+    std::function<void(Vector &)> remove_support;
     /** Work that moving obstacles do by the normal and by the tangential contact forces,
      * force times length. */
     double obstacles_normal = 0., obstacles_tangential = 0.;
@@ -90,11 +95,12 @@ namespace Touchstone
     virtual double
     round_off(const Vector &u) const = 0;
 
-    /** @brief The energies that the step would leave, force times length. Collective. */
+    /** @brief Work out where the step ends if it ends at @p u. @return the energies
+     * that it would leave, force times length. Collective. @throws LinearSolverFailure */
     virtual Energies
-    energies(const Vector &u, const StepForces &forces) const = 0;
+    end_step(const Vector &u, const StepForces &forces) = 0;
 
-    /** @brief Keep the end of the step, with its energies(). */
+    /** @brief Keep the end of the step as end_step() found it, with its energies. */
     virtual void
     commit(const Vector &u, const StepForces &forces, const Energies &end) = 0;
 

@@ -24,8 +24,12 @@ namespace Touchstone
     /** Spectral radius at infinite frequency of generalized_alpha and
      * contact_stabilized, 0 to 1, a number or "automatic": 0.8 and 1. */
     std::string spectral_radius = "automatic";
-    /** "none" or "impacts": steps are shortened so that they end where bodies meet. */
-    std::string adapt = "impacts";
+    /** "elastic", "plastic" or "automatic": what becomes of the velocity of nodes that
+     * meet. */
+    std::string impact = "automatic";
+    /** "none", "impacts": steps are shortened so that they end where bodies meet, or
+     * "automatic". */
+    std::string adapt = "automatic";
     /** Energy that contact may take or give in a step without the step being
      * shortened, relative to the energy in the bodies; no unit. */
     double impact_tolerance = 1e-4;
@@ -39,6 +43,18 @@ namespace Touchstone
     dynamic() const
     {
       return scheme != "static";
+    }
+
+    /** @brief Nodes that meet do not rebound: "automatic" says so where the scheme does not
+     * conserve energy anyway. */
+    bool
+    plastic_impacts() const;
+
+    /** @brief Steps are to end where bodies meet: "automatic" says so where rebound is. */
+    bool
+    adapts_to_impacts() const
+    {
+      return adapt == "impacts" || (adapt == "automatic" && !plastic_impacts());
     }
 
     /** @brief The numbers of the generalized-alpha family that the scheme stands for.

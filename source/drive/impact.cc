@@ -1,0 +1,206 @@
+#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/drive/impact.h>
+
+#include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/precondition.h>
+#include <deal.II/lac/solver_cg.h>
+#include <deal.II/lac/solver_control.h>
+#include <deal.II/lac/solver_gmres.h>
+
+#include <Epetra_Map.h>
+#include <set>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What a solver asks of a matrix. */
+    struct Operator
+    {
+      std::function<void(Vector &, const Vector &)> apply;
+
+      void
+      vmult(Vector &y, const Vector &x) const
+      {
+        apply(y, x);
+      }
+    };
+
+    /** Solve until the residual is @p reduction of what it was. */
+    template <typename Solver, typename Preconditioner>
+    void
+    solve(const Operator       &matrix,
+          const Preconditioner &preconditioner,
+          const double          reduction,
+          const Vector         &rhs,
+          Vector               &x)
+    {
+      ReductionControl control(1000, 1e-300, reduction, false, false);
+      Solver           solver(control);
+      try
+        {
+          solver.solve(matrix, x, rhs, preconditioner);
+        }
+      catch (const SolverControl::NoConvergence &failure)
+        {
+          throw LinearSolverFailure("the velocities after an impact were not found: residual " +
+                                    std::to_string(failure.last_residual / rhs.l2_norm()) +
+                                    " of the first one");
+        }
+    }
+
+    /** The matrix whose rows are forms of the unknowns in @p columns. */
+    std::unique_ptr<Epetra_CrsMatrix>
+    matrix_of(const std::vector<NodalForm> &forms,
+              const IndexSet               &rows,
+              const IndexSet               &columns,
+              const MPI_Comm                communicator)
+    {
+      const Epetra_Map row_map = rows.make_trilinos_map(communicator, false);
+      auto             matrix  = std::make_unique<Epetra_CrsMatrix>(Copy, row_map, 0);
+      for (std::size_t k = 0; k < forms.size(); ++k)
+        for (const auto &[node, coefficients] : forms[k])
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const int column = static_cast<int>(dim * node + d);
+              matrix->InsertGlobalValues(row_map.GID(static_cast<int>(k)),
+                                         1,
+                                         &coefficients[d],
+                                         &column);
+            }
+      matrix->FillComplete(columns.make_trilinos_map(communicator, false), row_map);
+      return matrix;
+    }
+
+    void
+    apply(const Epetra_CrsMatrix &matrix, const Vector &x, Vector &y)
+    {
+      matrix.Multiply(false, x.trilinos_vector(), y.trilinos_vector());
+    }
+
+    void
+    apply_transposed(const Epetra_CrsMatrix &matrix, const Vector &x, Vector &y)
+    {
+      matrix.Multiply(true, x.trilinos_vector(), y.trilinos_vector());
+    }
+  } // namespace
+
+
+
+  Impact::Impact(std::vector<PressingNode>           &pressing,
+                 const Mass                          &mass,
+                 const Solid                         &solid,
+                 const std::function<void(Vector &)> &remove_support)
+    : mass(mass)
+    , solid(solid)
+    , remove_support(remove_support)
+    , pressing(pressing)
+    , rows(Utilities::MPI::create_ascending_partitioning(
+        solid.communicator,
+        pressing.size())[Utilities::MPI::this_mpi_process(solid.communicator)])
+  {
+    if (rows.size() == 0)
+      return;
+    std::vector<NodalForm> motions, forces;
+    std::set<Index>        used;
+    for (const PressingNode &node : pressing)
+      {
+        motions.push_back(node.condition.motion_form());
+        forces.push_back(node.condition.force_form());
+        for (const auto &[at, coefficients] : motions.back())
+          for (unsigned int d = 0; d < dim; ++d)
+            used.insert(dim * at + d);
+      }
+    motion = matrix_of(motions, rows, solid.owned, solid.communicator);
+    force  = matrix_of(forces, rows, solid.owned, solid.communicator);
+
+    // How far an impulse moves the condition that it is of: light and heavy bodies
+    // can meet others in one scene.
+    Vector inverse(mass.of_nodes());
+    for (double &value : inverse)
+      value = value > 0. ? 1. / value : 0.;
+    IndexSet needed = solid.owned;
+    needed.add_indices(used.begin(), used.end());
+    Vector mobility(solid.owned, needed, solid.communicator);
+    mobility = inverse;
+    scale.reinit(rows, solid.communicator);
+    for (std::size_t k = 0; k < pressing.size(); ++k)
+      {
+        double sum = 0.;
+        for (const auto &[at, coefficients] : motions[k])
+          for (unsigned int d = 0; d < dim; ++d)
+            sum += coefficients[d] * coefficients[d] * mobility(dim * at + d);
+        scale.begin()[k] = sum > 0. ? 1. / sum : 1.;
+      }
+  }
+
+
+
+  void
+  Impact::respond(Vector &impulse) const
+  {
+    const auto free = [this](Vector &vector) {
+      solid.condense(vector);
+      remove_support(vector);
+    };
+    free(impulse);
+    Vector inverse(mass.of_nodes());
+    for (double &value : inverse)
+      value = value > 0. ? 1. / value : 0.;
+    Vector   x(impulse), moved(impulse);
+    Operator matrix{[&](Vector &y, const Vector &velocity) {
+      moved = velocity;
+      solid.hanging.distribute(moved);
+      mass.multiply(moved, y);
+      free(y);
+    }};
+    x = 0.;
+    solve<SolverCG<Vector>>(matrix, DiagonalMatrix<Vector>(inverse), 1e-14, impulse, x);
+    solid.hanging.distribute(x);
+    impulse = x;
+  }
+
+
+
+  Impact::Loss
+  Impact::stop(Vector &v, const bool moving)
+  {
+    Loss loss{Vector(v), Vector(v)};
+    loss.normal = loss.tangential = 0.;
+    if (rows.size() == 0)
+      return loss;
+    Vector excess(rows, solid.communicator), impulses(excess), on_nodes(v);
+    apply(*motion, v, excess);
+    for (std::size_t k = 0; moving && k < pressing.size(); ++k)
+      excess.begin()[k] -= pressing[k].condition.value;
+    Operator response{[&](Vector &y, const Vector &p) {
+      apply_transposed(*force, p, on_nodes);
+      respond(on_nodes);
+      apply(*motion, on_nodes, y);
+    }};
+    solve<SolverGMRES<Vector>>(response, DiagonalMatrix<Vector>(scale), 1e-12, excess, impulses);
+
+    apply_transposed(*force, impulses, on_nodes);
+    loss.tangential = on_nodes;
+    respond(on_nodes);
+    v -= on_nodes;
+    for (std::size_t k = 0; k < pressing.size(); ++k)
+      {
+        pressing[k].impulse = impulses.begin()[k];
+        loss.of_obstacles += impulses.begin()[k] * pressing[k].condition.value;
+        if (!pressing[k].normal)
+          impulses.begin()[k] = 0.;
+      }
+    loss.of_obstacles = Utilities::MPI::sum(loss.of_obstacles, solid.communicator);
+    apply_transposed(*motion, impulses, loss.normal);
+    for (Vector *part : {&loss.normal, &loss.tangential})
+      {
+        solid.condense(*part);
+        remove_support(*part);
+      }
+    loss.tangential -= loss.normal;
+    return loss;
+  }
+} // namespace Touchstone

@@ -1,0 +1,124 @@
+// Impact without rebound, on two blocks that press on each other, stick and slide: what it
+// takes from any field of velocities.
+
+#include <touchstone/drive/impact.h>
+
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+#include "contact_support.h"
+#include "drive_support.h"
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  using Vec = Touchstone::Vector;
+
+  void
+  impact(const std::string &title, const std::vector<std::string> &overrides)
+  {
+    std::vector<std::string> all = overrides;
+    all.push_back("Body base/Material/Density=1e-3");
+    all.push_back("Body block/Material/Density=1e3");
+    Run run(blocks, all, MPI_COMM_WORLD);
+    run.solve(run.scene.newton, 0.8);
+    const Solid              &solid = run.solid;
+    std::vector<PressingNode> pressing =
+      run.problem.contact_state().pressing(ConstraintGraph(), 0.1);
+    unsigned int sliding = 0, across = 0;
+    for (PressingNode &node : pressing)
+      {
+        node.condition.value = node.normal ? 0.3 : 0.2;
+        sliding += node.condition.force_direction.norm_square() > 0.;
+        across += !node.normal;
+      }
+    const Mass mass(run.scene, solid, {}, 0.1);
+    Impact     impact(pressing, mass, solid, [](Vec &) {});
+
+    Vec positions(solid.owned, solid.communicator), v(positions);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
+    for (std::size_t k = 0; k < v.locally_owned_size(); k += dim)
+      {
+        const Point<dim> x(positions.begin()[k],
+                           positions.begin()[k + 1],
+                           positions.begin()[k + 2]);
+        for (unsigned int d = 0; d < dim; ++d)
+          v.begin()[k + d] = scattered(x, 1)[d];
+      }
+    const auto kinetic = [&](const Vec &velocity) {
+      Vec momentum(velocity);
+      mass.multiply(velocity, momentum);
+      return 0.5 * (momentum * velocity);
+    };
+    const auto momentum = [&](const Vec &velocity) {
+      Vec product(velocity);
+      mass.multiply(velocity, product);
+      Tensor<1, dim> sum;
+      for (std::size_t k = 0; k < product.locally_owned_size(); ++k)
+        sum[k % dim] += product.begin()[k];
+      return Utilities::MPI::sum(sum, solid.communicator);
+    };
+    const Vec          before(v);
+    const Impact::Loss loss = impact.stop(v, true);
+    Vec                mean(before);
+    mean.sadd(0.5, 0.5, v);
+
+    // The velocities that are left are those that the conditions ask for.
+    IndexSet needed = solid.relevant;
+    for (const PressingNode &node : pressing)
+      for (const auto &[at, coefficients] : node.condition.motion_form())
+        needed.add_range(dim * at, dim * at + dim);
+    needed.compress();
+    Vec ghosted(solid.owned, needed, solid.communicator);
+    ghosted         = v;
+    double missed   = 0.;
+    double impulses = 0.;
+    for (const PressingNode &node : pressing)
+      {
+        double speed = 0.;
+        for (const auto &[at, coefficients] : node.condition.motion_form())
+          for (unsigned int d = 0; d < dim; ++d)
+            speed += coefficients[d] * ghosted(dim * at + d);
+        missed = std::max(missed, std::abs(speed - node.condition.value));
+        impulses += std::abs(node.impulse);
+      }
+    missed   = Utilities::MPI::max(missed, solid.communicator);
+    impulses = Utilities::MPI::sum(impulses, solid.communicator);
+    sliding  = Utilities::MPI::sum(sliding, solid.communicator);
+    across   = Utilities::MPI::sum(across, solid.communicator);
+
+    const double lost = kinetic(before) - kinetic(v),
+                 work = mean * loss.normal + mean * loss.tangential;
+    const double change = (momentum(v) - momentum(before)).norm() / impulses;
+    // What has been taken is gone: nothing is left for a second time.
+    Vec again(v);
+    impact.stop(again, true);
+    again -= v;
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << title << ": " << sliding << " sliding, " << across
+                << " conditions across; velocities missed " << small(missed, 1e-9)
+                << ", momentum changed " << small(change, 1e-12) << ", loss of kinetic energy less "
+                << "the work of impulses " << small((lost - work) / kinetic(before), 1e-12)
+                << ", taken again " << small(again.linfty_norm(), 1e-9)
+                << (impulses > 0. ? "" : ", NO IMPULSE") << std::endl;
+    if (std::getenv("IMPACT_VERBOSE"))
+      std::cout << missed << ' ' << change << ' ' << (lost - work) / kinetic(before) << ' '
+                << again.linfty_norm() << ' ' << lost / kinetic(before) << std::endl;
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (const std::string mass : {"lumped", "consistent"})
+    for (const std::string pairing : {"pointwise", "averaged"})
+      for (const std::string behaviour : {"frictionless", "coulomb"})
+        impact(mass + ", " + pairing + ", " + behaviour,
+               {"Time integration/Mass=" + mass,
+                "Contact pair contact/Pairing=" + pairing,
+                "Contact pair contact/Behaviour=" + behaviour});
+}
