@@ -115,8 +115,8 @@ end
       ReferenceRegistry::make(point_scene.reference.type, point_scene)->compare(input).lines;
 
     VolumeOutput output(solid, folder);
-    output.write(displacement, 0, 0.);
-    output.write(displacement, 1, 0.5);
+    output.write(displacement, nullptr, 0, 0.);
+    output.write(displacement, &displacement, 1, 0.5);
     if (folder.rank == 0)
       {
         std::cout << lines.at(0) << std::endl;

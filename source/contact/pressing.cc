@@ -16,8 +16,8 @@ namespace Touchstone
           if (!row.active() || row.closes_circle || !(row.lambda > 0. || row.tied))
             continue;
           PressingNode node{{}, true, p, k};
-          node.condition.node    = row.slave;
-          node.condition.stencil = row.stencil;
+          node.condition.node           = row.slave;
+          node.condition.stencil        = row.stencil;
           const Tensor<1, dim> velocity = (row.shift - committed[p][k].shift) / step;
           const auto offer = [&](const Tensor<1, dim> &direction, const Tensor<1, dim> &force) {
             node.condition.direction       = direction;

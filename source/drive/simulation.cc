@@ -145,7 +145,11 @@ namespace Touchstone
     TimerOutput::Scope scope(timer, "output");
     last_picture   = step;
     const Vector u = problem->ghosted_displacement();
-    volume_output.write(u, step, time);
+    const auto   rates = problem->time_integration().rates();
+    Vector       velocity;
+    if (!rates.empty())
+      velocity = solid.ghosted(*rates.front());
+    volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time);
     contact_output.write(problem->contact_state().faces(),
                          problem->contact_state().points(u),
                          step,

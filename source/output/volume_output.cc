@@ -92,7 +92,10 @@ namespace Touchstone
 
 
   void
-  VolumeOutput::write(const Vector &displacement, const unsigned int step, const double time)
+  VolumeOutput::write(const Vector      &displacement,
+                      const Vector      *velocity,
+                      const unsigned int step,
+                      const double       time)
   {
     static const std::string names[8] = {"stress_xx",
                                          "stress_yy",
@@ -115,12 +118,17 @@ namespace Touchstone
         }
 
     dealii::DataOut<dim> data_out;
-    data_out.add_data_vector(
-      solid.dof_handler,
-      displacement,
-      std::vector<std::string>(dim, "displacement"),
-      std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-        dim, dealii::DataComponentInterpretation::component_is_part_of_vector));
+    const auto           add_vectors = [&](const Vector &field, const std::string &name) {
+      data_out.add_data_vector(
+        solid.dof_handler,
+        field,
+        std::vector<std::string>(dim, name),
+        std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
+          dim, dealii::DataComponentInterpretation::component_is_part_of_vector));
+    };
+    add_vectors(displacement, "displacement");
+    if (velocity != nullptr)
+      add_vectors(*velocity, "velocity");
     for (unsigned int c = 0; c < fields.size(); ++c)
       data_out.add_data_vector(node_dofs, fields[c], names[c]);
     dealii::Vector<double> plastic_strain;

@@ -246,7 +246,7 @@ namespace Touchstone
     prm.add_parameter("Low rank tolerance",
                       low_rank_tolerance,
                       "MUMPS compresses the blocks of its factors, up to this relative error: less "
-                      "memory and time for large models; 0: not at all. 1e-8 costs no "
+                      "memory for large models, at about the same time; 0: not at all. 1e-8 costs no "
                       "Newton iteration. [no unit]",
                       Patterns::Double(0., 1e-2));
     prm.add_parameter("Out of core",

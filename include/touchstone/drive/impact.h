@@ -68,7 +68,7 @@ namespace Touchstone
     dealii::IndexSet rows;
     /** B and F. */
     std::unique_ptr<Epetra_CrsMatrix> motion, force;
-    Vector scale;
+    Vector                            scale;
 
     /** The velocities that impulses on the nodes lead to. */
     void

@@ -30,9 +30,10 @@ namespace Touchstone
 
     /** @brief Write the picture of one step.
      * @param displacement With ghosts.
+     * @param velocity     With ghosts; null if there is none.
      * @throws OutputError on all ranks. Collective. */
     void
-    write(const Vector &displacement, unsigned int step, double time);
+    write(const Vector &displacement, const Vector *velocity, unsigned int step, double time);
 
     /** @brief The pictures so far, which a run that goes on adds to. */
     PictureSeries &
