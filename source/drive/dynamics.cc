@@ -4,6 +4,8 @@
 #include <touchstone/solid/bodies.h>
 #include <touchstone/solid/row_writer.h>
 
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <algorithm>
@@ -341,11 +343,49 @@ namespace Touchstone
 
 
   void
-  Dynamics::adopt(const std::vector<Vector> &rates, const StepForces &forces)
+  Dynamics::adopt(const std::vector<Vector>       &rates,
+                  const StepForces                &forces,
+                  const std::vector<BodyMomentum> &before)
   {
     v = rates.front();
     a = rates.back();
     keep(forces);
+
+    // Coarser cells cannot move as finer ones did. What they lack as a whole is a
+    // rigid motion.
+    const unsigned int n       = 2 * dim;
+    const auto         numbers = [](const BodyMomentum &momentum) {
+      dealii::Vector<double> result(n);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          result(d)       = momentum.linear[d];
+          result(dim + d) = momentum.angular[d];
+        }
+      return result;
+    };
+    std::vector<Vector>             motions;
+    std::vector<FullMatrix<double>> inertia(before.size(), FullMatrix<double>(n));
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        motions.push_back(rigid_motion(k));
+        const auto momenta = momenta_of(motions.back());
+        for (unsigned int b = 0; b < before.size(); ++b)
+          for (unsigned int i = 0; i < n; ++i)
+            inertia[b](i, k) = numbers(momenta[b])(i);
+      }
+    const auto now = momenta_of(v);
+    for (unsigned int b = 0; b < before.size(); ++b)
+      if (!scene.bodies[b].supported())
+        {
+          dealii::Vector<double> missing = numbers(before[b]), part(n);
+          missing -= numbers(now[b]);
+          inertia[b].gauss_jordan();
+          inertia[b].vmult(part, missing);
+          for (std::size_t i = 0; i < body.size(); ++i)
+            if (body[i] == b)
+              for (unsigned int k = 0; k < n; ++k)
+                v.begin()[i] += part(k) * motions[k].begin()[i];
+        }
   }
 
 
@@ -364,47 +404,54 @@ namespace Touchstone
 
 
 
-  std::vector<Tensor<1, dim>>
-  Dynamics::body_velocities() const
+  Vector
+  Dynamics::rigid_motion(const unsigned int k) const
   {
-    Vector momentum(v);
-    mass.multiply(v, momentum);
-    std::vector<Tensor<1, dim>> result(scene.bodies.size());
-    std::vector<double>         masses(result.size());
-    for (std::size_t i = 0; i < body.size(); ++i)
+    Vector result(v);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
+    result += committed_u;
+    const Tensor<1, dim> axis = Point<dim>::unit_vector(k % dim);
+    for (std::size_t i = 0; i < result.locally_owned_size(); i += dim)
       {
-        result[body[i]][i % dim] += momentum.begin()[i];
-        if (i % dim == 0)
-          masses[body[i]] += mass.of_nodes().begin()[i];
+        Tensor<1, dim> velocity(axis);
+        if (k >= dim)
+          velocity = cross_product_3d(
+            axis,
+            Point<dim>(result.begin()[i], result.begin()[i + 1], result.begin()[i + 2]));
+        for (unsigned int d = 0; d < dim; ++d)
+          result.begin()[i + d] = velocity[d];
       }
-    for (unsigned int b = 0; b < result.size(); ++b)
-      result[b] = Utilities::MPI::sum(result[b], solid.communicator) /
-                  Utilities::MPI::sum(masses[b], solid.communicator);
     return result;
   }
 
 
 
-  std::pair<Tensor<1, dim>, Tensor<1, dim>>
-  Dynamics::momentum(const Vector &u) const
+  std::vector<BodyMomentum>
+  Dynamics::momenta_of(const Vector &velocity) const
   {
     Vector momentum(v), position(v);
-    mass.multiply(v, momentum);
+    mass.multiply(velocity, momentum);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
-    position += u;
-    Tensor<1, dim> linear, angular;
-    for (std::size_t k = 0; k < momentum.locally_owned_size(); k += dim)
+    position += committed_u;
+    std::vector<BodyMomentum> result(scene.bodies.size());
+    for (std::size_t i = 0; i < body.size(); i += dim)
       {
         Tensor<1, dim> p, x;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            p[d] = momentum.begin()[k + d];
-            x[d] = position.begin()[k + d];
+            p[d] = momentum.begin()[i + d];
+            x[d] = position.begin()[i + d];
           }
-        linear += p;
-        angular += cross_product_3d(x, p);
+        result[body[i]].mass += mass.of_nodes().begin()[i];
+        result[body[i]].linear += p;
+        result[body[i]].angular += cross_product_3d(x, p);
       }
-    return {Utilities::MPI::sum(linear, solid.communicator),
-            Utilities::MPI::sum(angular, solid.communicator)};
+    for (BodyMomentum &sum : result)
+      {
+        sum.mass    = Utilities::MPI::sum(sum.mass, solid.communicator);
+        sum.linear  = Utilities::MPI::sum(sum.linear, solid.communicator);
+        sum.angular = Utilities::MPI::sum(sum.angular, solid.communicator);
+      }
+    return result;
   }
 } // namespace Touchstone

@@ -111,6 +111,7 @@ namespace Touchstone
     for (unsigned int cycle = 0;; ++cycle)
       {
         std::vector<Vector> fields;
+        const auto          momenta = problem->time_integration().momenta();
         {
           TimerOutput::Scope scope(timer, "refinement");
           const double       error = refinement.estimate(*problem);
@@ -122,10 +123,10 @@ namespace Touchstone
           volume_output.reinit();
         }
         auto next = std::make_unique<StepProblem>(scene, forest, solid, timer);
+        next->start();
         next->count_on(*problem);
         problem = std::move(next);
-        problem->start();
-        problem->adopt(fields, committed_time, time);
+        problem->adopt(fields, momenta, committed_time, time);
         summary.cells    = forest.triangulation.n_global_active_cells();
         summary.unknowns = solid.dof_handler.n_dofs();
         log.line("  mesh " + std::to_string(summary.meshes.size() + 1) + ": " +
@@ -196,13 +197,17 @@ namespace Touchstone
         record.energies["damping"]       = energies.damping;
         record.energies["external"]      = energies.external;
         record.energies["balance error"] = energies.balance_error();
-        std::tie(record.momentum, record.angular_momentum) =
-          problem->time_integration().momentum(problem->displacement());
         for (unsigned int p = 0; p < results.size(); ++p)
           summary.motion->add_step(scene.pairs[p].name, time - size, time, results[p]);
-        const auto velocities = problem->time_integration().body_velocities();
-        for (unsigned int b = 0; b < velocities.size(); ++b)
-          summary.motion->velocities[scene.bodies[b].name] = velocities[b];
+        const auto momenta = problem->time_integration().momenta();
+        record.momentum.emplace();
+        record.angular_momentum.emplace();
+        for (unsigned int b = 0; b < momenta.size(); ++b)
+          {
+            *record.momentum += momenta[b].linear;
+            *record.angular_momentum += momenta[b].angular;
+            summary.motion->velocities[scene.bodies[b].name] = momenta[b].linear / momenta[b].mass;
+          }
         summary.motion->energies = energies;
       }
     else

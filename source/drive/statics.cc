@@ -141,14 +141,6 @@ namespace Touchstone
 
 
 
-  std::pair<Tensor<1, dim>, Tensor<1, dim>>
-  TimeIntegration::momentum(const Vector &) const
-  {
-    return {};
-  }
-
-
-
   std::unique_ptr<TimeIntegration>
   TimeIntegration::make(const Scene           &scene,
                         const Solid           &solid,

@@ -251,7 +251,10 @@ namespace Touchstone
 
 
   void
-  StepProblem::adopt(const std::vector<Vector> &fields, const double start_time, const double t)
+  StepProblem::adopt(const std::vector<Vector>       &fields,
+                     const std::vector<BodyMomentum> &momenta,
+                     const double                     start_time,
+                     const double                     t)
   {
     const std::size_t n_rates = integration->rates().size();
     const auto        middle  = fields.begin() + (fields.size() - n_rates) / 2;
@@ -269,7 +272,7 @@ namespace Touchstone
             unbalanced = 0.;
           }
         with_forces([&](const StepForces &forces) {
-          integration->adopt({rates, fields.end()}, forces);
+          integration->adopt({rates, fields.end()}, forces, momenta);
         });
         committed_time = start_time;
       }
@@ -285,7 +288,9 @@ namespace Touchstone
   {
     earlier        = before.linear_counts();
     committed_time = before.committed_time;
-    integration->resume(committed_time, before.integration->committed_energies());
+    // At time 0 the energies are those that the first velocities mean on this mesh.
+    if (committed_time > 0.)
+      integration->resume(committed_time, before.integration->committed_energies());
     earlier_searches = before.n_searches();
     assemblies += before.assemblies;
   }

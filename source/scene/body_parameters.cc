@@ -6,6 +6,8 @@
 #include <touchstone/solid/hyperelastic_law.h>
 #include <touchstone/solid/material_law.h>
 
+#include <algorithm>
+
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -227,6 +229,18 @@ namespace Touchstone
   BodyParameters::section() const
   {
     return "Body " + name;
+  }
+
+
+
+  bool
+  BodyParameters::supported() const
+  {
+    return !symmetry.empty() || !fixed.empty() ||
+           std::any_of(boundaries.begin(), boundaries.end(), [](const auto &entry) {
+             const BoundaryParameters &b = entry.second;
+             return !(b.displacement_x + b.displacement_y + b.displacement_z).empty();
+           });
   }
 
 

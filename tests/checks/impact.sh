@@ -81,8 +81,7 @@ for kind in consistent lumped; do
   bounds "large_$kind" 0.35 0.35 0.05
 done
 
-# The step is cut in the middle of the impact: the iterations allowed do not suffice
-# at first; and the steps are awkward.
+# Awkward steps.
 two_bars awkward 20 437 --set "$sc=contact_stabilized" --set "$mass=lumped"
 two_bars even 20 400 --set "$sc=contact_stabilized" --set "$mass=lumped"
 below awkward "duration differs from that of even steps" \
@@ -99,6 +98,14 @@ run oblique 1 "$tests/oblique_impact.prm"
 below oblique "impulse along the plane is not mu times that across" \
   "$(off "$(impact oblique "  impulse" 1)" "$(impact oblique "  impulse" 3 | awk '{ print -0.2 * $1 }')")" 1e-4
 never_grows oblique "energy: friction" -1 1e-9
+# Steps that are cut in the middle of it: the iterations allowed do not suffice.
+askew="Body block/Initial velocity z=-1 + 0.2 * x + 0.1 * y"
+run uncut 1 "$tests/oblique_impact.prm" --set "$askew"
+run cut 1 "$tests/oblique_impact.prm" --set "$askew" --set "Newton/Maximum iterations=3"
+below cut "cuts but three or more" "$(awk '!/^#/ { cuts += $6 } END { print (cuts >= 3 ? 0 : 9) }' cut/statistics)" 1
+below cut "impulse differs from that of whole steps" \
+  "$(off "$(impact cut "  impulse" 3)" "$(impact uncut "  impulse" 3)")" 0.01
+never_grows cut "energy: contact" -1 1e-9
 run sticking 1 "$tests/oblique_impact.prm" --set "Contact pair contact/Friction/Coefficient=50"
 never_grows sticking "energy: friction" -1 1e-9
 below sticking "gain of energy" "$(impact sticking "  balance error" | awk '{ print ($1 > 0 ? $1 : 0) }')" 1e-6
@@ -117,6 +124,21 @@ for d in x y z; do below flight "momentum $d drifts" "$(drift flight $d)" 1e-9; 
 below flight "angular momentum drifts" "$(spin flight)" 1e-3
 below flight_half "drift with half the step, over a quarter" \
   "$(echo "$(spin flight) $(spin flight_half)" | awk '{ print $2 / ($1 / 4) }')" 1.2
+
+# The mesh changes in flight, and in an impact: momentum stays, and ranks agree.
+run flight_adaptive 1 "$tests/rotating_block.prm" --set "Refinement/Estimator=region" \
+  --set "Refinement/Region=sin(100*t)*x" --set "Refinement/Maximum level=1"
+for d in x y z; do below flight_adaptive "momentum $d drifts" "$(drift flight_adaptive $d)" 1e-9; done
+below flight_adaptive "angular momentum drifts" "$(spin flight_adaptive)" 1e-3
+below flight_adaptive "balance error" "$(size "$(impact flight_adaptive "  balance error")")" 1e-3
+meshes=$(grep -c "  mesh" flight_adaptive/log)
+below flight_adaptive "meshes but ten or more" "$((meshes >= 10 ? 0 : 9))" 1
+for ranks in 1 2; do
+  run "adaptive_$ranks" "$ranks" "$tests/bouncing_block.prm" --set "$sc=generalized_alpha" \
+    --set "Refinement/Estimator=Kelly" --set "Refinement/Cycles=1" --set "Refinement/Maximum level=1"
+  below "adaptive_$ranks" "gain of energy" "$(impact "adaptive_$ranks" "  balance error" | awk '{ print ($1 > 0 ? $1 : 0) }')" 1e-6
+done
+same adaptive_1 adaptive_2 1e-6
 
 # Hertz: K = 4/3 sqrt(R) E*, the mass from the momentum at the start.
 run hertz 1 "$tests/hertz_impact.prm"

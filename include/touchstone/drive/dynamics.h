@@ -81,11 +81,14 @@ namespace Touchstone
       return {&v, &a};
     }
     void
-    adopt(const std::vector<Vector> &rates, const StepForces &forces) override;
-    std::vector<dealii::Tensor<1, dim>>
-    body_velocities() const override;
-    std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
-    momentum(const Vector &u) const override;
+    adopt(const std::vector<Vector>       &rates,
+          const StepForces                &forces,
+          const std::vector<BodyMomentum> &before) override;
+    std::vector<BodyMomentum>
+    momenta() const override
+    {
+      return momenta_of(v);
+    }
 
   private:
     const Scene                                  &scene;
@@ -127,6 +130,13 @@ namespace Touchstone
     damping_force(const Vector &velocity, Vector &force) const;
     double
     kinetic_energy(const Vector &velocity) const;
+    /** Of each body if it had this velocity at the committed displacement. */
+    std::vector<BodyMomentum>
+    momenta_of(const Vector &velocity) const;
+    /** Velocities of all bodies: along axis @p k, or for 3 and more about axis k - 3
+     * through the origin. */
+    Vector
+    rigid_motion(unsigned int k) const;
     /** Stiffness for damping. */
     const Matrix &
     damping_matrix() const

@@ -105,12 +105,15 @@ namespace Touchstone
     carry_over() const;
 
     /**
-     * @brief Go on from fields like those of carry_over() on a new mesh: the step to
-     * time @p t will begin from the committed state at time @p committed_time, and its
-     * first iteration at the other one.
+     * @brief Go on from fields like those of carry_over() on a new mesh, and the momenta
+     * of the committed state on the old one: the step to time @p t will begin from the
+     * committed state at time @p committed_time, and its first iteration at the other one.
      */
     void
-    adopt(const std::vector<Vector> &fields, double committed_time, double t);
+    adopt(const std::vector<Vector>       &fields,
+          const std::vector<BodyMomentum> &momenta,
+          double                           committed_time,
+          double                           t);
 
     /** @brief Drop what earlier solutions have left behind to speed up or judge later
      * ones, and is in no checkpoint: a run that writes one and a run that goes on from it

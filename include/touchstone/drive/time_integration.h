@@ -34,6 +34,15 @@ namespace Touchstone
     double obstacles_normal = 0., obstacles_tangential = 0.;
   };
 
+  /** @brief What impulses change of a body as a whole. */
+  struct BodyMomentum
+  {
+    /** Of the body, mass. */
+    double mass = 0.;
+    /** Momentum, and angular momentum about the origin. */
+    dealii::Tensor<1, dim> linear, angular;
+  };
+
   /**
    * @brief How a step in time leads from one state to the next: what stands on the
    * nodes beside contact, and its derivative.
@@ -128,10 +137,12 @@ namespace Touchstone
       return {};
     }
 
-    /** @brief Go on from rates() on another mesh, and the forces there at the committed
-     * state. */
+    /** @brief Go on from rates() on another mesh, the forces there at the committed state,
+     * and the momenta() before: bodies that nothing holds keep theirs. Collective. */
     virtual void
-    adopt(const std::vector<Vector> & /*rates*/, const StepForces & /*forces*/)
+    adopt(const std::vector<Vector> & /*rates*/,
+          const StepForces & /*forces*/,
+          const std::vector<BodyMomentum> & /*before*/)
     {
     }
 
@@ -139,15 +150,9 @@ namespace Touchstone
     void
     resume(double time, const Energies &energies);
 
-    /** @brief Momentum and angular momentum about the origin of the committed state;
-     * zero in statics. Collective. */
-    virtual std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
-    momentum(const Vector &u) const;
-
-    /** @brief Mean velocity of each body at the committed state, momentum over mass,
-     * length per time; empty in statics. Collective. */
-    virtual std::vector<dealii::Tensor<1, dim>>
-    body_velocities() const
+    /** @brief Of each body at the committed state; empty in statics. Collective. */
+    virtual std::vector<BodyMomentum>
+    momenta() const
     {
       return {};
     }

@@ -137,6 +137,9 @@ namespace Touchstone
     std::vector<std::string> symmetry;
     /** Boundaries on which all displacements are zero. */
     std::vector<std::string> fixed;
+    /** @brief Displacements are prescribed somewhere. */
+    bool
+    supported() const;
     /** Boundaries with a subsection "Boundary NAME" of their own. */
     std::vector<std::string>                  conditions;
     std::map<std::string, BoundaryParameters> boundaries;
