@@ -42,7 +42,6 @@ row "newmark, γ = 0.65" lumped --set "$key=newmark" --set "Time integration/New
 row "hht, α = 0.2" consistent --set "$key=hht" --set "Time integration/HHT alpha=0.2"
 row "generalized_alpha, ρ = 0.8" consistent --set "$key=generalized_alpha" \
   --set "Time integration/Spectral radius=0.8"
-row "generalized_alpha, ρ = 1, plastic" consistent --set "Time integration/Impact=plastic"
 row contact_stabilized lumped --set "$key=contact_stabilized" \
   --set "Time integration/Spectral radius=1"
 row contact_stabilized "dispersion corrected" --set "$key=contact_stabilized" \
