@@ -6,6 +6,8 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria.h>
 
+#include <set>
+
 namespace Touchstone
 {
   using namespace dealii;
@@ -127,7 +129,7 @@ namespace Touchstone
         if (!pair.master_body.empty())
           add(pair.master_body, pair.master_boundaries, "Master boundaries", master_face_work);
       }
-    const ContactWork contact_work = [work](const Triangulation<dim>::cell_iterator &cell) {
+    const CellWork contact_work = [work](const Triangulation<dim>::cell_iterator &cell) {
       unsigned int sum = 0;
       for (const auto &face : cell->face_iterators())
         if (face->at_boundary())
@@ -137,12 +139,22 @@ namespace Touchstone
           }
       return sum;
     };
+    std::vector<unsigned int> work_of_body;
+    for (const BodyParameters &body : scene.bodies)
+      work_of_body.push_back(body.material.linear() ? 1 : 3);
+    const bool alike = std::set<unsigned int>(work_of_body.begin(), work_of_body.end()).size() == 1;
+    if (alike)
+      work_of_body.assign(work_of_body.size(), 1);
+    const CellWork cell_work = [work_of_body](const Triangulation<dim>::cell_iterator &cell) {
+      return work_of_body[cell->material_id()];
+    };
     const DiscretisationParameters &parameters = scene.discretisation;
     if (parameters.partitioner != "p4est")
       return partition_by_graph(
-        all, level, contact_work, parameters.partitioner == "METIS", communicator);
-    has_weights = parameters.contact_weight > 0.;
-    return partition_by_curve(all, level, contact_work, parameters.contact_weight, communicator);
+        all, level, cell_work, contact_work, parameters.partitioner == "METIS", communicator);
+    has_weights = parameters.contact_weight > 0. || !alike;
+    return partition_by_curve(
+      all, level, cell_work, contact_work, has_weights, parameters.contact_weight, communicator);
   }
 
 

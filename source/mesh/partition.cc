@@ -26,7 +26,8 @@ namespace Touchstone
     bool
     set_subdomains(Triangulation<dim> &triangulation,
                    const unsigned int  n_ranks,
-                   const ContactWork  &work,
+                   const CellWork     &cell_work,
+                   const CellWork     &contact_work,
                    const bool          balance_contact)
     {
       // METIS does not want connections of a cell with itself, which the pattern has.
@@ -43,15 +44,15 @@ namespace Touchstone
 
       bool any = false;
       for (const auto &cell : triangulation.active_cell_iterators())
-        any = any || (balance_contact && work(cell) > 0);
+        any = any || (balance_contact && contact_work(cell) > 0);
       // Without any weight in it a constraint cannot be met.
       idx_t              n_constraints = any ? 2 : 1;
       std::vector<idx_t> weights;
       for (const auto &cell : triangulation.active_cell_iterators())
         {
-          weights.push_back(1);
+          weights.push_back(cell_work(cell));
           if (any)
-            weights.push_back(work(cell));
+            weights.push_back(contact_work(cell));
         }
 
       idx_t options[METIS_NOPTIONS];
@@ -82,7 +83,11 @@ namespace Touchstone
     }
 #else
     bool
-    set_subdomains(Triangulation<dim> &, const unsigned int, const ContactWork &, const bool)
+    set_subdomains(Triangulation<dim> &,
+                   const unsigned int,
+                   const CellWork &,
+                   const CellWork &,
+                   const bool)
     {
       return false;
     }
@@ -94,7 +99,9 @@ namespace Touchstone
   std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
   partition_by_curve(const BodyMesh    &mesh,
                      const unsigned int refinements,
-                     const ContactWork &work,
+                     const CellWork    &cell_work,
+                     const CellWork    &contact_work,
+                     const bool         weighted,
                      const double       contact_weight,
                      const MPI_Comm     communicator)
   {
@@ -106,9 +113,9 @@ namespace Touchstone
                                                 Mesh::mesh_reconstruction_after_repartitioning);
     create_triangulation(mesh, *triangulation);
     triangulation->refine_global(refinements);
-    if (contact_weight > 0.)
+    if (weighted)
       {
-        // Weights are whole numbers: in thousandths of the work of a cell.
+        // Weights are whole numbers: in thousandths of the least work of a cell.
         const double unit = 1000. * contact_weight / slave_face_work;
         triangulation->signals.weight.connect(
           [=](const Mesh::cell_iterator &cell, const Mesh::CellStatus status) {
@@ -116,7 +123,8 @@ namespace Touchstone
             // face only every other child has.
             const bool   there = (status == Mesh::CELL_PERSIST || status == Mesh::CELL_COARSEN);
             const double share = there ? 1. : 0.5;
-            return 1000u + static_cast<unsigned int>(std::lround(share * unit * work(cell)));
+            return 1000u * cell_work(cell) +
+                   static_cast<unsigned int>(std::lround(share * unit * contact_work(cell)));
           });
         triangulation->repartition();
       }
@@ -128,7 +136,8 @@ namespace Touchstone
   std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
   partition_by_graph(const BodyMesh    &mesh,
                      const unsigned int refinements,
-                     const ContactWork &work,
+                     const CellWork    &cell_work,
+                     const CellWork    &contact_work,
                      const bool         balance_contact,
                      const MPI_Comm     communicator)
   {
@@ -143,7 +152,7 @@ namespace Touchstone
           all.refine_global(refinements);
         },
         [&](Triangulation<dim> &all, const MPI_Comm &, const unsigned int) {
-          failed = !set_subdomains(all, n_ranks, work, balance_contact);
+          failed = !set_subdomains(all, n_ranks, cell_work, contact_work, balance_contact);
         },
         communicator,
         n_ranks,

@@ -17,31 +17,36 @@
 namespace Touchstone
 {
   /**
-   * @brief What contact asks of a cell besides its element matrix: 4 for each face
-   * that is a slave, 1 for each that is a master.
+   * @brief What a cell asks for, in whole numbers.
    *
-   * The nodes of a slave face look for partners, project on several faces and make
-   * rows; a master face has its normals averaged and is sent.
+   * By itself: 1, and 3 if it is integrated anew in each Newton iteration and others
+   * are not (measured on prm/plate_drop.prm: 2 with MUMPS, 6 with Belos CG).
+   *
+   * For contact: 4 for each face that is a slave, 1 for each that is a master. The nodes
+   * of a slave face look for partners, project on several faces and make rows; a master
+   * face has its normals averaged and is sent.
    */
-  using ContactWork =
-    std::function<unsigned int(const dealii::Triangulation<dim>::cell_iterator &)>;
+  using CellWork = std::function<unsigned int(const dealii::Triangulation<dim>::cell_iterator &)>;
 
-  /** @brief Units of ContactWork that are one slave face. */
+  /** @brief Units of the contact's work that are one slave face. */
   constexpr unsigned int slave_face_work = 4, master_face_work = 1;
 
   /** @brief The mesh in as many pieces of p4est's space-filling curve as there are
-   * ranks, of about the same sum of weights: 1 for each cell, and @p contact_weight
-   * for each of its slave faces. The weights stay: later refinement respects them. */
+   * ranks, of about the same sum of weights if it is @p weighted: the work of each cell,
+   * and @p contact_weight for each of its slave faces. The weights stay: later refinement
+   * respects them. */
   std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
-  partition_by_curve(const BodyMesh    &mesh,
-                     unsigned int       refinements,
-                     const ContactWork &work,
-                     double             contact_weight,
-                     MPI_Comm           communicator);
+  partition_by_curve(const BodyMesh &mesh,
+                     unsigned int    refinements,
+                     const CellWork &cell_work,
+                     const CellWork &contact_work,
+                     bool            weighted,
+                     double          contact_weight,
+                     MPI_Comm        communicator);
 
   /**
    * @brief The same mesh in the pieces that METIS makes of its graph of cells and
-   * faces: few faces between pieces, and each piece has its share of the cells and,
+   * faces: few faces between pieces, and each piece has its share of the cells' work and,
    * if @p balance_contact, its share of the contact work as well.
    *
    * Two constraints of one k-way partition: Karypis and Kumar (1998), Multilevel
@@ -51,11 +56,12 @@ namespace Touchstone
    * @throws std::runtime_error if METIS fails, on all ranks.
    */
   std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
-  partition_by_graph(const BodyMesh    &mesh,
-                     unsigned int       refinements,
-                     const ContactWork &work,
-                     bool               balance_contact,
-                     MPI_Comm           communicator);
+  partition_by_graph(const BodyMesh &mesh,
+                     unsigned int    refinements,
+                     const CellWork &cell_work,
+                     const CellWork &contact_work,
+                     bool            balance_contact,
+                     MPI_Comm        communicator);
 } // namespace Touchstone
 
 #endif
