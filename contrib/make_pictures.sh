@@ -130,7 +130,8 @@ END
 
 # The plate: energies and contact force, with the impacts of the published case as well.
 run plate_drop
-render plate_drop --field equivalent_plastic_strain --camera "0 -1 0.2"
+render plate_drop --field equivalent_plastic_strain --camera "0 -1 0.2" --focus "0 0 0.08" \
+  --zoom 4.5 --contact-zoom 1
 [ -f "$runs/plate_elastic/summary.json" ] || "$program" --output "$runs/plate_elastic" \
   --set "Time integration/Impact=elastic" --set "Linear solver/Type=Belos CG" \
   --set "Output/VTU interval=0" prm/plate_drop.prm >"$runs/plate_elastic.log"
