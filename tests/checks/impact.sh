@@ -87,6 +87,21 @@ two_bars even 20 400 --set "$sc=contact_stabilized" --set "$mass=lumped"
 below awkward "duration differs from that of even steps" \
   "$(off "$(impact awkward "  from, to" 2)" "$(impact even "  from, to" 2)")" 0.01
 
+# Nodes that do not rebound: Newmark's and the HHT method do not chatter, nor gain energy.
+for scheme in newmark hht; do
+  two_bars "$scheme" 40 200 --set "$sc=$scheme" --set "$mass=lumped"
+  bounds "$scheme" 0.02 0.02 0.01
+  below "$scheme" "balance error, gain" "$(impact "$scheme" "  balance error" | awk '{ print ($1 > 0 ? $1 : 0) }')" 1e-3
+done
+# Left to rebound they do, and the run ends with the reason.
+if "$program" --results-only --output gain --set "Output/VTU interval=0" --set "$sc=newmark" \
+  --set "Body left/Geometry/Cells=40,1,1" --set "Body right/Geometry/Cells=40,1,1" \
+  --set "Load stepping/Steps=200" --set "$mass=lumped" --set "Time integration/Impact=elastic" \
+  "$bars" >gain.txt 2>&1; then
+  fail "a gain of energy did not end the run"
+fi
+grep -q "came from nowhere" gain.txt || fail "the gain of energy was not named"
+
 # A block that falls, bounces and falls again.
 run bouncing 1 "$tests/bouncing_block.prm"
 below bouncing "impacts but two or more" "$(impact bouncing "  opened" | awk '{ print ($1 >= 2 ? 0 : 9) }')" 1
