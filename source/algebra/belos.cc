@@ -9,6 +9,7 @@
 #include <Teuchos_RCP.hpp>
 #include <memory>
 #include <ml_MultiLevelPreconditioner.h>
+#include <ml_utils.h>
 
 namespace Touchstone
 {
@@ -198,6 +199,9 @@ namespace Touchstone
           list.set("coarse: type", "symmetric Gauss-Seidel");
           list.set("coarse: sweeps", 1);
         }
+      // The smoother's largest eigenvalue is estimated from a random vector: the same one
+      // each time, or a run would depend on how many set-ups were before.
+      ML_random_init();
       preconditioner =
         std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*preconditioned_matrix, list, true);
       ++count.preconditioner_setups;
