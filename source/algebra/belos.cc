@@ -1,4 +1,5 @@
 #include <touchstone/algebra/linear_solver.h>
+#include <touchstone/algebra/multigrid.h>
 #include <touchstone/algebra/non_convergence.h>
 
 #include <BelosBlockCGSolMgr.hpp>
@@ -8,8 +9,6 @@
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_RCP.hpp>
 #include <memory>
-#include <ml_MultiLevelPreconditioner.h>
-#include <ml_utils.h>
 
 namespace Touchstone
 {
@@ -45,10 +44,9 @@ namespace Touchstone
       }
 
     private:
-      /** The matrix that the multigrid was made from; ML keeps a reference. */
-      std::shared_ptr<Epetra_CrsMatrix>                    preconditioned_matrix;
-      std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> preconditioner;
-      std::vector<double>                                  null_space;
+      /** The matrix that the multigrid was made from, which keeps a reference. */
+      std::shared_ptr<Epetra_CrsMatrix> preconditioned_matrix;
+      std::unique_ptr<Multigrid>        preconditioner;
       /** Constrained unknowns of that matrix, and those of changed basis. */
       std::vector<char> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
@@ -169,41 +167,17 @@ namespace Touchstone
       changed               = system.changed;
       preconditioned_matrix = system.matrix;
       const int n           = modes.MyLength();
-      null_space.assign(static_cast<std::size_t>(n) * modes.NumVectors(), 0.);
+      std::vector<double> near_kernel(static_cast<std::size_t>(n) * modes.NumVectors(), 0.);
       for (int v = 0; v < modes.NumVectors(); ++v)
         for (int i = 0; i < n; ++i)
           if (!system.constrained[i] && !system.changed[i])
-            null_space[static_cast<std::size_t>(v) * n + i] = modes[v][i];
+            near_kernel[static_cast<std::size_t>(v) * n + i] = modes[v][i];
 
-      Teuchos::ParameterList list;
-      ML_Epetra::SetDefaults("SA", list);
-      list.set("ML output", 0);
-      list.set("low memory usage", true);
-      list.set("PDE equations", 3);
-      list.set("aggregation: type", "Uncoupled");
-      list.set("aggregation: threshold", 0.01);
-      list.set("smoother: type", "Chebyshev");
-      list.set("smoother: sweeps", 3);
-      list.set("smoother: Chebyshev alpha", 20.);
-      list.set("coarse: type", "Amesos-KLU");
-      list.set("coarse: max size", 1000);
-      list.set("null space: type", "pre-computed");
-      list.set("null space: dimension", modes.NumVectors());
-      list.set("null space: vectors", null_space.data());
-      list.set("null space: add default vectors", false);
-      if (stiffness_of_motions(system, modes) > 0.15)
-        {
-          // Inertia alone bounds the condition number: coarse spaces have nothing to
-          // do, and the aggregates that weak couplings leave would hardly be fewer.
-          list.set("max levels", 1);
-          list.set("coarse: type", "symmetric Gauss-Seidel");
-          list.set("coarse: sweeps", 1);
-        }
-      // The smoother's largest eigenvalue is estimated from a random vector: the same one
-      // each time, or a run would depend on how many set-ups were before.
-      ML_random_init();
-      preconditioner =
-        std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*preconditioned_matrix, list, true);
+      // With much inertia it alone bounds the condition number: coarse spaces have nothing
+      // to do, and the aggregates that weak couplings leave would hardly be fewer.
+      preconditioner = std::make_unique<Multigrid>(*preconditioned_matrix,
+                                                   std::move(near_kernel),
+                                                   stiffness_of_motions(system, modes) < 0.15);
       ++count.preconditioner_setups;
       fresh_iterations = 0;
     }
