@@ -42,7 +42,7 @@ namespace
   {
     Matrix                              stiffness;
     std::unique_ptr<CondensedSystem>    condensed;
-    std::unique_ptr<Epetra_MultiVector> modes;
+    std::unique_ptr<RigidMotions>       motions;
 
     System(const double friction, const bool multiplier)
     {
@@ -112,9 +112,10 @@ namespace
       condensed = std::make_unique<CondensedSystem>(system);
 
       const Epetra_Map &map = static_cast<const Epetra_Map &>(stiffness.trilinos_matrix().RowMap());
-      modes                 = std::make_unique<Epetra_MultiVector>(map, 3);
-      for (int i = 0; i < modes->MyLength(); ++i)
-        (*modes)[i % 3][i] = 1.;
+      motions.reset(new RigidMotions{Epetra_MultiVector(map, 3), {}});
+      motions->body.resize(map.NumMyElements());
+      for (int i = 0; i < map.NumMyElements(); ++i)
+        motions->columns[i % 3][i] = 1.;
     }
   };
 
@@ -128,7 +129,7 @@ namespace
     parameters.restart = restart;
     const auto solver  = LinearSolverRegistry::make(type, parameters);
     auto       result  = std::make_unique<Epetra_Vector>(system.condensed->matrix->RowMap());
-    solver->solve(*system.condensed, *system.modes, *result);
+    solver->solve(*system.condensed, *system.motions, *result);
     return result;
   }
 

@@ -120,10 +120,10 @@ main(int argc, char **argv)
   const RigidBodyModes    modes(scene, solid);
   const Epetra_CrsMatrix &stiffness = solid.stiffness().trilinos_matrix();
   Epetra_MultiVector      product(stiffness.RowMap(), 6);
-  stiffness.Multiply(false, modes.columns(), product);
+  stiffness.Multiply(false, modes.motions().columns, product);
   double largest[6], length[6];
   product.NormInf(largest);
-  modes.columns().Norm2(length);
+  modes.motions().columns.Norm2(length);
   double worst = 0., shortest = 1e300;
   for (unsigned int k = 0; k < 6; ++k)
     {

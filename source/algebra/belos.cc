@@ -53,16 +53,16 @@ namespace Touchstone
       int fresh_iterations = 0;
 
       void
-      set_up(const CondensedSystem &system, const Epetra_MultiVector &modes);
+      set_up(const CondensedSystem &system, const RigidMotions &motions);
 
       /** One run of the method. @return iterations, -1 if it failed. */
       int
       iterate(const CondensedSystem &system, Epetra_Vector &solution);
 
       void
-      do_solve(const CondensedSystem    &system,
-               const Epetra_MultiVector &modes,
-               Epetra_Vector            &solution) override;
+      do_solve(const CondensedSystem &system,
+               const RigidMotions    &motions,
+               Epetra_Vector         &solution) override;
 
       /** Make the method for @p problem, with @p preconditioner where it
        * belongs. */
@@ -141,17 +141,18 @@ namespace Touchstone
     /** Resistance to rigid motions over that of single unknowns, away from constrained
      * ones: zero but for inertia. */
     double
-    stiffness_of_motions(const CondensedSystem &system, const Epetra_MultiVector &modes)
+    stiffness_of_motions(const CondensedSystem &system, const RigidMotions &motions)
     {
-      Epetra_Vector diagonal(system.rhs->Map()), force(diagonal);
+      const Epetra_Vector &translation = *motions.columns(0);
+      Epetra_Vector        diagonal(system.rhs->Map()), force(diagonal);
       system.matrix->ExtractDiagonalCopy(diagonal);
-      system.matrix->Multiply(false, *modes(0), force);
+      system.matrix->Multiply(false, translation, force);
       double sums[2] = {0., 0.}, all[2];
       for (int i = 0; i < force.MyLength(); ++i)
         if (!system.constrained[i] && !system.changed[i])
           {
-            sums[0] += force[i] * modes[0][i];
-            sums[1] += diagonal[i] * modes[0][i] * modes[0][i];
+            sums[0] += force[i] * translation[i];
+            sums[1] += diagonal[i] * translation[i] * translation[i];
           }
       system.matrix->Comm().SumAll(sums, all, 2);
       return all[1] > 0. ? all[0] / all[1] : 0.;
@@ -160,24 +161,23 @@ namespace Touchstone
 
 
     void
-    BelosSolver::set_up(const CondensedSystem &system, const Epetra_MultiVector &modes)
+    BelosSolver::set_up(const CondensedSystem &system, const RigidMotions &motions)
     {
       preconditioner.reset();
       constrained           = system.constrained;
       changed               = system.changed;
       preconditioned_matrix = system.matrix;
-      const int n           = modes.MyLength();
-      std::vector<double> near_kernel(static_cast<std::size_t>(n) * modes.NumVectors(), 0.);
-      for (int v = 0; v < modes.NumVectors(); ++v)
-        for (int i = 0; i < n; ++i)
-          if (!system.constrained[i] && !system.changed[i])
-            near_kernel[static_cast<std::size_t>(v) * n + i] = modes[v][i];
-
+      Epetra_MultiVector near_kernel(motions.columns);
+      for (int v = 0; v < near_kernel.NumVectors(); ++v)
+        for (int i = 0; i < near_kernel.MyLength(); ++i)
+          if (system.constrained[i] || system.changed[i])
+            near_kernel[v][i] = 0.;
       // With much inertia it alone bounds the condition number: coarse spaces have nothing
       // to do, and the aggregates that weak couplings leave would hardly be fewer.
       preconditioner = std::make_unique<Multigrid>(*preconditioned_matrix,
-                                                   std::move(near_kernel),
-                                                   stiffness_of_motions(system, modes) < 0.15);
+                                                   near_kernel,
+                                                   motions.body,
+                                                   stiffness_of_motions(system, motions) < 0.15);
       ++count.preconditioner_setups;
       fresh_iterations = 0;
     }
@@ -216,13 +216,13 @@ namespace Touchstone
 
 
     void
-    BelosSolver::do_solve(const CondensedSystem    &system,
-                          const Epetra_MultiVector &modes,
-                          Epetra_Vector            &solution)
+    BelosSolver::do_solve(const CondensedSystem &system,
+                          const RigidMotions    &motions,
+                          Epetra_Vector         &solution)
     {
       if (symmetric_only() && (!system.definite || !system.symmetric))
         throw LinearSolverFailure(parameters.type + " needs a symmetric positive definite system");
-      if (modes.Map().NumGlobalElements() != system.matrix->NumGlobalRows())
+      if (motions.columns.Map().NumGlobalElements() != system.matrix->NumGlobalRows())
         throw LinearSolverFailure(parameters.type + " cannot solve a system with multipliers");
       // The preconditioner serves until the active set changes (other unknowns are
       // condensed then, and one of an earlier set cost up to six times the
@@ -233,11 +233,11 @@ namespace Touchstone
       system.matrix->Comm().MinAll(&same, &all_same, 1);
       const bool fits = all_same == 1;
       if (!fits)
-        set_up(system, modes);
+        set_up(system, motions);
       int iterations = iterate(system, solution);
       if (iterations < 0 && fresh_iterations > 0)
         {
-          set_up(system, modes);
+          set_up(system, motions);
           solution.PutScalar(0.);
           iterations = iterate(system, solution);
         }

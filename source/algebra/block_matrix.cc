@@ -48,10 +48,9 @@ namespace Touchstone
 
     const unsigned int n_nodes = matrix.NumMyRows() / dim;
     // Which blocks there are, then what is in them: rows of a node may differ in length.
-    std::vector<unsigned int> seen((partitioner->locally_owned_size() +
-                                    partitioner->n_ghost_indices()) /
-                                     dim,
-                                   numbers::invalid_unsigned_int);
+    std::vector<unsigned int> seen(
+      (partitioner->locally_owned_size() + partitioner->n_ghost_indices()) / dim,
+      numbers::invalid_unsigned_int);
     start.reserve(n_nodes + 1);
     start.push_back(0);
     const auto for_each_entry = [&](const unsigned int node, const auto &visit) {

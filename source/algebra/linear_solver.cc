@@ -7,9 +7,9 @@
 namespace Touchstone
 {
   void
-  LinearSolver::solve(const CondensedSystem    &system,
-                      const Epetra_MultiVector &modes,
-                      Epetra_Vector            &solution)
+  LinearSolver::solve(const CondensedSystem &system,
+                      const RigidMotions    &motions,
+                      Epetra_Vector         &solution)
   {
     ++count.solves;
     double rhs_norm = 0.;
@@ -19,7 +19,7 @@ namespace Touchstone
       return;
     if (!std::isfinite(rhs_norm))
       throw LinearSolverFailure("the right-hand side of the linear system is not finite");
-    do_solve(system, modes, solution);
+    do_solve(system, motions, solution);
 
     Epetra_Vector rest(system.rhs->Map());
     system.matrix->Apply(solution, rest);

@@ -72,9 +72,9 @@ namespace Touchstone
       void
       factorise(const CondensedSystem &system);
       void
-      do_solve(const CondensedSystem    &system,
-               const Epetra_MultiVector &modes,
-               Epetra_Vector            &solution) override;
+      do_solve(const CondensedSystem &system,
+               const RigidMotions    &motions,
+               Epetra_Vector         &solution) override;
       void
       check_pivots() const;
     };
@@ -215,9 +215,7 @@ namespace Touchstone
 
 
     void
-    Mumps::do_solve(const CondensedSystem &system,
-                    const Epetra_MultiVector &,
-                    Epetra_Vector &solution)
+    Mumps::do_solve(const CondensedSystem &system, const RigidMotions &, Epetra_Vector &solution)
     {
       if (initialised && data.sym != kind(system))
         finish();

@@ -31,7 +31,8 @@ namespace Touchstone
   RigidBodyModes::RigidBodyModes(const Scene &scene, const Solid &solid)
     : scene(scene)
     , solid(solid)
-    , modes(std::make_unique<Epetra_MultiVector>(solid.stiffness().trilinos_matrix().RowMap(), 6))
+    , rigid(new RigidMotions{Epetra_MultiVector(solid.stiffness().trilinos_matrix().RowMap(), 6),
+                             bodies_of_unknowns(solid)})
     , centres(scene.bodies.size())
     , sizes(scene.bodies.size())
   {
@@ -48,22 +49,22 @@ namespace Touchstone
         sizes[b] = 0.5 * std::sqrt(diagonal);
       }
 
-    row_body = bodies_of_unknowns(solid);
-    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    Epetra_MultiVector &modes = rigid->columns;
+    std::vector<Index>  dofs(solid.fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
           cell->get_dof_indices(dofs);
           for (unsigned int i = 0; i < dofs.size(); ++i)
             {
-              const int row = modes->Map().LID(static_cast<int>(dofs[i]));
+              const int row = modes.Map().LID(static_cast<int>(dofs[i]));
               if (row < 0)
                 continue;
               const Tensor<1, dim> x =
                 solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i)) -
                 centres[0];
               for (unsigned int k = 0; k < 6; ++k)
-                (*modes)[k][row] = mode(k, x / sizes[0])[dofs[i] % dim];
+                modes[k][row] = mode(k, x / sizes[0])[dofs[i] % dim];
             }
         }
   }
@@ -166,13 +167,13 @@ namespace Touchstone
     // Work of the unbalanced forces on the modes of each body; sum of diagonals.
     const unsigned int  n = 6 * scene.bodies.size();
     std::vector<double> sums(n + scene.bodies.size(), 0.);
-    for (unsigned int row = 0; row < row_body.size(); ++row)
+    for (unsigned int row = 0; row < rigid->body.size(); ++row)
       {
-        const unsigned int b = row_body[row];
+        const unsigned int b = rigid->body[row];
         // The columns turn about the centre of the first body, in its size.
         double translation[dim] = {};
         for (unsigned int d = 0; d < dim; ++d)
-          translation[d] = (*modes)[d][row];
+          translation[d] = rigid->columns[d][row];
         const double force = unbalanced.begin()[row];
         for (unsigned int k = 0; k < dim; ++k)
           {
@@ -181,7 +182,7 @@ namespace Touchstone
             Tensor<1, dim> direction;
             for (unsigned int d = 0; d < dim; ++d)
               direction[d] = translation[d];
-            const double about_first = (*modes)[dim + k][row] * sizes[0];
+            const double about_first = rigid->columns[dim + k][row] * sizes[0];
             const double offset      = cross_product_3d(e, centres[0] - centres[b]) * direction;
             sums[6 * b + k] += force * translation[k];
             sums[6 * b + dim + k] += force * (about_first + offset) / sizes[b];
@@ -201,8 +202,8 @@ namespace Touchstone
           }
         fraction = std::max(fraction, std::abs(work) / (resistance * distance));
       }
-    for (unsigned int row = 0; row < row_body.size(); ++row)
-      if (motion.bodies.count(row_body[row]) > 0)
+    for (unsigned int row = 0; row < rigid->body.size(); ++row)
+      if (motion.bodies.count(rigid->body[row]) > 0)
         shift.begin()[row] = fraction * diagonal[row];
     return shift;
   }

@@ -516,7 +516,7 @@ namespace Touchstone
     TimerOutput::Scope scope(timer, "linear solver");
     const unsigned int before = solver->counts().iterations;
     Epetra_Vector      solution(condensed->matrix->RowMap());
-    solver->solve(*condensed, modes->columns(), solution);
+    solver->solve(*condensed, modes->motions(), solution);
     const Index n = solid.owned.n_elements();
     std::copy(solution.Values(), solution.Values() + n, increment.begin());
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());

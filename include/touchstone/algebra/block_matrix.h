@@ -59,9 +59,9 @@ namespace Touchstone
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     /** Where the blocks of a node begin; their column, a local node; their entries,
      * column by column. */
-    std::vector<std::size_t>       start;
-    std::vector<unsigned int>      column;
-    dealii::AlignedVector<float>   entries;
+    std::vector<std::size_t>     start;
+    std::vector<unsigned int>    column;
+    dealii::AlignedVector<float> entries;
   };
 } // namespace Touchstone
 

@@ -6,6 +6,7 @@
 #include <touchstone/scene/solver_parameters.h>
 
 #include <Epetra_MultiVector.h>
+#include <vector>
 
 namespace Touchstone
 {
@@ -16,6 +17,16 @@ namespace Touchstone
     unsigned int iterations            = 0;
     unsigned int factorisations        = 0;
     unsigned int preconditioner_setups = 0;
+  };
+
+  /** @brief The rigid motions of the bodies over the displacements, for multigrid. */
+  struct RigidMotions
+  {
+    /** Three translations and three rotations, over the rows of the stiffness. Bodies
+     * share the columns: one restricted to a body is a motion of that body. */
+    Epetra_MultiVector columns;
+    /** Body of each row of this rank. */
+    std::vector<unsigned int> body;
   };
 
   /**
@@ -35,15 +46,14 @@ namespace Touchstone
     /**
      * @brief Solve and check the true residual.
      * @param system   The condensed system.
-     * @param modes    Rigid-body modes of the bodies, columns over the rows of
-     *                 the displacement unknowns; for multigrid.
+     * @param motions  Of the bodies.
      * @param solution Result, over the rows of the matrix; CondensedSystem::scale is
      *                 taken out of it.
      * @throws LinearSolverFailure if the residual stays above the tolerance,
      *         SingularSystem if the matrix turns out singular.
      */
     void
-    solve(const CondensedSystem &system, const Epetra_MultiVector &modes, Epetra_Vector &solution);
+    solve(const CondensedSystem &system, const RigidMotions &motions, Epetra_Vector &solution);
 
     /** @brief Whether it takes symmetric positive definite systems only. */
     virtual bool
@@ -78,9 +88,9 @@ namespace Touchstone
     LinearSolverCounts           count;
 
     virtual void
-    do_solve(const CondensedSystem    &system,
-             const Epetra_MultiVector &modes,
-             Epetra_Vector            &solution) = 0;
+    do_solve(const CondensedSystem &system,
+             const RigidMotions    &motions,
+             Epetra_Vector         &solution) = 0;
   };
 
   using LinearSolverRegistry = Registry<LinearSolver, const LinearSolverParameters &>;

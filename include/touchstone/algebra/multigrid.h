@@ -25,14 +25,17 @@ namespace Touchstone
   {
   public:
     /**
-     * @param matrix      Must live as long.
-     * @param near_kernel Vectors that the coarse levels must be able to represent: those
-     *                    with little or no energy, zero at constrained unknowns, one after
-     *                    the other.
-     * @param coarse_spaces Whether to make any; without them a sweep of symmetric
+     * @param matrix        Must live as long.
+     * @param near_kernel   Motions with little or no energy that the coarse levels must be
+     *                      able to represent, zero at constrained unknowns.
+     * @param body          Body of each row of this rank: aggregates() are within one.
+     * @param coarse_levels Whether to make any; without them a sweep of symmetric
      *                      Gauss-Seidel is all.
      */
-    Multigrid(const Epetra_CrsMatrix &matrix, std::vector<double> near_kernel, bool coarse_spaces);
+    Multigrid(const Epetra_CrsMatrix          &matrix,
+              const Epetra_MultiVector        &near_kernel,
+              const std::vector<unsigned int> &body,
+              bool                             coarse_levels);
 
     /** @brief One V-cycle from zero, for each vector. Collective. */
     int
@@ -92,8 +95,9 @@ namespace Touchstone
     using Chebyshev =
       dealii::PreconditionChebyshev<BlockMatrix, VectorType, dealii::DiagonalMatrix<VectorType>>;
 
-    const Epetra_CrsMatrix                             &matrix;
-    std::vector<double>                                 near_kernel;
+    const Epetra_CrsMatrix &matrix;
+    /** ML keeps a reference. */
+    Epetra_MultiVector                                   near_kernel;
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> hierarchy;
     /** Of the finest level; null if there is but one. */
     std::unique_ptr<BlockMatrix> fine_matrix;
@@ -101,6 +105,9 @@ namespace Touchstone
     /** Work space of a cycle. */
     mutable VectorType          fine_rhs, fine_solution, fine_residual;
     mutable std::vector<double> residual, correction, coarse_rhs, coarse_solution;
+
+    ML_1Level &
+    finest() const;
 
     void
     cycle(const double *rhs, double *result) const;

@@ -2,11 +2,12 @@
 #define touchstone_algebra_rigid_body_modes_h
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/linear_solver.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <Epetra_MultiVector.h>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -35,13 +36,10 @@ namespace Touchstone
   public:
     RigidBodyModes(const Scene &scene, const Solid &solid);
 
-    /** @brief Three translations and three rotations at the unknowns that this
-     * rank owns. Bodies share the six columns: a column restricted to a body is a
-     * mode of that body, and aggregates do not span bodies. */
-    const Epetra_MultiVector &
-    columns() const
+    const RigidMotions &
+    motions() const
     {
-      return *modes;
+      return *rigid;
     }
 
     /**
@@ -70,13 +68,11 @@ namespace Touchstone
                   double            smallest) const;
 
   private:
-    const Scene                        &scene;
-    const Solid                        &solid;
-    std::unique_ptr<Epetra_MultiVector> modes;
-    std::vector<dealii::Point<dim>>     centres;
-    std::vector<double>                 sizes;
-    /** Body of each owned unknown, in the order of the rows. */
-    std::vector<unsigned int> row_body;
+    const Scene                    &scene;
+    const Solid                    &solid;
+    std::unique_ptr<RigidMotions>   rigid;
+    std::vector<dealii::Point<dim>> centres;
+    std::vector<double>             sizes;
   };
 } // namespace Touchstone
 
