@@ -86,7 +86,7 @@ namespace Touchstone
     // Aggregates of the user need levels counted from the coarsest one.
     list.set("increasing or decreasing", "decreasing");
     list.set("aggregation: type", "user");
-    list.set("aggregation: threshold", 0.01);
+    list.set("aggregation: threshold", 0.003);
     list.set("smoother: type", "Chebyshev");
     list.set("smoother: sweeps", degree);
     list.set("smoother: Chebyshev alpha", range);
