@@ -44,6 +44,9 @@ namespace Touchstone
         time += dtime;
         for (unsigned int a = 0; a < 2; ++a)
           xi[a] = std::clamp(xi[a] + dxi[a], -2., 2.);
+        // Far beside the face after so many iterations: it will not come back to it.
+        if (iteration >= 4 && (std::abs(xi[0]) == 2. || std::abs(xi[1]) == 2.))
+          return {};
         if (std::abs(dtime) + std::abs(dxi[0]) + std::abs(dxi[1]) > 1e-10)
           continue;
         const double touching = 1e-6 * area * size / std::abs(rate);

@@ -90,13 +90,20 @@ namespace Touchstone
   {
     const FaceShapes shapes(data.degree, xi);
     Tensor<1, dim>   result;
-    for (unsigned int m = 0; m < data.n_nodes(); ++m)
-      result += shapes.value[m] * data.normals[m];
-    if (exact)
+    if (!exact)
+      for (unsigned int m = 0; m < data.n_nodes(); ++m)
+        result += shapes.value[m] * data.normals[m];
+    else
       {
-        result += evaluate(xi).normal();
+        if (!deviations)
+          {
+            deviations.emplace();
+            for (unsigned int m = 0; m < data.n_nodes(); ++m)
+              (*deviations)[m] = data.normals[m] - evaluate(node_coordinates(data, m)).normal();
+          }
+        result = evaluate(xi).normal();
         for (unsigned int m = 0; m < data.n_nodes(); ++m)
-          result -= shapes.value[m] * evaluate(node_coordinates(data, m)).normal();
+          result += shapes.value[m] * (*deviations)[m];
       }
     return result / result.norm();
   }

@@ -116,6 +116,27 @@ namespace Touchstone
         result[faces[i]] = root(i);
       return result;
     }
+
+    std::vector<const Face *>
+    masters_of(const std::vector<FacingFace> &facing)
+    {
+      std::vector<const Face *> result;
+      for (const FacingFace &face : facing)
+        result.push_back(face.master);
+      return result;
+    }
+
+    /** Whether @p facing hang together over the nodes of @p faces. */
+    bool
+    one_layer(const std::vector<FacingFace> &facing, const std::vector<const Face *> &faces)
+    {
+      if (facing.size() < 2)
+        return true;
+      const std::map<const Face *, std::size_t> number = layers(faces);
+      return std::all_of(facing.begin(), facing.end(), [&](const FacingFace &face) {
+        return number.at(face.master) == number.at(facing[0].master);
+      });
+    }
   } // namespace
 
 
@@ -155,15 +176,12 @@ namespace Touchstone
     const std::vector<const Face *> near    = search.near(box(slave), normal);
     std::vector<FacingFace>         all     = cover(slave, near);
     bool                            layered = false, moved = all.empty();
-    if (all.size() > 1)
-      {
-        const std::map<const Face *, std::size_t> number = layers(near);
-        for (const FacingFace &facing : all)
-          layered = layered || number.at(facing.master) != number.at(all[0].master);
-      }
+    // Those that cover the face mostly hang together without the help of others.
+    if (!one_layer(all, masters_of(all)) && !one_layer(all, near))
+      layered = true;
+    const double far = small_motion * std::sqrt(area(slave));
     for (const FacingFace &facing : all)
-      moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() >
-                         small_motion * std::sqrt(area(slave));
+      moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
     if (!moved && !layered)
       return all;
     const Entries in    = entries(slave, normal);

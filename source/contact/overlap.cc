@@ -4,6 +4,7 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <Sacado.hpp>
+#include <algorithm>
 #include <cmath>
 
 namespace Touchstone
@@ -236,12 +237,34 @@ namespace Touchstone
             const double d[2] = {cross(r, t[1]) / jacobian, cross(t[0], r) / jacobian};
             xi[0] += d[0];
             xi[1] += d[1];
-            if (std::abs(d[0]) + std::abs(d[1]) < 1e-13)
+            // The error that is left is of the order of the square.
+            if (std::abs(d[0]) + std::abs(d[1]) < 1e-8)
               break;
           }
         return std::abs(xi[0]) < 1.5 && std::abs(xi[1]) < 1.5;
       }
     };
+
+    /** Whether the boxes around two shadows have nothing in common. */
+    bool
+    apart(const Shadow<double> &a, const Shadow<double> &b)
+    {
+      const auto range = [](const Shadow<double> &shadow, double Point2<double>::*const axis) {
+        const auto end = shadow.nodes.begin() + shadow.face.n_nodes();
+        const auto [low, high] =
+          std::minmax_element(shadow.nodes.begin(), end, [&](const auto &p, const auto &q) {
+            return p.*axis < q.*axis;
+          });
+        return std::make_pair((*low).*axis, (*high).*axis);
+      };
+      for (const auto axis : {&Point2<double>::x, &Point2<double>::y})
+        {
+          const auto of_a = range(a, axis), of_b = range(b, axis);
+          if (of_a.second <= of_b.first || of_b.second <= of_a.first)
+            return true;
+        }
+      return false;
+    }
 
     /** Visit the quadrature points on the common parts of two shadows, with place
      * and weight in the plane. */
@@ -291,6 +314,9 @@ namespace Touchstone
     const Shadow<double>    master_shadow(master, positions(master), plane);
 
     std::vector<OverlapPoint> points;
+    // Most faces that are near are beside it.
+    if (apart(slave_shadow, master_shadow))
+      return points;
     for_each_point(slave_shadow,
                    master_shadow,
                    [&](const Point2<double> &place, const double weight) {
@@ -354,11 +380,11 @@ namespace Touchstone
     // Most faces that are near do not overlap.
     const Positions<double> slave_x = positions(slave), master_x = positions(master);
     {
-      const Plane<double> plane(slave, slave_x);
-      bool                any = false;
-      for_each_point(Shadow<double>(slave, slave_x, plane),
-                     Shadow<double>(master, master_x, plane),
-                     [&](const Point2<double> &, double) { any = true; });
+      const Plane<double>  plane(slave, slave_x);
+      const Shadow<double> of_slave(slave, slave_x, plane), of_master(master, master_x, plane);
+      bool                 any = false;
+      if (!apart(of_slave, of_master))
+        for_each_point(of_slave, of_master, [&](const Point2<double> &, double) { any = true; });
       if (!any)
         return points;
     }

@@ -15,6 +15,18 @@ namespace Touchstone
   namespace bg  = boost::geometry;
   namespace bgi = boost::geometry::index;
 
+  namespace
+  {
+    double
+    half_diagonal(const BoundingBox<dim> &box)
+    {
+      const auto &[low, high] = box.get_boundary_points();
+      return 0.5 * low.distance(high);
+    }
+  } // namespace
+
+
+
   Search::Search(const Surface     &master,
                  const double       reach,
                  const double       tolerance,
@@ -158,20 +170,35 @@ namespace Touchstone
       }
     tree       = pack_rtree(boxes);
     swept_tree = pack_rtree(swept_boxes);
+    outlines.clear();
+    for (std::size_t i = 0; i < faces.size(); ++i)
+      {
+        const FacePoint middle = evaluate(faces[i], master.exact_surface(faces[i]), {{0., 0.}});
+        const Box      &box    = boxes[i].first;
+        outlines.push_back({middle.normal(), box.center(), half_diagonal(box)});
+      }
+  }
+
+
+
+  bool
+  Search::may_cross(const SlavePoint &point, const Face &face) const
+  {
+    const Box before = bounding_box(face, face.committed),
+              after  = bounding_box(face, face.displacement);
+    bool around      = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      around =
+        around &&
+        std::min(before.lower_bound(d) - point.start[d], after.lower_bound(d) - point.x[d]) <= 0. &&
+        std::max(before.upper_bound(d) - point.start[d], after.upper_bound(d) - point.x[d]) >= 0.;
+    return around;
   }
 
 
 
   namespace
   {
-    /** A face that looks the same way as the slave surface is on the far side of
-     * its body. @return the cosine of the angle between both. */
-    double
-    same_way(const Face &face, const AnalyticSurface *exact, const Tensor<1, dim> &slave_normal)
-    {
-      return evaluate(face, exact, {{0., 0.}}).normal() * slave_normal;
-    }
-
     double
     size(const Face &face)
     {
@@ -179,6 +206,10 @@ namespace Touchstone
       return (face.reference[0] + face.displacement[0])
         .distance(face.reference[last] + face.displacement[last]);
     }
+
+    /** A face that looks the same way as the slave surface, by the cosine of the angle
+     * between both, is on the far side of its body. */
+    constexpr double far_side = 0.3;
 
     /** A node in contact stays with its face across a sharp edge unless another is
      * closer by this fraction of the face. */
@@ -196,9 +227,14 @@ namespace Touchstone
     std::vector<const Face *> result;
     for (auto it = tree.qbegin(bgi::intersects(capture)); it != tree.qend(); ++it)
       {
-        const Face &face = faces[it->second];
+        const Face    &face    = faces[it->second];
+        const Outline &outline = outlines[it->second];
         ++counted.candidates;
-        if (same_way(face, master.exact_surface(face), slave_normal) < -0.1)
+        // Only those over the box or under it, seen along the normal, cover any of it.
+        const Tensor<1, dim> way = outline.centre - box.center();
+        const bool           beside =
+          (way - (way * slave_normal) * slave_normal).norm() > outline.radius + half_diagonal(box);
+        if (outline.normal * slave_normal < -0.1 && !beside)
           result.push_back(&face);
       }
     std::sort(result.begin(), result.end(), [](const Face *a, const Face *b) {
@@ -266,7 +302,7 @@ namespace Touchstone
                 break;
               }
             const Face &face = faces[place];
-            if (same_way(face, master.exact_surface(face), point.normal) > 0.3)
+            if (outlines[place].normal * point.normal > far_side)
               continue;
             const Projection projection = closest_point_projection(x, geometry(face));
             ++counted.candidates;
@@ -320,7 +356,7 @@ namespace Touchstone
                                    other.nodes.begin() + other.n_nodes(),
                                    face.nodes.begin(),
                                    end) == other.nodes.begin() + other.n_nodes() ||
-                same_way(other, master.exact_surface(other), point.normal) > 0.3)
+                outlines[it->second].normal * point.normal > far_side)
               continue;
             const Projection projection = closest_point_projection(point.x, geometry(other));
             ++counted.candidates;
@@ -345,12 +381,11 @@ namespace Touchstone
     std::vector<std::pair<Crossing, const Face *>> crossings;
     for (auto it = swept_tree.qbegin(bgi::intersects(path)); it != swept_tree.qend(); ++it)
       {
-        const Face            &face  = faces[it->second];
-        const AnalyticSurface *exact = master.exact_surface(face);
-        if (same_way(face, exact, point.normal) > 0.3)
+        const Face &face = faces[it->second];
+        if (outlines[it->second].normal * point.normal > far_side || !may_cross(point, face))
           continue;
         ++counted.candidates;
-        if (const auto found = crossing(point.start, point.x, face, exact))
+        if (const auto found = crossing(point.start, point.x, face, master.exact_surface(face)))
           crossings.emplace_back(*found, &face);
       }
     std::sort(crossings.begin(), crossings.end(), [](const auto &a, const auto &b) {

@@ -166,6 +166,14 @@ namespace Touchstone
     const MasterNormal kind;
     const MPI_Comm     communicator;
     std::vector<Face>  faces;
+    /** What is asked of many faces to leave most of them out. */
+    struct Outline
+    {
+      dealii::Tensor<1, dim> normal; // in the middle
+      dealii::Point<dim>     centre; // of a sphere around the face
+      double                 radius;
+    };
+    std::vector<Outline> outlines;
     /** Of the faces where they are, and of all places where they were in this step. */
     Tree tree, swept_tree;
 
@@ -188,6 +196,10 @@ namespace Touchstone
     /** The present and the committed place. */
     Box
     swept_box(const Face &face) const;
+
+    /** Whether the point may meet the face on its way, both moving. */
+    bool
+    may_cross(const SlavePoint &point, const Face &face) const;
 
     /** A face with the point of it that is closest to a node. */
     struct Candidate
