@@ -1,0 +1,210 @@
+// The parts of multigrid: aggregates of nodes, the matrix of 3 x 3 blocks in single
+// precision, and that a cycle is symmetric, as conjugate gradients need it, and works.
+
+#include <touchstone/algebra/aggregation.h>
+#include <touchstone/algebra/multigrid.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_MpiComm.h>
+#include <Epetra_Vector.h>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <set>
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  constexpr int side = 12, layer = side * side, n_nodes = layer * side;
+
+  /** The bodies lie on top of each other. */
+  unsigned int
+  body_of(const int node)
+  {
+    return node / layer < side / 2 ? 0 : 1;
+  }
+
+  /** The nodes beside, in front of, behind, above and below. */
+  std::vector<int>
+  neighbours(const int node)
+  {
+    std::vector<int> result;
+    for (const int stride : {1, side, layer})
+      {
+        const int i = node / stride % side;
+        if (i > 0)
+          result.push_back(node - stride);
+        if (i + 1 < side)
+          result.push_back(node + stride);
+      }
+    return result;
+  }
+
+
+
+  void
+  test_aggregation()
+  {
+    std::vector<std::vector<int>> graph(n_nodes);
+    std::vector<unsigned int>     body(n_nodes);
+    for (int node = 0; node < n_nodes; ++node)
+      {
+        graph[node] = neighbours(node);
+        body[node]  = body_of(node);
+      }
+    graph[5].clear(); // a node that is held in all directions
+    for (auto &list : graph)
+      list.erase(std::remove(list.begin(), list.end(), 5), list.end());
+    const Aggregates aggregates = aggregate(graph, body);
+
+    std::vector<std::set<unsigned int>> bodies(aggregates.n);
+    int                                 without = 0;
+    for (int node = 0; node < n_nodes; ++node)
+      if (aggregates.of_node[node] < 0)
+        ++without;
+      else
+        bodies[aggregates.of_node[node]].insert(body[node]);
+    int mixed = 0, empty = 0;
+    for (const auto &set : bodies)
+      {
+        mixed += set.size() > 1;
+        empty += set.empty();
+      }
+    std::cout << "nodes per aggregate: " << double(n_nodes) / aggregates.n
+              << ", without one: " << without << ", aggregates of two bodies: " << mixed
+              << ", of none: " << empty << std::endl;
+
+    // A chain of nodes that take part in two bodies by turns: nothing to put together.
+    const Aggregates chain = aggregate({{1}, {0, 2}, {1, 3}, {2}}, {0, 1, 0, 1});
+    std::cout << "by turns: " << chain.n << " aggregates, first node in " << chain.of_node[0]
+              << std::endl;
+  }
+
+
+
+  /** Springs along the edges and softer ones between components, stiff in the upper body, so that
+   * the blocks are full; the lowest layer is held. */
+  std::unique_ptr<Epetra_CrsMatrix>
+  make_matrix(const Epetra_Map &map)
+  {
+    auto       matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0);
+    const auto held   = [](const int node) { return node < layer; };
+    for (int row = 0; row < map.NumMyElements(); ++row)
+      {
+        const int i = map.GID(row), node = i / 3;
+        double    diagonal = 0.1;
+        for (const int other : neighbours(node))
+          {
+            const double stiffness = body_of(node) == body_of(other) ? 1. + body_of(node) : 0.5;
+            diagonal += stiffness;
+            if (!held(node) && !held(other))
+              for (int d = 0; d < 3; ++d)
+                {
+                  const int    j     = 3 * other + d;
+                  const double value = i % 3 == d ? -stiffness : -0.1 * stiffness;
+                  matrix->InsertGlobalValues(i, 1, &value, &j);
+                }
+          }
+        diagonal *= 1.3;
+        matrix->InsertGlobalValues(i, 1, &diagonal, &i);
+      }
+    matrix->FillComplete();
+    return matrix;
+  }
+
+
+
+  double
+  wave(const int i)
+  {
+    return std::sin(0.37 * i) + 0.5 * std::cos(1.7 * i);
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const MPI_Comm                   communicator = MPI_COMM_WORLD;
+  const bool                       root = Utilities::MPI::this_mpi_process(communicator) == 0;
+  if (root)
+    test_aggregation();
+
+  const int        rank = Utilities::MPI::this_mpi_process(communicator);
+  const int        n    = Utilities::MPI::n_mpi_processes(communicator);
+  std::vector<int> rows;
+  for (int node = n_nodes * rank / n; node < n_nodes * (rank + 1) / n; ++node)
+    for (int d = 0; d < 3; ++d)
+      rows.push_back(3 * node + d);
+  const Epetra_Map map(-1, rows.size(), rows.data(), 0, Epetra_MpiComm(communicator));
+  const auto       matrix = make_matrix(map);
+
+  Epetra_Vector x(map), y(map), exact(map);
+  for (int i = 0; i < x.MyLength(); ++i)
+    {
+      x[i] = wave(rows[i]);
+      y[i] = wave(3 * rows[i] + 1);
+    }
+  matrix->Multiply(false, x, exact);
+
+  const BlockMatrix       blocks(*matrix);
+  BlockMatrix::VectorType in, out;
+  blocks.initialize_vector(in);
+  blocks.initialize_vector(out);
+  std::copy(x.Values(), x.Values() + x.MyLength(), in.begin());
+  blocks.vmult(out, in);
+  double largest = 0., difference = 0., diagonal = 0.;
+  for (int i = 0; i < x.MyLength(); ++i)
+    {
+      largest    = std::max(largest, std::abs(exact[i]));
+      difference = std::max(difference, std::abs(exact[i] - out.local_element(i)));
+    }
+  Epetra_Vector of_matrix(map);
+  matrix->ExtractDiagonalCopy(of_matrix);
+  const BlockMatrix::VectorType inverse = blocks.inverse_diagonal();
+  for (int i = 0; i < x.MyLength(); ++i)
+    diagonal = std::max(diagonal, std::abs(of_matrix[i] * inverse.local_element(i) - 1.));
+  difference = Utilities::MPI::max(difference, communicator);
+  largest    = Utilities::MPI::max(largest, communicator);
+  diagonal   = Utilities::MPI::max(diagonal, communicator);
+  if (root)
+    std::cout << "product of blocks: " << (difference < 1e-6 * largest ? "the same" : "WRONG")
+              << ", diagonal: " << (diagonal < 1e-6 ? "the same" : "WRONG") << std::endl;
+
+  Epetra_MultiVector        motions(map, 3);
+  std::vector<unsigned int> body(rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      body[i] = body_of(rows[i] / 3);
+      if (rows[i] / 3 >= layer)
+        motions[rows[i] % 3][i] = 1.;
+    }
+  for (const bool coarse_levels : {true, false})
+    {
+      const Multigrid multigrid(*matrix, motions, body, coarse_levels);
+      Epetra_Vector   of_x(map), of_y(map), error(x), product(map);
+      multigrid.ApplyInverse(x, of_x);
+      multigrid.ApplyInverse(y, of_y);
+      double a, b, before, after;
+      of_x.Dot(y, &a);
+      of_y.Dot(x, &b);
+      // Iterating with it alone, by how much the error falls in each of the last cycles.
+      for (int cycle = 0; cycle < 12; ++cycle)
+        {
+          error.Norm2(&before);
+          matrix->Multiply(false, error, product);
+          multigrid.ApplyInverse(product, of_x);
+          error.Update(-1., of_x, 1.);
+        }
+      error.Norm2(&after);
+      if (root)
+        std::cout << (coarse_levels ? "cycle" : "one sweep") << ": "
+                  << (std::abs(a - b) < 1e-5 * std::abs(a) ? "symmetric" : "NOT SYMMETRIC")
+                  << ", error falls " << (after < 0.35 * before ? "fast" : "slowly") << std::endl;
+    }
+}
