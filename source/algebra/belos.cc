@@ -92,8 +92,9 @@ namespace Touchstone
              const Teuchos::RCP<Teuchos::ParameterList> &list,
              const Teuchos::RCP<Epetra_Operator>        &multigrid) const override
       {
-        problem->setLeftPrec(multigrid);
+        // In this order, or the problem applies the preconditioner once for nothing.
         problem->setProblem();
+        problem->setLeftPrec(multigrid);
         return std::make_unique<Belos::BlockCGSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(
           problem, list);
       }
