@@ -32,7 +32,7 @@ namespace Touchstone
       }
 
       bool
-      wants_basis_change() const override
+      wants_basis_change(int) const override
       {
         return true;
       }

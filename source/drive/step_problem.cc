@@ -443,7 +443,7 @@ namespace Touchstone
         system->symmetric = false;
       }
     system->symmetric = everywhere(system->symmetric);
-    if (solver->wants_basis_change())
+    if (solver->wants_basis_change(static_cast<int>(u.size())))
       system->basis_change =
         graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
     condensed = std::make_unique<CondensedSystem>(*system);

@@ -226,8 +226,10 @@ namespace Touchstone
                       type,
                       "'MUMPS' factorises; 'Belos CG' and 'Belos GMRES' iterate with ML "
                       "multigrid, for large models without multipliers: CG takes "
-                      "symmetric systems, GMRES also unsymmetric ones.",
-                      Patterns::Selection("MUMPS|Belos CG|Belos GMRES"));
+                      "symmetric systems, GMRES also unsymmetric ones. 'automatic' takes "
+                      "CG from 20,000 unknowns on if the system is symmetric and positive "
+                      "definite, and MUMPS otherwise or if CG fails.",
+                      Patterns::Selection("automatic|MUMPS|Belos CG|Belos GMRES"));
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Relative residual to which an iterative solver takes the linear "
@@ -243,12 +245,13 @@ namespace Touchstone
                       "GMRES starts anew after this many iterations. It keeps one vector "
                       "for each of them.",
                       Patterns::Integer(1));
-    prm.add_parameter("Low rank tolerance",
-                      low_rank_tolerance,
-                      "MUMPS compresses the blocks of its factors, up to this relative error: less "
-                      "memory for large models, at about the same time; 0: not at all. 1e-8 costs no "
-                      "Newton iteration. [no unit]",
-                      Patterns::Double(0., 1e-2));
+    prm.add_parameter(
+      "Low rank tolerance",
+      low_rank_tolerance,
+      "MUMPS compresses the blocks of its factors, up to this relative error: less "
+      "memory for large models, at about the same time; 0: not at all. 1e-8 costs no "
+      "Newton iteration. [no unit]",
+      Patterns::Double(0., 1e-2));
     prm.add_parameter("Out of core",
                       out_of_core,
                       "MUMPS keeps its factors in files, in the folder that the environment "
@@ -266,7 +269,7 @@ namespace Touchstone
                    "Tolerance",
                    tolerance,
                    "two to four digits a Newton iteration are usual: 1e-3");
-    if (type != "MUMPS")
+    if (type.rfind("Belos", 0) == 0)
       for (const auto &[key, set, value] :
            {std::make_tuple("Low rank tolerance",
                             low_rank_tolerance > 0.,

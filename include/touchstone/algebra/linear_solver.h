@@ -63,9 +63,9 @@ namespace Touchstone
     }
 
     /** @brief Whether stiff springs slow it down unless their stretch is an unknown
-     * of its own. */
+     * of its own, in a system of that size. */
     virtual bool
-    wants_basis_change() const
+    wants_basis_change(int /*n_unknowns*/) const
     {
       return false;
     }
@@ -86,6 +86,16 @@ namespace Touchstone
   protected:
     const LinearSolverParameters parameters;
     LinearSolverCounts           count;
+
+    /** @brief Let @p other solve: the part of solve() that is its own. */
+    static void
+    delegate(LinearSolver          &other,
+             const CondensedSystem &system,
+             const RigidMotions    &motions,
+             Epetra_Vector         &solution)
+    {
+      other.do_solve(system, motions, solution);
+    }
 
     virtual void
     do_solve(const CondensedSystem &system,

@@ -98,8 +98,8 @@ namespace Touchstone
   /** @brief Section "Linear solver". */
   struct LinearSolverParameters
   {
-    /** "MUMPS", "Belos CG" or "Belos GMRES". */
-    std::string type = "MUMPS";
+    /** "automatic", "MUMPS", "Belos CG" or "Belos GMRES". */
+    std::string type = "automatic";
     /** Relative residual to which an iterative solver takes the system of a
      * Newton iteration (inexact Newton); no unit. */
     double       tolerance          = 1e-3;
