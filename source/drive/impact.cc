@@ -118,13 +118,13 @@ namespace Touchstone
 
     // How far an impulse moves the condition that it is of: light and heavy bodies
     // can meet others in one scene.
-    Vector inverse(mass.of_nodes());
-    for (double &value : inverse)
+    inverse_mass = mass.of_nodes();
+    for (double &value : inverse_mass)
       value = value > 0. ? 1. / value : 0.;
     IndexSet needed = solid.owned;
     needed.add_indices(used.begin(), used.end());
     Vector mobility(solid.owned, needed, solid.communicator);
-    mobility = inverse;
+    mobility = inverse_mass;
     scale.reinit(rows, solid.communicator);
     for (std::size_t k = 0; k < pressing.size(); ++k)
       {
@@ -146,9 +146,6 @@ namespace Touchstone
       remove_support(vector);
     };
     free(impulse);
-    Vector inverse(mass.of_nodes());
-    for (double &value : inverse)
-      value = value > 0. ? 1. / value : 0.;
     Vector   x(impulse), moved(impulse);
     Operator matrix{[&](Vector &y, const Vector &velocity) {
       moved = velocity;
@@ -157,7 +154,7 @@ namespace Touchstone
       free(y);
     }};
     x = 0.;
-    solve<SolverCG<Vector>>(matrix, DiagonalMatrix<Vector>(inverse), 1e-14, impulse, x);
+    solve<SolverCG<Vector>>(matrix, DiagonalMatrix<Vector>(inverse_mass), 1e-14, impulse, x);
     solid.hanging.distribute(x);
     impulse = x;
   }

@@ -110,8 +110,8 @@ namespace Touchstone
       return 0;
     for (unsigned int cycle = 0;; ++cycle)
       {
-        std::vector<Vector> fields;
-        const auto          momenta = problem->time_integration().momenta();
+        std::vector<Vector>       fields;
+        std::vector<BodyMomentum> momenta;
         {
           TimerOutput::Scope scope(timer, "refinement");
           const double       error = refinement.estimate(*problem);
@@ -119,7 +119,8 @@ namespace Touchstone
           if (cycle == cycles || error < scene.refinement.tolerance ||
               !refinement.mark(*problem, time))
             return newton;
-          fields = refinement.execute(problem->carry_over());
+          momenta = problem->time_integration().momenta();
+          fields  = refinement.execute(problem->carry_over());
           volume_output.reinit();
         }
         auto next = std::make_unique<StepProblem>(scene, forest, solid, timer);
@@ -144,8 +145,8 @@ namespace Touchstone
     if (last_picture == step)
       return;
     TimerOutput::Scope scope(timer, "output");
-    last_picture   = step;
-    const Vector u = problem->ghosted_displacement();
+    last_picture       = step;
+    const Vector u     = problem->ghosted_displacement();
     const auto   rates = problem->time_integration().rates();
     Vector       velocity;
     if (!rates.empty())

@@ -69,6 +69,8 @@ namespace Touchstone
     /** B and F. */
     std::unique_ptr<Epetra_CrsMatrix> motion, force;
     Vector                            scale;
+    /** One over the masses of the nodes; 0 where there is none. */
+    Vector inverse_mass;
 
     /** The velocities that impulses on the nodes lead to. */
     void
