@@ -20,7 +20,7 @@ namespace Touchstone
     private:
       void
       do_solve(const CondensedSystem &system,
-               const Epetra_MultiVector &,
+               const RigidMotions &,
                Epetra_Vector &solution) override
       {
         Epetra_LinearProblem problem(system.matrix.get(), &solution, system.rhs.get());
