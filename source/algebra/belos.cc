@@ -3,9 +3,9 @@
 #include <touchstone/algebra/non_convergence.h>
 
 #include <BelosBlockCGSolMgr.hpp>
+#include <BelosBlockGmresSolMgr.hpp>
 #include <BelosEpetraAdapter.hpp>
 #include <BelosLinearProblem.hpp>
-#include <BelosPseudoBlockGmresSolMgr.hpp>
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_RCP.hpp>
 #include <memory>
@@ -102,8 +102,9 @@ namespace Touchstone
 
     /**
      * Restarted GMRES, preconditioned from the right, so that the residual that
-     * it minimises is the true one.
-     * Saad and Schultz (1986), SIAM J. Sci. Stat. Comput. 7.
+     * it minimises is the true one, and flexible: multigrid in single precision is a linear
+     * operator only up to its round-off, below which the residual could not fall otherwise.
+     * Saad (1993), SIAM J. Sci. Comput. 14.
      */
     class BelosGmres : public BelosSolver
     {
@@ -121,9 +122,9 @@ namespace Touchstone
         const int basis = std::min(parameters.restart, parameters.maximum_iterations);
         list->set("Num Blocks", basis);
         list->set("Maximum Restarts", static_cast<int>(parameters.maximum_iterations) / basis);
+        list->set("Flexible Gmres", true);
         return std::make_unique<
-          Belos::PseudoBlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(problem,
-                                                                                      list);
+          Belos::BlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(problem, list);
       }
     };
 

@@ -242,7 +242,7 @@ namespace Touchstone
                       Patterns::Integer(1));
     prm.add_parameter("Restart",
                       restart,
-                      "GMRES starts anew after this many iterations. It keeps one vector "
+                      "GMRES starts anew after this many iterations. It keeps two vectors "
                       "for each of them.",
                       Patterns::Integer(1));
     prm.add_parameter(
