@@ -142,7 +142,7 @@ main(int argc, char **argv)
     for (int d = 0; d < 3; ++d)
       rows.push_back(3 * node + d);
   const Epetra_Map map(-1, rows.size(), rows.data(), 0, Epetra_MpiComm(communicator));
-  const auto       matrix = make_matrix(map);
+  const std::shared_ptr<const Epetra_CrsMatrix> matrix = make_matrix(map);
 
   Epetra_Vector x(map), y(map), exact(map);
   for (int i = 0; i < x.MyLength(); ++i)
@@ -186,7 +186,7 @@ main(int argc, char **argv)
     }
   for (const bool coarse_levels : {true, false})
     {
-      const Multigrid multigrid(*matrix, motions, body, coarse_levels);
+      const Multigrid multigrid(matrix, motions, body, coarse_levels);
       Epetra_Vector   of_x(map), of_y(map), error(x), product(map);
       multigrid.ApplyInverse(x, of_x);
       multigrid.ApplyInverse(y, of_y);

@@ -44,10 +44,8 @@ namespace Touchstone
       }
 
     private:
-      /** The matrix that the multigrid was made from, which keeps a reference. */
-      std::shared_ptr<Epetra_CrsMatrix> preconditioned_matrix;
-      std::unique_ptr<Multigrid>        preconditioner;
-      /** Constrained unknowns of that matrix, and those of changed basis. */
+      std::unique_ptr<Multigrid> preconditioner;
+      /** Constrained unknowns of its matrix, and those of changed basis. */
       std::vector<char> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
       int fresh_iterations = 0;
@@ -166,9 +164,8 @@ namespace Touchstone
     BelosSolver::set_up(const CondensedSystem &system, const RigidMotions &motions)
     {
       preconditioner.reset();
-      constrained           = system.constrained;
-      changed               = system.changed;
-      preconditioned_matrix = system.matrix;
+      constrained = system.constrained;
+      changed     = system.changed;
       Epetra_MultiVector near_kernel(motions.columns);
       for (int v = 0; v < near_kernel.NumVectors(); ++v)
         for (int i = 0; i < near_kernel.MyLength(); ++i)
@@ -176,7 +173,7 @@ namespace Touchstone
             near_kernel[v][i] = 0.;
       // With much inertia it alone bounds the condition number: coarse spaces have nothing
       // to do, and the aggregates that weak couplings leave would hardly be fewer.
-      preconditioner = std::make_unique<Multigrid>(*preconditioned_matrix,
+      preconditioner = std::make_unique<Multigrid>(system.matrix,
                                                    near_kernel,
                                                    motions.body,
                                                    stiffness_of_motions(system, motions) < 0.15);

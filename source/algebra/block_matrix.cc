@@ -2,6 +2,7 @@
 
 #include <Epetra_MpiComm.h>
 #include <algorithm>
+#include <numeric>
 
 namespace Touchstone
 {
@@ -14,79 +15,103 @@ namespace Touchstone
     /** Four numbers in a register, from any address. (VectorizedArray of a deal.II that
      * was built for all processors has but one.) */
     using Lane __attribute__((vector_size(16), aligned(4), may_alias)) = float;
-
-    /** Unknowns of this rank, and those of other ranks whose nodes its rows refer to. */
-    std::shared_ptr<const Utilities::MPI::Partitioner>
-    make_partitioner(const Epetra_CrsMatrix &matrix)
-    {
-      const Epetra_Map &rows = matrix.RowMap(), &columns = matrix.ColMap();
-      const Index       size = matrix.NumGlobalRows();
-      IndexSet          owned(size), ghosts(size);
-      if (rows.NumMyElements() > 0)
-        owned.add_range(rows.MinMyGID(), rows.MaxMyGID() + 1);
-      std::vector<Index> far;
-      for (int j = 0; j < columns.NumMyElements(); ++j)
-        if (!owned.is_element(columns.GID(j)))
-          for (unsigned int d = 0; d < dim; ++d)
-            far.push_back(columns.GID(j) / dim * dim + d);
-      std::sort(far.begin(), far.end());
-      ghosts.add_indices(far.begin(), far.end());
-      return std::make_shared<Utilities::MPI::Partitioner>(
-        owned, ghosts, dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
-    }
   } // namespace
 
 
 
-  BlockMatrix::BlockMatrix(const Epetra_CrsMatrix &matrix)
-    : partitioner(make_partitioner(matrix))
+  std::shared_ptr<const Utilities::MPI::Partitioner>
+  BlockRows::make_partitioner(const Epetra_CrsMatrix &matrix)
   {
-    const Epetra_Map         &columns = matrix.ColMap();
-    std::vector<unsigned int> place(columns.NumMyElements());
+    const Epetra_Map &rows = matrix.RowMap(), &columns = matrix.ColMap();
+    const Index       size = matrix.NumGlobalRows();
+    IndexSet          owned(size), ghosts(size);
+    if (rows.NumMyElements() > 0)
+      owned.add_range(rows.MinMyGID(), rows.MaxMyGID() + 1);
+    std::vector<Index> far;
     for (int j = 0; j < columns.NumMyElements(); ++j)
-      place[j] = partitioner->global_to_local(columns.GID(j));
+      if (!owned.is_element(columns.GID(j)))
+        for (unsigned int d = 0; d < dim; ++d)
+          far.push_back(columns.GID(j) / dim * dim + d);
+    std::sort(far.begin(), far.end());
+    ghosts.add_indices(far.begin(), far.end());
+    return std::make_shared<Utilities::MPI::Partitioner>(
+      owned, ghosts, dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+  }
 
-    const unsigned int n_nodes = matrix.NumMyRows() / dim;
-    // Which blocks there are, then what is in them: rows of a node may differ in length.
-    std::vector<unsigned int> seen(
-      (partitioner->locally_owned_size() + partitioner->n_ghost_indices()) / dim,
-      numbers::invalid_unsigned_int);
-    start.reserve(n_nodes + 1);
-    start.push_back(0);
-    const auto for_each_entry = [&](const unsigned int node, const auto &visit) {
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          int     n;
-          double *value;
-          int    *local;
-          matrix.ExtractMyRowView(dim * node + d, n, value, local);
-          for (int k = 0; k < n; ++k)
-            visit(d, place[local[k]], value[k]);
-        }
-    };
-    for (unsigned int node = 0; node < n_nodes; ++node)
+
+
+  BlockRows::BlockRows(const Epetra_CrsMatrix            &matrix,
+                       const Utilities::MPI::Partitioner &partitioner)
+    : matrix(matrix)
+    , number(matrix.NumMyCols())
+    , place((partitioner.locally_owned_size() + partitioner.n_ghost_indices()) / dim,
+            numbers::invalid_unsigned_int)
+  {
+    for (unsigned int j = 0; j < number.size(); ++j)
+      number[j] = partitioner.global_to_local(matrix.GCID(j));
+  }
+
+
+
+  void
+  BlockRows::read(const unsigned int node)
+  {
+    columns.clear();
+    blocks.clear();
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        for_each_entry(node, [&](unsigned int, const unsigned int j, double) {
-          if (seen[j / dim] != node)
-            {
-              seen[j / dim] = node;
-              column.push_back(j / dim);
-            }
+        int     n;
+        double *value;
+        int    *local;
+        matrix.ExtractMyRowView(dim * node + d, n, value, local);
+        for (int k = 0; k < n; ++k)
+          {
+            const unsigned int j = number[local[k]], other = j / dim;
+            if (place[other] == numbers::invalid_unsigned_int)
+              {
+                place[other] = columns.size();
+                columns.push_back(other);
+                blocks.push_back({});
+              }
+            blocks[place[other]][dim * d + j % dim] += value[k];
+          }
+      }
+    for (const unsigned int other : columns)
+      place[other] = numbers::invalid_unsigned_int;
+  }
+
+
+
+  BlockMatrix::BlockMatrix(const Epetra_CrsMatrix &matrix)
+    : partitioner(BlockRows::make_partitioner(matrix))
+  {
+    BlockRows                 rows(matrix, *partitioner);
+    std::vector<unsigned int> order;
+    start.reserve(rows.n_nodes() + 1);
+    start.push_back(0);
+    // Almost all blocks are full.
+    const std::size_t n_blocks = matrix.NumMyNonzeros() / block * 11 / 10;
+    column.reserve(n_blocks);
+    entries.reserve(block * n_blocks + 1);
+    for (unsigned int node = 0; node < rows.n_nodes(); ++node)
+      {
+        rows.read(node);
+        order.resize(rows.columns.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+          return rows.columns[a] < rows.columns[b];
         });
-        std::sort(column.begin() + start.back(), column.end());
+        for (const unsigned int k : order)
+          {
+            column.push_back(rows.columns[k]);
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int r = 0; r < dim; ++r)
+                entries.push_back(static_cast<float>(rows.blocks[k][dim * r + c]));
+          }
         start.push_back(column.size());
       }
     // The last block is read beyond its end.
-    entries.resize(block * column.size() + 1, 0.f);
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      {
-        for (std::size_t k = start[node]; k < start[node + 1]; ++k)
-          seen[column[k]] = k - start[node];
-        for_each_entry(node, [&](const unsigned int d, const unsigned int j, const double value) {
-          entries[block * (start[node] + seen[j / dim]) + dim * (j % dim) + d] +=
-            static_cast<float>(value);
-        });
-      }
+    entries.push_back(0.f);
   }
 
 

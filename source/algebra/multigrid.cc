@@ -1,6 +1,7 @@
 #include <touchstone/algebra/aggregation.h>
 #include <touchstone/algebra/multigrid.h>
 
+#include <Teuchos_ParameterList.hpp>
 #include <algorithm>
 #include <ml_agg_user.h>
 #include <ml_utils.h>
@@ -9,10 +10,42 @@ namespace Touchstone
 {
   namespace
   {
-    /** Degree of the polynomials, largest over smallest eigenvalue that they smooth, and
-     * what an estimate of the largest may be short of. */
+    /** Degree of the polynomials, and largest over smallest eigenvalue that they smooth. */
     constexpr int    degree = 3;
-    constexpr double range = 20., margin = 1.1;
+    constexpr double range  = 20.;
+
+    /** Conjugate gradients that estimate the largest eigenvalue, and what deal.II adds to
+     * the estimate. */
+    constexpr unsigned int estimate_iterations = 10;
+    constexpr double       margin              = 1.2;
+
+    /** Unknowns of a system that is solved directly. */
+    constexpr int few = 1000;
+
+    /** What ML is to do with a matrix that has @p n_components unknowns a node. */
+    Teuchos::ParameterList
+    ml_parameters(const Epetra_MultiVector &near_kernel, const unsigned int n_components)
+    {
+      Teuchos::ParameterList list;
+      ML_Epetra::SetDefaults("SA", list);
+      list.set("ML output", 0);
+      list.set("low memory usage", true);
+      list.set("PDE equations", static_cast<int>(n_components));
+      // Aggregates of the user need levels counted from the coarsest one.
+      list.set("increasing or decreasing", "decreasing");
+      list.set("aggregation: type", "user");
+      list.set("aggregation: threshold", 0.003);
+      list.set("smoother: type", "Chebyshev");
+      list.set("smoother: sweeps", degree);
+      list.set("smoother: Chebyshev alpha", range);
+      list.set("coarse: type", "Amesos-KLU");
+      list.set("coarse: max size", few);
+      list.set("null space: type", "pre-computed");
+      list.set("null space: dimension", near_kernel.NumVectors());
+      list.set("null space: vectors", near_kernel.Values());
+      list.set("null space: add default vectors", false);
+      return list;
+    }
 
     /** Of the nodes of the level that ML coarsens next: it asks for aggregates by a
      * function without context. */
@@ -70,76 +103,70 @@ namespace Touchstone
 
 
 
-  Multigrid::Multigrid(const Epetra_CrsMatrix          &matrix,
-                       const Epetra_MultiVector        &near_kernel,
-                       const std::vector<unsigned int> &body,
-                       const bool                       coarse_levels)
-    : matrix(matrix)
-    , near_kernel(near_kernel)
+  Multigrid::Multigrid(std::shared_ptr<const Epetra_CrsMatrix> system,
+                       const Epetra_MultiVector               &near_kernel,
+                       const std::vector<unsigned int>        &body,
+                       const bool                              coarse_levels)
+    : map(system->RowMap())
+    , matrix(std::move(system))
   {
-    const int              n = matrix.NumMyRows();
-    Teuchos::ParameterList list;
-    ML_Epetra::SetDefaults("SA", list);
-    list.set("ML output", 0);
-    list.set("low memory usage", true);
-    list.set("PDE equations", static_cast<int>(dim));
-    // Aggregates of the user need levels counted from the coarsest one.
-    list.set("increasing or decreasing", "decreasing");
-    list.set("aggregation: type", "user");
-    list.set("aggregation: threshold", 0.003);
-    list.set("smoother: type", "Chebyshev");
-    list.set("smoother: sweeps", degree);
-    list.set("smoother: Chebyshev alpha", range);
-    list.set("coarse: type", "Amesos-KLU");
-    list.set("coarse: max size", 1000);
-    list.set("null space: type", "pre-computed");
-    list.set("null space: dimension", near_kernel.NumVectors());
-    list.set("null space: vectors", this->near_kernel.Values());
-    list.set("null space: add default vectors", false);
-    if (coarse_levels)
-      list.set("smoother: type (level 0)", "do-nothing");
-    else
+    if (coarse_levels && map.NumGlobalElements() > few)
+      {
+        make_finest_level(near_kernel, body);
+        make_hierarchy(ml_parameters(prolongation->coarse_near_kernel(), Prolongation::n_modes),
+                       prolongation->coarse_body());
+        return;
+      }
+    std::vector<unsigned int> body_of_nodes(map.NumMyElements() / dim);
+    for (unsigned int node = 0; node < body_of_nodes.size(); ++node)
+      body_of_nodes[node] = body[dim * node];
+    Teuchos::ParameterList list = ml_parameters(near_kernel, dim);
+    if (!coarse_levels)
       {
         list.set("max levels", 1);
         list.set("coarse: type", "symmetric Gauss-Seidel");
         list.set("coarse: sweeps", 1);
       }
-    body_of_node.resize(n / dim);
-    for (unsigned int node = 0; node < body_of_node.size(); ++node)
-      body_of_node[node] = body[dim * node];
-    ML_SetUserLabel(aggregation_label);
-    ML_SetUserPartitions(aggregation);
-    // Largest eigenvalues are estimated from a random vector: the same one each time, or
-    // a run would depend on how many set-ups were before.
-    ML_random_init();
-    hierarchy = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(matrix, list, true);
-    if (!coarse_levels)
-      return;
+    make_hierarchy(list, body_of_nodes);
+  }
 
-    const ML_1Level &fine = finest();
-    if (fine.Rmat->to == nullptr)
-      return;
-    fine_matrix = std::make_unique<BlockMatrix>(matrix);
-    Chebyshev::AdditionalData data(degree, range, 0, 0., margin * fine.Amat->lambda_max);
+
+
+  void
+  Multigrid::make_finest_level(const Epetra_MultiVector        &near_kernel,
+                               const std::vector<unsigned int> &body)
+  {
+    fine_matrix = std::make_unique<BlockMatrix>(*matrix);
+    Chebyshev::AdditionalData data(degree, range, estimate_iterations);
     data.preconditioner =
       std::make_shared<dealii::DiagonalMatrix<VectorType>>(fine_matrix->inverse_diagonal());
     smoother = std::make_unique<Chebyshev>();
     smoother->initialize(*fine_matrix, data);
     for (VectorType *vector : {&fine_rhs, &fine_solution, &fine_residual})
       fine_matrix->initialize_vector(*vector);
-    residual.resize(n);
-    correction.resize(n);
-    coarse_rhs.resize(fine.Rmat->outvec_leng);
-    coarse_solution.resize(fine.Rmat->outvec_leng);
+    const double largest = smoother->estimate_eigenvalues(fine_rhs).max_eigenvalue_estimate;
+
+    prolongation = std::make_unique<Prolongation>(
+      *matrix, near_kernel, body, fine_matrix->vector_partitioner(), largest / margin);
+    matrix = prolongation->galerkin(*matrix);
+    prolongation->initialize_coarse_vector(coarse_values);
+    coarse_rhs      = std::make_unique<Epetra_Vector>(matrix->RowMap());
+    coarse_solution = std::make_unique<Epetra_Vector>(matrix->RowMap());
   }
 
 
 
-  ML_1Level &
-  Multigrid::finest() const
+  void
+  Multigrid::make_hierarchy(const Teuchos::ParameterList    &list,
+                            const std::vector<unsigned int> &body)
   {
-    const ML *ml = hierarchy->GetML();
-    return ml->SingleLevel[ml->ML_finest_level];
+    body_of_node = body;
+    ML_SetUserLabel(aggregation_label);
+    ML_SetUserPartitions(aggregation);
+    // Largest eigenvalues are estimated from a random vector: the same one each time, or
+    // a run would depend on how many set-ups were before.
+    ML_random_init();
+    hierarchy = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*matrix, list, true);
   }
 
 
@@ -160,25 +187,17 @@ namespace Touchstone
   void
   Multigrid::cycle(const double *rhs, double *result) const
   {
-    ML        *ml   = const_cast<ML *>(hierarchy->GetML());
-    ML_1Level &fine = finest();
-    const int  n    = static_cast<int>(residual.size());
-    const int  m    = static_cast<int>(coarse_rhs.size());
-
+    const int n = map.NumMyElements(), m = coarse_rhs->MyLength();
     std::copy(rhs, rhs + n, fine_rhs.begin());
     smoother->vmult(fine_solution, fine_rhs);
     fine_matrix->vmult(fine_residual, fine_solution);
     fine_residual.sadd(-1.f, 1.f, fine_rhs);
 
-    std::copy(fine_residual.begin(), fine_residual.begin() + n, residual.begin());
-    ML_Operator_Apply(fine.Rmat, n, residual.data(), m, coarse_rhs.data());
-    std::fill(coarse_solution.begin(), coarse_solution.end(), 0.);
-    ML_1Level *coarse = fine.Rmat->to;
-    ML_Cycle_MG(
-      coarse, coarse_solution.data(), coarse_rhs.data(), ML_ZERO, ml->comm, ML_NO_RES_NORM, ml);
-    ML_Operator_Apply(coarse->Pmat, m, coarse_solution.data(), n, correction.data());
-    for (int i = 0; i < n; ++i)
-      fine_solution.local_element(i) += static_cast<float>(correction[i]);
+    prolongation->restrict_to(coarse_values, fine_residual);
+    std::copy(coarse_values.begin(), coarse_values.begin() + m, coarse_rhs->Values());
+    hierarchy->ApplyInverse(*coarse_rhs, *coarse_solution);
+    std::copy(coarse_solution->Values(), coarse_solution->Values() + m, coarse_values.begin());
+    prolongation->prolongate_and_add(fine_solution, coarse_values);
 
     smoother->step(fine_solution, fine_rhs);
     std::copy(fine_solution.begin(), fine_solution.begin() + n, result);

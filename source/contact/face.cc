@@ -34,20 +34,6 @@ namespace Touchstone
 
   FaceShapes::FaceShapes(const unsigned int degree, const std::array<double, 2> &xi)
   {
-    if (degree == 1)
-      {
-        // Written out: the search spends a fifth of its time here.
-        const double a[2] = {0.5 * (1. - xi[0]), 0.5 * (1. + xi[0])},
-                     b[2] = {0.5 * (1. - xi[1]), 0.5 * (1. + xi[1])};
-        for (unsigned int j = 0; j < 2; ++j)
-          for (unsigned int i = 0; i < 2; ++i)
-            {
-              value[i + 2 * j]       = a[i] * b[j];
-              gradient[i + 2 * j][0] = (i - 0.5) * b[j];
-              gradient[i + 2 * j][1] = (j - 0.5) * a[i];
-            }
-        return;
-      }
     double n[2][3], dn[2][3];
     for (unsigned int d = 0; d < 2; ++d)
       lagrange(degree, xi[d], n[d], dn[d]);

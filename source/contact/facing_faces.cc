@@ -172,14 +172,13 @@ namespace Touchstone
   std::vector<FacingFace>
   FacingFaces::find(const Face &slave) const
   {
-    const Tensor<1, dim>            normal  = evaluate(slave, nullptr, {{0., 0.}}).normal();
-    const std::vector<const Face *> near    = search.near(box(slave), normal);
-    std::vector<FacingFace>         all     = cover(slave, near);
-    bool                            layered = false, moved = all.empty();
+    const Tensor<1, dim>            normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
+    const std::vector<const Face *> near   = search.near(box(slave), normal);
+    std::vector<FacingFace>         all    = cover(slave, near);
     // Those that cover the face mostly hang together without the help of others.
-    if (!one_layer(all, masters_of(all)) && !one_layer(all, near))
-      layered = true;
-    const double far = small_motion * std::sqrt(area(slave));
+    const bool   layered = !one_layer(all, masters_of(all)) && !one_layer(all, near);
+    const double far     = small_motion * std::sqrt(area(slave));
+    bool         moved   = all.empty();
     for (const FacingFace &facing : all)
       moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
     if (!moved && !layered)

@@ -223,6 +223,7 @@ namespace Touchstone
   {
     Box capture = box;
     capture.extend(reach);
+    const double radius = half_diagonal(box);
     // In the order of their keys, so that sums do not depend on the partition.
     std::vector<const Face *> result;
     for (auto it = tree.qbegin(bgi::intersects(capture)); it != tree.qend(); ++it)
@@ -233,7 +234,7 @@ namespace Touchstone
         // Only those over the box or under it, seen along the normal, cover any of it.
         const Tensor<1, dim> way = outline.centre - box.center();
         const bool           beside =
-          (way - (way * slave_normal) * slave_normal).norm() > outline.radius + half_diagonal(box);
+          (way - (way * slave_normal) * slave_normal).norm() > outline.radius + radius;
         if (outline.normal * slave_normal < -0.1 && !beside)
           result.push_back(&face);
       }

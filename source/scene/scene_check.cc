@@ -64,7 +64,7 @@ namespace Touchstone
     output.check("Output");
     reference.check("Reference solution");
 
-    if (contact.enforcement == "lagrange multipliers" && linear_solver.type.rfind("Belos", 0) == 0)
+    if (contact.enforcement == "lagrange multipliers" && linear_solver.iterative())
       throw InputError("Contact",
                        "Enforcement",
                        contact.enforcement,

@@ -269,7 +269,7 @@ namespace Touchstone
                    "Tolerance",
                    tolerance,
                    "two to four digits a Newton iteration are usual: 1e-3");
-    if (type.rfind("Belos", 0) == 0)
+    if (iterative())
       for (const auto &[key, set, value] :
            {std::make_tuple("Low rank tolerance",
                             low_rank_tolerance > 0.,

@@ -9,11 +9,53 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <Epetra_CrsMatrix.h>
+#include <array>
 #include <memory>
 #include <vector>
 
 namespace Touchstone
 {
+  /**
+   * @brief The rows of a matrix over the displacements, node by node as 3 x 3 blocks.
+   */
+  class BlockRows
+  {
+  public:
+    /** @brief Entries (row, column) of a block are at 3 row + column. */
+    using Block = std::array<double, dim * dim>;
+
+    /** @param matrix     Rows and columns are displacements, unknown 3 k + d of node k
+     *                    along d; each rank has whole nodes. Must live as long.
+     *  @param partitioner Local numbers: of make_partitioner(). */
+    BlockRows(const Epetra_CrsMatrix                    &matrix,
+              const dealii::Utilities::MPI::Partitioner &partitioner);
+
+    /** @brief Read the rows of a node of this rank into columns and blocks. */
+    void
+    read(unsigned int node);
+
+    unsigned int
+    n_nodes() const
+    {
+      return matrix.NumMyRows() / dim;
+    }
+
+    /** @brief Unknowns of this rank, and those of other ranks whose nodes the rows of a
+     * matrix refer to. Collective. */
+    static std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
+    make_partitioner(const Epetra_CrsMatrix &matrix);
+
+    /** Nodes to which the present one is coupled, itself included, by local number; and
+     * the blocks. */
+    std::vector<unsigned int> columns;
+    std::vector<Block>        blocks;
+
+  private:
+    const Epetra_CrsMatrix &matrix;
+    /** Local number of each column of the matrix; place of each node in the present rows. */
+    std::vector<unsigned int> number, place;
+  };
+
   /**
    * @brief A matrix over the displacements in single precision, stored as 3 x 3 blocks of
    * nodes: good enough for a preconditioner, whose speed is that of the memory.
@@ -26,9 +68,15 @@ namespace Touchstone
     using VectorType = dealii::LinearAlgebra::distributed::Vector<float>;
     using size_type  = dealii::types::global_dof_index;
 
-    /** @param matrix Rows and columns are displacements, unknown 3 k + d of node k
-     * along d; each rank has whole nodes. */
+    /** @param matrix As BlockRows takes it. */
     explicit BlockMatrix(const Epetra_CrsMatrix &matrix);
+
+    /** @brief Of vectors that fit. */
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
+    vector_partitioner() const
+    {
+      return partitioner;
+    }
 
     /** @brief Make @p vector fit, with ghosts; its values are not set. */
     void

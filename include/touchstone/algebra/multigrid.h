@@ -2,11 +2,13 @@
 #define touchstone_algebra_multigrid_h
 
 #include <touchstone/algebra/block_matrix.h>
+#include <touchstone/algebra/prolongation.h>
 
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/precondition.h>
 
 #include <Epetra_Operator.h>
+#include <Epetra_Vector.h>
 #include <memory>
 #include <ml_MultiLevelPreconditioner.h>
 #include <vector>
@@ -14,9 +16,9 @@
 namespace Touchstone
 {
   /**
-   * @brief Multigrid by smoothed aggregation, for systems of displacements: ML makes the
-   * hierarchy and has the coarse levels. On the finest level, where most of the time
-   * goes, the smoother works in single precision on 3 x 3 blocks.
+   * @brief Multigrid by smoothed aggregation, for systems of displacements. The finest level,
+   * where most of the time and of the memory goes, works in single precision on 3 x 3
+   * blocks; ML has the levels below.
    *
    * Vanek, Mandel and Brezina (1996), Computing 56; smoothing by Chebyshev polynomials:
    * Adams, Brezina, Hu and Tuminaro (2003), J. Comput. Phys. 188.
@@ -25,17 +27,17 @@ namespace Touchstone
   {
   public:
     /**
-     * @param matrix        Must live as long.
+     * @param matrix        Kept if there are no coarse levels.
      * @param near_kernel   Motions with little or no energy that the coarse levels must be
      *                      able to represent, zero at constrained unknowns.
      * @param body          Body of each row of this rank: aggregates() are within one.
      * @param coarse_levels Whether to make any; without them a sweep of symmetric
      *                      Gauss-Seidel is all.
      */
-    Multigrid(const Epetra_CrsMatrix          &matrix,
-              const Epetra_MultiVector        &near_kernel,
-              const std::vector<unsigned int> &body,
-              bool                             coarse_levels);
+    Multigrid(std::shared_ptr<const Epetra_CrsMatrix> matrix,
+              const Epetra_MultiVector               &near_kernel,
+              const std::vector<unsigned int>        &body,
+              bool                                    coarse_levels);
 
     /** @brief One V-cycle from zero, for each vector. Collective. */
     int
@@ -76,17 +78,17 @@ namespace Touchstone
     const Epetra_Comm &
     Comm() const override
     {
-      return matrix.Comm();
+      return map.Comm();
     }
     const Epetra_Map &
     OperatorDomainMap() const override
     {
-      return matrix.OperatorDomainMap();
+      return map;
     }
     const Epetra_Map &
     OperatorRangeMap() const override
     {
-      return matrix.OperatorRangeMap();
+      return map;
     }
     /** @} */
 
@@ -95,20 +97,24 @@ namespace Touchstone
     using Chebyshev =
       dealii::PreconditionChebyshev<BlockMatrix, VectorType, dealii::DiagonalMatrix<VectorType>>;
 
-    const Epetra_CrsMatrix &matrix;
-    /** ML keeps a reference. */
-    Epetra_MultiVector                                   near_kernel;
+    const Epetra_Map map;
+    /** The finest level, unless ML has all of them. */
+    std::unique_ptr<BlockMatrix>  fine_matrix;
+    std::unique_ptr<Chebyshev>    smoother;
+    std::unique_ptr<Prolongation> prolongation;
+    /** What ML works on: the first of the coarse levels, or the matrix itself. */
+    std::shared_ptr<const Epetra_CrsMatrix>              matrix;
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> hierarchy;
-    /** Of the finest level; null if there is but one. */
-    std::unique_ptr<BlockMatrix> fine_matrix;
-    std::unique_ptr<Chebyshev>   smoother;
     /** Work space of a cycle. */
-    mutable VectorType          fine_rhs, fine_solution, fine_residual;
-    mutable std::vector<double> residual, correction, coarse_rhs, coarse_solution;
+    mutable VectorType             fine_rhs, fine_solution, fine_residual, coarse_values;
+    std::unique_ptr<Epetra_Vector> coarse_rhs, coarse_solution;
 
-    ML_1Level &
-    finest() const;
-
+    /** @brief The finest level and the matrix of the next. */
+    void
+    make_finest_level(const Epetra_MultiVector &near_kernel, const std::vector<unsigned int> &body);
+    void
+    make_hierarchy(const Teuchos::ParameterList    &list,
+                   const std::vector<unsigned int> &body_of_nodes);
     void
     cycle(const double *rhs, double *result) const;
   };

@@ -112,6 +112,13 @@ namespace Touchstone
     /** Of MUMPS: the factors are kept in files. */
     bool out_of_core = false;
 
+    /** @brief Whether the type is one that only iterates. */
+    bool
+    iterative() const
+    {
+      return type == "Belos CG" || type == "Belos GMRES";
+    }
+
     void
     declare(dealii::ParameterHandler &prm);
     void

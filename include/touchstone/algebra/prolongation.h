@@ -1,0 +1,102 @@
+#ifndef touchstone_algebra_prolongation_h
+#define touchstone_algebra_prolongation_h
+
+#include <touchstone/algebra/block_matrix.h>
+
+#include <Epetra_MultiVector.h>
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Takes corrections from the first coarse level of multigrid to the displacements,
+   * and forces back: smoothed aggregation.
+   *
+   * A node of the coarse level is an aggregate() with its rigid motions, six unknowns. They
+   * are smoothed by one step of Jacobi's method. Entries are kept in single precision, those
+   * of galerkin() are exact for them. The product A P is never stored: for linear cells it
+   * is three times as large as A.
+   *
+   * Vanek, Mandel and Brezina (1996), Computing 56.
+   */
+  class Prolongation
+  {
+  public:
+    using VectorType = BlockMatrix::VectorType;
+
+    /** @brief Rigid motions of an aggregate. */
+    static constexpr unsigned int n_modes = 6;
+
+    /**
+     * @param matrix      Over the displacements, symmetric pattern.
+     * @param near_kernel Rigid motions, zero at constrained unknowns; n_modes columns.
+     * @param body        Body of each row of this rank.
+     * @param fine        Of vectors over the displacements.
+     * @param largest     Largest eigenvalue of the matrix over its diagonal.
+     */
+    Prolongation(const Epetra_CrsMatrix                                    &matrix,
+                 const Epetra_MultiVector                                  &near_kernel,
+                 const std::vector<unsigned int>                           &body,
+                 std::shared_ptr<const dealii::Utilities::MPI::Partitioner> fine,
+                 double                                                     largest);
+
+    /** @brief The matrix of the coarse level, P^T A P. Collective. */
+    std::unique_ptr<Epetra_CrsMatrix>
+    galerkin(const Epetra_CrsMatrix &matrix) const;
+
+    /** @brief Rigid motions over the coarse level. */
+    const Epetra_MultiVector &
+    coarse_near_kernel() const
+    {
+      return *coarse_kernel;
+    }
+
+    /** @brief Body of each aggregate of this rank. */
+    const std::vector<unsigned int> &
+    coarse_body() const
+    {
+      return body_of_aggregate;
+    }
+
+    /** @brief Make @p vector fit the coarse level, with ghosts. */
+    void
+    initialize_coarse_vector(VectorType &vector) const
+    {
+      vector.reinit(coarse);
+    }
+
+    /** @brief fine += P coarse. Collective. */
+    void
+    prolongate_and_add(VectorType &fine, const VectorType &coarse) const;
+
+    /** @brief coarse = P^T fine. Collective. */
+    void
+    restrict_to(VectorType &coarse, const VectorType &fine) const;
+
+  private:
+    static constexpr unsigned int block = dim * n_modes;
+
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> fine, coarse;
+    /** Where the blocks of a node of this rank begin; their column, a local number of an
+     * aggregate; their entries, row by row. */
+    std::vector<std::size_t>  start;
+    std::vector<unsigned int> column;
+    std::vector<float>        entries;
+
+    std::unique_ptr<Epetra_MultiVector> coarse_kernel;
+    std::vector<unsigned int>           body_of_aggregate;
+
+    /** The rows of nodes of other ranks that this one refers to, by node: aggregates by
+     * their global numbers, and blocks. */
+    struct FarRow
+    {
+      std::vector<Index> aggregates;
+      std::vector<float> entries;
+    };
+    std::vector<FarRow>
+    far_rows() const;
+  };
+} // namespace Touchstone
+
+#endif
