@@ -1,4 +1,5 @@
 #include <touchstone/algebra/block_matrix.h>
+#include <touchstone/vectorised.h>
 
 #include <Epetra_MpiComm.h>
 #include <algorithm>
@@ -116,7 +117,7 @@ namespace Touchstone
 
 
 
-  void
+  TOUCHSTONE_VECTORISED void
   BlockMatrix::vmult(VectorType &result, const VectorType &x) const
   {
     x.update_ghost_values();

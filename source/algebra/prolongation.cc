@@ -1,11 +1,10 @@
 #include <touchstone/algebra/aggregation.h>
-#include <touchstone/algebra/condensation.h>
 #include <touchstone/algebra/prolongation.h>
+#include <touchstone/algebra/row_of_blocks.h>
 
 #include <Epetra_Vector.h>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace Touchstone
 {
@@ -17,66 +16,9 @@ namespace Touchstone
     /** Couplings weaker than this, over the diagonal, do not count for aggregates. */
     constexpr double weak = 0.003;
 
-    using Modes = std::array<double, Prolongation::n_modes>;
-
-    /** Blocks of one row, of columns that may be met in any order. */
-    template <typename Block>
-    class RowOfBlocks
-    {
-    public:
-      std::vector<int>   columns;
-      std::vector<Block> blocks;
-
-      Block &
-      at(const int column)
-      {
-        if (static_cast<std::size_t>(column) >= place.size())
-          place.resize(2 * static_cast<std::size_t>(column) + 64, -1);
-        if (place[column] < 0)
-          {
-            place[column] = static_cast<int>(columns.size());
-            columns.push_back(column);
-            blocks.push_back({});
-          }
-        return blocks[place[column]];
-      }
-
-      void
-      clear()
-      {
-        for (const int column : columns)
-          place[column] = -1;
-        columns.clear();
-        blocks.clear();
-      }
-
-    private:
-      std::vector<int> place;
-    };
-
-    /** Rows of nodes over unknowns of aggregates, and of aggregates over each other. */
-    using NodeBlock      = std::array<double, dim * Prolongation::n_modes>;
-    using AggregateBlock = std::array<double, Prolongation::n_modes * Prolongation::n_modes>;
-
-    /** A row over aggregates that stays open while others are worked on. */
-    struct AggregateRow
-    {
-      /** In ascending order of the aggregates: where their block is. */
-      std::vector<std::pair<int, unsigned int>> places;
-      std::vector<AggregateBlock>               blocks;
-
-      AggregateBlock &
-      at(const int aggregate)
-      {
-        const auto found =
-          std::lower_bound(places.begin(), places.end(), std::make_pair(aggregate, 0U));
-        if (found != places.end() && found->first == aggregate)
-          return blocks[found->second];
-        places.emplace(found, aggregate, blocks.size());
-        blocks.push_back({});
-        return blocks.back();
-      }
-    };
+    using NodeBlock      = Prolongation::NodeBlock;
+    using AggregateBlock = Prolongation::AggregateBlock;
+    using Modes          = std::array<double, Prolongation::n_modes>;
 
     /** The nodes of this rank to which each of them is coupled. */
     std::vector<std::vector<int>>
@@ -266,189 +208,6 @@ namespace Touchstone
           }
         start.push_back(column.size());
       }
-  }
-
-
-
-  std::vector<Prolongation::FarRow>
-  Prolongation::far_rows() const
-  {
-    // Node, number of blocks, then aggregate and entries of each.
-    std::map<unsigned int, std::vector<double>> packages;
-    std::vector<unsigned int>                   wanted;
-    for (const auto &[begin, end] : fine->import_indices())
-      for (unsigned int i = begin; i < end; ++i)
-        wanted.push_back(i);
-    auto next = wanted.begin();
-    for (const auto &[rank, n] : fine->import_targets())
-      for (const auto end = next + n; next != end; ++next)
-        if (*next % dim == 0)
-          {
-            const unsigned int node = *next / dim;
-            auto              &to   = packages[rank];
-            to.push_back(static_cast<double>(fine->local_to_global(*next)));
-            to.push_back(static_cast<double>(start[node + 1] - start[node]));
-            for (std::size_t b = start[node]; b < start[node + 1]; ++b)
-              {
-                to.push_back(
-                  static_cast<double>(coarse->local_to_global(n_modes * column[b]) / n_modes));
-                to.insert(to.end(), entries.begin() + block * b, entries.begin() + block * (b + 1));
-              }
-          }
-    std::vector<FarRow> result(fine->n_ghost_indices() / dim);
-    for (const auto &[rank, package] :
-         Utilities::MPI::some_to_some(fine->get_mpi_communicator(), packages))
-      for (std::size_t k = 0; k < package.size();)
-        {
-          const unsigned int local = fine->global_to_local(static_cast<Index>(package[k]));
-          FarRow            &row   = result[(local - fine->locally_owned_size()) / dim];
-          const std::size_t  n     = static_cast<std::size_t>(package[k + 1]);
-          k += 2;
-          for (std::size_t b = 0; b < n; ++b, k += block + 1)
-            {
-              row.aggregates.push_back(static_cast<Index>(package[k]));
-              for (unsigned int e = 0; e < block; ++e)
-                row.entries.push_back(static_cast<float>(package[k + 1 + e]));
-            }
-        }
-    return result;
-  }
-
-
-
-  std::unique_ptr<Epetra_CrsMatrix>
-  Prolongation::galerkin(const Epetra_CrsMatrix &matrix) const
-  {
-    const Epetra_Comm &communicator = matrix.Comm();
-    const Epetra_Map   map(-1, coarse_kernel->MyLength(), 0, communicator);
-    const unsigned int n_nodes = start.size() - 1;
-    // Aggregates by local numbers: those of the rows of this rank first, then what their
-    // neighbours' rows refer to.
-    const unsigned int n_known =
-      (coarse->locally_owned_size() + coarse->n_ghost_indices()) / n_modes;
-    std::vector<int> known(n_known);
-    for (unsigned int a = 0; a < n_known; ++a)
-      known[a] = static_cast<int>(coarse->local_to_global(n_modes * a) / n_modes);
-    const Epetra_Map              known_map(-1, n_known, known.data(), 0, communicator);
-    LocalNumbers                  numbers(known_map);
-    const std::vector<FarRow>     far = far_rows();
-    std::vector<std::vector<int>> far_columns(far.size());
-    for (unsigned int i = 0; i < far.size(); ++i)
-      for (const Index aggregate : far[i].aggregates)
-        far_columns[i].push_back(numbers.local(aggregate));
-
-    // Row by row of A P, added to the rows of the aggregates to which the node belongs.
-    std::vector<AggregateRow> sums(n_known);
-    BlockRows                 rows(matrix, *fine);
-    RowOfBlocks<NodeBlock>    product;
-    const auto multiply = [&](const BlockRows::Block &a, const int aggregate, const float *p) {
-      NodeBlock &to = product.at(aggregate);
-      for (unsigned int r = 0; r < dim; ++r)
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int m = 0; m < n_modes; ++m)
-            to[n_modes * r + m] += a[dim * r + c] * p[n_modes * c + m];
-    };
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      {
-        rows.read(node);
-        product.clear();
-        for (unsigned int k = 0; k < rows.columns.size(); ++k)
-          if (const unsigned int other = rows.columns[k]; other < n_nodes)
-            for (std::size_t b = start[other]; b < start[other + 1]; ++b)
-              multiply(rows.blocks[k], static_cast<int>(column[b]), entries.data() + block * b);
-          else
-            for (unsigned int b = 0; b < far_columns[other - n_nodes].size(); ++b)
-              multiply(rows.blocks[k],
-                       far_columns[other - n_nodes][b],
-                       far[other - n_nodes].entries.data() + block * b);
-        for (std::size_t b = start[node]; b < start[node + 1]; ++b)
-          {
-            AggregateRow &to = sums[column[b]];
-            const float  *p  = entries.data() + block * b;
-            for (unsigned int k = 0; k < product.columns.size(); ++k)
-              {
-                AggregateBlock  &sum = to.at(product.columns[k]);
-                const NodeBlock &ap  = product.blocks[k];
-                for (unsigned int r = 0; r < dim; ++r)
-                  for (unsigned int i = 0; i < n_modes; ++i)
-                    for (unsigned int m = 0; m < n_modes; ++m)
-                      sum[n_modes * i + m] +=
-                        static_cast<double>(p[n_modes * r + i]) * ap[n_modes * r + m];
-              }
-          }
-      }
-
-    // What belongs to other ranks goes there, summed up: row, number of blocks, then column
-    // and entries of each.
-    std::vector<std::map<Index, AggregateBlock>> received(map.NumMyElements() / n_modes);
-    std::map<unsigned int, std::vector<double>>  packages;
-    const auto                                   ghost_targets = coarse->ghost_targets();
-    unsigned int                                 a = coarse->locally_owned_size() / n_modes;
-    for (const auto &[rank, n] : ghost_targets)
-      for (unsigned int k = 0; k < n / n_modes; ++k, ++a)
-        {
-          auto &to = packages[rank];
-          to.push_back(known[a]);
-          to.push_back(static_cast<double>(sums[a].places.size()));
-          for (const auto &[aggregate, place] : sums[a].places)
-            {
-              const AggregateBlock &entry = sums[a].blocks[place];
-              to.push_back(numbers.global()[aggregate]);
-              to.insert(to.end(), entry.begin(), entry.end());
-            }
-        }
-    const unsigned int n_blocks = n_modes * n_modes;
-    const int          first    = map.MinMyGID() / static_cast<int>(n_modes);
-    for (const auto &[rank, package] :
-         Utilities::MPI::some_to_some(fine->get_mpi_communicator(), packages))
-      for (std::size_t k = 0; k < package.size();)
-        {
-          auto             &row = received[static_cast<int>(package[k]) - first];
-          const std::size_t n   = static_cast<std::size_t>(package[k + 1]);
-          k += 2;
-          for (std::size_t b = 0; b < n; ++b, k += n_blocks + 1)
-            {
-              AggregateBlock &to = row[static_cast<Index>(package[k])];
-              for (unsigned int e = 0; e < n_blocks; ++e)
-                to[e] += package[k + 1 + e];
-            }
-        }
-
-    std::vector<int> lengths(map.NumMyElements());
-    for (unsigned int row = 0; row < received.size(); ++row)
-      {
-        for (const auto &[aggregate, place] : sums[row].places)
-          {
-            AggregateBlock &to = received[row][numbers.global()[aggregate]];
-            for (unsigned int e = 0; e < n_blocks; ++e)
-              to[e] += sums[row].blocks[place][e];
-          }
-        sums[row] = {};
-        for (unsigned int i = 0; i < n_modes; ++i)
-          lengths[n_modes * row + i] = static_cast<int>(n_modes * received[row].size());
-      }
-    auto             result = std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
-    std::vector<int> columns;
-    std::vector<double> values;
-    for (unsigned int row = 0; row < received.size(); ++row)
-      for (unsigned int i = 0; i < n_modes; ++i)
-        {
-          columns.clear();
-          values.clear();
-          const int here = map.GID(n_modes * row + i);
-          for (const auto &[aggregate, entry] : received[row])
-            for (unsigned int m = 0; m < n_modes; ++m)
-              {
-                columns.push_back(static_cast<int>(n_modes * aggregate + m));
-                values.push_back(entry[n_modes * i + m]);
-                // A motion that the aggregate does not have stands alone.
-                if (columns.back() == here && values.back() == 0.)
-                  values.back() = 1.;
-              }
-          result->InsertGlobalValues(here, columns.size(), values.data(), columns.data());
-        }
-    result->FillComplete();
-    return result;
   }
 
 

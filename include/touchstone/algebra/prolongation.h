@@ -2,9 +2,14 @@
 #define touchstone_algebra_prolongation_h
 
 #include <touchstone/algebra/block_matrix.h>
+#include <touchstone/algebra/condensation.h>
 
 #include <Epetra_MultiVector.h>
+#include <algorithm>
+#include <array>
+#include <map>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -27,6 +32,13 @@ namespace Touchstone
 
     /** @brief Rigid motions of an aggregate. */
     static constexpr unsigned int n_modes = 6;
+
+    /** @name Blocks of a row of a node, and of an aggregate, over the unknowns of an
+     * aggregate; row by row. */
+    /** @{ */
+    using NodeBlock      = std::array<double, dim * n_modes>;
+    using AggregateBlock = std::array<double, n_modes * n_modes>;
+    /** @} */
 
     /**
      * @param matrix      Over the displacements, symmetric pattern.
@@ -77,6 +89,27 @@ namespace Touchstone
   private:
     static constexpr unsigned int block = dim * n_modes;
 
+    /** A row over aggregates that stays open while others are worked on. */
+    class AggregateRow
+    {
+    public:
+      AggregateBlock &
+      at(const int aggregate)
+      {
+        const auto found =
+          std::lower_bound(places.begin(), places.end(), std::make_pair(aggregate, 0U));
+        if (found != places.end() && found->first == aggregate)
+          return blocks[found->second];
+        places.emplace(found, aggregate, blocks.size());
+        blocks.push_back({});
+        return blocks.back();
+      }
+
+      /** In ascending order of the aggregates: where their block is. */
+      std::vector<std::pair<int, unsigned int>> places;
+      std::vector<AggregateBlock>               blocks;
+    };
+
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> fine, coarse;
     /** Where the blocks of a node of this rank begin; their column, a local number of an
      * aggregate; their entries, row by row. */
@@ -96,6 +129,16 @@ namespace Touchstone
     };
     std::vector<FarRow>
     far_rows() const;
+
+    /** @brief This rank's part of P^T A P, rows by local numbers of aggregates, columns by
+     * @p numbers. */
+    std::vector<AggregateRow>
+    part_of_galerkin(const Epetra_CrsMatrix &matrix, LocalNumbers &numbers) const;
+
+    /** @brief Rows of this rank's aggregates, with the parts of all ranks, by the global
+     * numbers of aggregates. */
+    std::vector<std::map<Index, AggregateBlock>>
+    sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const;
   };
 } // namespace Touchstone
 

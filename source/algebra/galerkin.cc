@@ -1,0 +1,221 @@
+#include <touchstone/algebra/prolongation.h>
+#include <touchstone/algebra/row_of_blocks.h>
+#include <touchstone/vectorised.h>
+
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_modes = Prolongation::n_modes;
+
+    /** to += a p, of a block of the matrix and one of P. */
+    TOUCHSTONE_VECTORISED void
+    add_product(const BlockRows::Block &a, const float *p, Prolongation::NodeBlock &to)
+    {
+      for (unsigned int r = 0; r < dim; ++r)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int m = 0; m < n_modes; ++m)
+            to[n_modes * r + m] += a[dim * r + c] * p[n_modes * c + m];
+    }
+
+    /** to += p^T ap, of a block of P and one of A P. */
+    TOUCHSTONE_VECTORISED void
+    add_transposed_product(const float                   *p,
+                           const Prolongation::NodeBlock &ap,
+                           Prolongation::AggregateBlock  &to)
+    {
+      for (unsigned int i = 0; i < n_modes; ++i)
+        for (unsigned int r = 0; r < dim; ++r)
+          {
+            const double factor = p[n_modes * r + i];
+            for (unsigned int m = 0; m < n_modes; ++m)
+              to[n_modes * i + m] += factor * ap[n_modes * r + m];
+          }
+    }
+  } // namespace
+
+
+
+  std::vector<Prolongation::FarRow>
+  Prolongation::far_rows() const
+  {
+    // Node, number of blocks, then aggregate and entries of each.
+    std::map<unsigned int, std::vector<double>> packages;
+    std::vector<unsigned int>                   wanted;
+    for (const auto &[begin, end] : fine->import_indices())
+      for (unsigned int i = begin; i < end; ++i)
+        wanted.push_back(i);
+    auto next = wanted.begin();
+    for (const auto &[rank, n] : fine->import_targets())
+      for (const auto end = next + n; next != end; ++next)
+        if (*next % dim == 0)
+          {
+            const unsigned int node = *next / dim;
+            auto              &to   = packages[rank];
+            to.push_back(static_cast<double>(fine->local_to_global(*next)));
+            to.push_back(static_cast<double>(start[node + 1] - start[node]));
+            for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+              {
+                to.push_back(
+                  static_cast<double>(coarse->local_to_global(n_modes * column[b]) / n_modes));
+                to.insert(to.end(), entries.begin() + block * b, entries.begin() + block * (b + 1));
+              }
+          }
+    std::vector<FarRow> result(fine->n_ghost_indices() / dim);
+    for (const auto &[rank, package] :
+         Utilities::MPI::some_to_some(fine->get_mpi_communicator(), packages))
+      for (std::size_t k = 0; k < package.size();)
+        {
+          const unsigned int local = fine->global_to_local(static_cast<Index>(package[k]));
+          FarRow            &row   = result[(local - fine->locally_owned_size()) / dim];
+          const std::size_t  n     = static_cast<std::size_t>(package[k + 1]);
+          k += 2;
+          for (std::size_t b = 0; b < n; ++b, k += block + 1)
+            {
+              row.aggregates.push_back(static_cast<Index>(package[k]));
+              for (unsigned int e = 0; e < block; ++e)
+                row.entries.push_back(static_cast<float>(package[k + 1 + e]));
+            }
+        }
+    return result;
+  }
+
+
+
+  std::vector<Prolongation::AggregateRow>
+  Prolongation::part_of_galerkin(const Epetra_CrsMatrix &matrix, LocalNumbers &numbers) const
+  {
+    const unsigned int            n_nodes = start.size() - 1;
+    const std::vector<FarRow>     far     = far_rows();
+    std::vector<std::vector<int>> far_columns(far.size());
+    for (unsigned int i = 0; i < far.size(); ++i)
+      for (const Index aggregate : far[i].aggregates)
+        far_columns[i].push_back(numbers.local(aggregate));
+
+    // Row by row of A P, added to the rows of the aggregates to which the node belongs.
+    std::vector<AggregateRow> sums(
+      (coarse->locally_owned_size() + coarse->n_ghost_indices()) / n_modes);
+    BlockRows              rows(matrix, *fine);
+    RowOfBlocks<NodeBlock> product;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        rows.read(node);
+        product.clear();
+        for (unsigned int k = 0; k < rows.columns.size(); ++k)
+          if (const unsigned int other = rows.columns[k]; other < n_nodes)
+            for (std::size_t b = start[other]; b < start[other + 1]; ++b)
+              add_product(rows.blocks[k],
+                          entries.data() + block * b,
+                          product.at(static_cast<int>(column[b])));
+          else
+            for (unsigned int b = 0; b < far_columns[other - n_nodes].size(); ++b)
+              add_product(rows.blocks[k],
+                          far[other - n_nodes].entries.data() + block * b,
+                          product.at(far_columns[other - n_nodes][b]));
+        for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+          for (unsigned int k = 0; k < product.columns.size(); ++k)
+            add_transposed_product(entries.data() + block * b,
+                                   product.blocks[k],
+                                   sums[column[b]].at(product.columns[k]));
+      }
+    return sums;
+  }
+
+
+
+  std::vector<std::map<Index, Prolongation::AggregateBlock>>
+  Prolongation::sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const
+  {
+    constexpr unsigned int                       n_entries = n_modes * n_modes;
+    const unsigned int                           n_mine    = coarse->locally_owned_size() / n_modes;
+    std::vector<std::map<Index, AggregateBlock>> result(n_mine);
+    for (unsigned int row = 0; row < n_mine; ++row)
+      {
+        for (const auto &[aggregate, place] : parts[row].places)
+          result[row][global[aggregate]] = parts[row].blocks[place];
+        parts[row] = {};
+      }
+
+    // What belongs to other ranks goes there: row, number of blocks, then column and
+    // entries of each.
+    std::map<unsigned int, std::vector<double>> packages;
+    unsigned int                                row = n_mine;
+    for (const auto &[rank, n] : coarse->ghost_targets())
+      for (const unsigned int end = row + n / n_modes; row < end; ++row)
+        {
+          auto &to = packages[rank];
+          to.push_back(global[row]);
+          to.push_back(static_cast<double>(parts[row].places.size()));
+          for (const auto &[aggregate, place] : parts[row].places)
+            {
+              const AggregateBlock &entry = parts[row].blocks[place];
+              to.push_back(global[aggregate]);
+              to.insert(to.end(), entry.begin(), entry.end());
+            }
+        }
+    for (const auto &[rank, package] :
+         Utilities::MPI::some_to_some(coarse->get_mpi_communicator(), packages))
+      for (std::size_t k = 0; k < package.size();)
+        {
+          auto &to = result[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) /
+                            n_modes];
+          const std::size_t n = static_cast<std::size_t>(package[k + 1]);
+          k += 2;
+          for (std::size_t b = 0; b < n; ++b, k += n_entries + 1)
+            {
+              AggregateBlock &sum = to[static_cast<Index>(package[k])];
+              for (unsigned int e = 0; e < n_entries; ++e)
+                sum[e] += package[k + 1 + e];
+            }
+        }
+    return result;
+  }
+
+
+
+  std::unique_ptr<Epetra_CrsMatrix>
+  Prolongation::galerkin(const Epetra_CrsMatrix &matrix) const
+  {
+    // Aggregates by local numbers: those of the rows of this rank first, then what their
+    // neighbours' rows refer to.
+    std::vector<int> known;
+    for (unsigned int i = 0; i < coarse->locally_owned_size() + coarse->n_ghost_indices();
+         i += n_modes)
+      known.push_back(static_cast<int>(coarse->local_to_global(i) / n_modes));
+    const Epetra_Map known_map(-1, known.size(), known.data(), 0, matrix.Comm());
+    LocalNumbers     numbers(known_map);
+    auto             parts = part_of_galerkin(matrix, numbers);
+    const auto       rows  = sum_up(parts, numbers.global());
+
+    const Epetra_Map map(-1, coarse_kernel->MyLength(), 0, matrix.Comm());
+    std::vector<int> lengths;
+    for (const auto &row : rows)
+      lengths.insert(lengths.end(), n_modes, static_cast<int>(n_modes * row.size()));
+    auto result = std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
+    std::vector<int> columns;
+    std::vector<double> values;
+    for (unsigned int row = 0; row < rows.size(); ++row)
+      for (unsigned int i = 0; i < n_modes; ++i)
+        {
+          columns.clear();
+          values.clear();
+          const int here = map.GID(n_modes * row + i);
+          for (const auto &[aggregate, entry] : rows[row])
+            for (unsigned int m = 0; m < n_modes; ++m)
+              {
+                columns.push_back(static_cast<int>(n_modes * aggregate + m));
+                values.push_back(entry[n_modes * i + m]);
+                // A motion that the aggregate does not have stands alone.
+                if (columns.back() == here && values.back() == 0.)
+                  values.back() = 1.;
+              }
+          result->InsertGlobalValues(here, columns.size(), values.data(), columns.data());
+        }
+    result->FillComplete();
+    return result;
+  }
+} // namespace Touchstone
