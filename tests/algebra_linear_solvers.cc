@@ -128,7 +128,7 @@ namespace
     parameters.type    = type;
     parameters.restart = restart;
     const auto solver  = LinearSolverRegistry::make(type, parameters);
-    auto       result  = std::make_unique<Epetra_Vector>(system.condensed->matrix->RowMap());
+    auto       result  = std::make_unique<Epetra_Vector>(system.condensed->rows());
     solver->solve(*system.condensed, *system.motions, *result);
     return result;
   }

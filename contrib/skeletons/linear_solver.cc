@@ -23,7 +23,8 @@ namespace Touchstone
                const RigidMotions &,
                Epetra_Vector &solution) override
       {
-        Epetra_LinearProblem problem(system.matrix.get(), &solution, system.rhs.get());
+        const auto           matrix = system.matrix();
+        Epetra_LinearProblem problem(matrix.get(), &solution, system.rhs.get());
         Amesos_Klu           klu(problem);
         if (klu.NumericFactorization() != 0 || klu.Solve() != 0)
           throw LinearSolverFailure("KLU: the factorisation failed");

@@ -32,6 +32,12 @@ namespace Touchstone
         return !failed && n_unknowns >= many_unknowns;
       }
 
+      bool
+      applies_operator(const int n_unknowns) const override
+      {
+        return !failed && n_unknowns >= many_unknowns && iterative->applies_operator(n_unknowns);
+      }
+
       void
       forget() override
       {
@@ -57,7 +63,7 @@ namespace Touchstone
                Epetra_Vector         &solution) override
       {
         const bool try_iterations = !failed && system.symmetric && system.definite &&
-                                    system.matrix->NumGlobalRows() >= many_unknowns;
+                                    system.rows().NumGlobalElements() >= many_unknowns;
         if (try_iterations)
           try
             {

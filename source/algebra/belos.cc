@@ -37,6 +37,12 @@ namespace Touchstone
         return true;
       }
 
+      bool
+      applies_operator(int) const override
+      {
+        return parameters.contact_operator == "applied";
+      }
+
       void
       forget() override
       {
@@ -141,12 +147,14 @@ namespace Touchstone
     /** Resistance to rigid motions over that of single unknowns, away from constrained
      * ones: zero but for inertia. */
     double
-    stiffness_of_motions(const CondensedSystem &system, const RigidMotions &motions)
+    stiffness_of_motions(const CondensedSystem  &system,
+                         const Epetra_CrsMatrix &matrix,
+                         const RigidMotions     &motions)
     {
       const Epetra_Vector &translation = *motions.columns(0);
       Epetra_Vector        diagonal(system.rhs->Map()), force(diagonal);
-      system.matrix->ExtractDiagonalCopy(diagonal);
-      system.matrix->Multiply(false, translation, force);
+      matrix.ExtractDiagonalCopy(diagonal);
+      matrix.Multiply(false, translation, force);
       double sums[2] = {0., 0.}, all[2];
       for (int i = 0; i < force.MyLength(); ++i)
         if (!system.constrained[i] && !system.changed[i])
@@ -154,7 +162,7 @@ namespace Touchstone
             sums[0] += force[i] * translation[i];
             sums[1] += diagonal[i] * translation[i] * translation[i];
           }
-      system.matrix->Comm().SumAll(sums, all, 2);
+      matrix.Comm().SumAll(sums, all, 2);
       return all[1] > 0. ? all[0] / all[1] : 0.;
     }
 
@@ -171,12 +179,11 @@ namespace Touchstone
         for (int i = 0; i < near_kernel.MyLength(); ++i)
           if (system.constrained[i] || system.changed[i])
             near_kernel[v][i] = 0.;
+      const std::shared_ptr<const Epetra_CrsMatrix> matrix = system.matrix();
       // With much inertia it alone bounds the condition number: coarse spaces have nothing
       // to do, and the aggregates that weak couplings leave would hardly be fewer.
-      preconditioner = std::make_unique<Multigrid>(system.matrix,
-                                                   near_kernel,
-                                                   motions.body,
-                                                   stiffness_of_motions(system, motions) < 0.15);
+      preconditioner = std::make_unique<Multigrid>(
+        matrix, near_kernel, motions.body, stiffness_of_motions(system, *matrix, motions) < 0.15);
       ++count.preconditioner_setups;
       fresh_iterations = 0;
     }
@@ -187,7 +194,7 @@ namespace Touchstone
     BelosSolver::iterate(const CondensedSystem &system, Epetra_Vector &solution)
     {
       const auto problem =
-        Teuchos::rcp(new Problem(Teuchos::rcpFromRef<Epetra_Operator>(*system.matrix),
+        Teuchos::rcp(new Problem(Teuchos::rcpFromRef<Epetra_Operator>(system.product()),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(solution),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(*system.rhs)));
       const Teuchos::RCP<Epetra_Operator> multigrid = Teuchos::rcp(
@@ -221,7 +228,7 @@ namespace Touchstone
     {
       if (symmetric_only() && (!system.definite || !system.symmetric))
         throw LinearSolverFailure(parameters.type + " needs a symmetric positive definite system");
-      if (motions.columns.Map().NumGlobalElements() != system.matrix->NumGlobalRows())
+      if (motions.columns.Map().NumGlobalElements() != system.rows().NumGlobalElements())
         throw LinearSolverFailure(parameters.type + " cannot solve a system with multipliers");
       // The preconditioner serves until the active set changes (other unknowns are
       // condensed then, and one of an earlier set cost up to six times the
@@ -229,7 +236,7 @@ namespace Touchstone
       // costs about ten.
       int same = preconditioner && constrained == system.constrained && changed == system.changed;
       int all_same = 0;
-      system.matrix->Comm().MinAll(&same, &all_same, 1);
+      system.rows().Comm().MinAll(&same, &all_same, 1);
       const bool fits = all_same == 1;
       if (!fits)
         set_up(system, motions);

@@ -87,7 +87,6 @@ namespace Touchstone
                              const Epetra_Map   &rows,
                              LocalNumbers       &columns)
     : values(rows.NumMyElements())
-    , constrained(rows.NumMyElements())
     , system(system)
     , row_map(rows)
     , row_numbers(rows)
@@ -150,16 +149,19 @@ namespace Touchstone
     std::vector<char> plain(stiffness.NumMyCols());
     for (unsigned int j = 0; j < plain.size(); ++j)
       plain[j] = (motion.line(static_cast<int>(j)) == nullptr);
-    double diagonal = 0.;
+    double           diagonal = 0.;
+    std::vector<int> supported;
     for (int i = 0; i < stiffness.NumMyRows(); ++i)
       {
         int     n;
         double *value;
         int    *column;
         stiffness.ExtractMyRowView(i, n, value, column);
-        const int here = stiffness.LCID(stiffness.GRID(i));
-        constrained[i] = system.constraints.is_constrained(stiffness.GRID(i));
-        bool touched   = constrained[i] || (shift && shift[i] != 0.);
+        const int  here        = stiffness.LCID(stiffness.GRID(i));
+        const bool constrained = system.constraints.is_constrained(stiffness.GRID(i));
+        if (constrained)
+          supported.push_back(i);
+        bool touched = constrained || (shift && shift[i] != 0.);
         for (int k = 0; k < n && !touched; ++k)
           touched = !plain[column[k]];
         values[i] = 0.;
@@ -185,9 +187,8 @@ namespace Touchstone
     diagonal = Utilities::MPI::max(diagonal, system.rhs.get_mpi_communicator());
     if (diagonal == 0.)
       diagonal = 1.;
-    for (int i = 0; i < stiffness.NumMyRows(); ++i)
-      if (constrained[i])
-        rows[i] = {{stiffness.LCID(stiffness.GRID(i)), diagonal}};
+    for (const int i : supported)
+      rows[i] = {{stiffness.LCID(stiffness.GRID(i)), diagonal}};
     for (Index k = 0; k < system.n_extra; ++k)
       {
         values[stiffness.NumMyRows() + k]   = system.extra_rhs[k];

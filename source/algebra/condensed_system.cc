@@ -1,12 +1,26 @@
+#include <touchstone/algebra/applied_operator.h>
 #include <touchstone/algebra/condensation.h>
 #include <touchstone/algebra/condensed_system.h>
 
 #include <algorithm>
+#include <map>
 
 namespace Touchstone
 {
   namespace
   {
+    /** Displacements, then extra unknowns, of this rank. */
+    Epetra_Map
+    unknowns(const LinearSystem &system)
+    {
+      const Epetra_Map &rows = system.stiffness->trilinos_matrix().RowMap();
+      std::vector<int>  numbers(rows.MyGlobalElements(),
+                               rows.MyGlobalElements() + rows.NumMyElements());
+      for (Index k = 0; k < system.n_extra; ++k)
+        numbers.push_back(static_cast<int>(system.first_extra + k));
+      return Epetra_Map(-1, static_cast<int>(numbers.size()), numbers.data(), 0, rows.Comm());
+    }
+
     /** A matrix together with the entries of its special rows. */
     struct MatrixWithStorage
     {
@@ -18,27 +32,57 @@ namespace Touchstone
 
 
 
-  CondensedSystem::CondensedSystem(const LinearSystem &system)
+  CondensedSystem::CondensedSystem(const LinearSystem &system, const bool applied)
     : symmetric(system.symmetric)
     , definite(system.definite)
     , tolerance(system.tolerance)
+    , system(system)
+    , row_map(unknowns(system))
+  {
+    constrained.resize(row_map.NumMyElements());
+    changed.resize(row_map.NumMyElements());
+    for (int i = 0; i < system.stiffness->trilinos_matrix().NumMyRows(); ++i)
+      {
+        constrained[i] = system.constraints.is_constrained(row_map.GID(i));
+        changed[i]     = !constrained[i] && system.basis_change.is_constrained(row_map.GID(i));
+      }
+    make_scale();
+    if (applied)
+      {
+        const auto factors =
+          std::make_shared<AppliedOperator>(system, row_map, constrained, scale.get());
+        rhs       = factors->right_hand_side();
+        operation = factors;
+        return;
+      }
+    std::vector<double> values;
+    assembled = assemble(&values);
+    operation = assembled;
+    rhs       = std::make_unique<Epetra_Vector>(Copy, row_map, values.data());
+    if (scale)
+      rhs->Multiply(1., *scale, *rhs, 0.);
+  }
+
+
+
+  std::shared_ptr<Epetra_CrsMatrix>
+  CondensedSystem::matrix() const
+  {
+    return assembled ? assembled : assemble(nullptr);
+  }
+
+
+
+  std::shared_ptr<Epetra_CrsMatrix>
+  CondensedSystem::assemble(std::vector<double> *values) const
   {
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    const Epetra_Map       &old_rows  = stiffness.RowMap();
-    std::vector<int>        numbers(old_rows.MyGlobalElements(),
-                             old_rows.MyGlobalElements() + old_rows.NumMyElements());
-    for (Index k = 0; k < system.n_extra; ++k)
-      numbers.push_back(static_cast<int>(system.first_extra + k));
-    const int        n_rows = static_cast<int>(numbers.size());
-    const Epetra_Map row_map(-1, n_rows, numbers.data(), 0, stiffness.Comm());
+    LocalNumbers            columns(stiffness.ColMap());
+    Condensation            condensation(system, row_map, columns);
+    if (values)
+      values->swap(condensation.values);
 
-    LocalNumbers columns(stiffness.ColMap());
-    Condensation condensation(system, row_map, columns);
-    constrained = std::move(condensation.constrained);
-    changed.resize(n_rows);
-    for (int i = 0; i < old_rows.NumMyElements(); ++i)
-      changed[i] = !constrained[i] && system.basis_change.is_constrained(old_rows.GID(i));
-
+    const int        n_rows  = row_map.NumMyElements();
     const auto       storage = std::make_shared<MatrixWithStorage>();
     std::size_t      size    = 0;
     std::vector<int> lengths(n_rows);
@@ -89,32 +133,42 @@ namespace Touchstone
         storage->columns = {};
         storage->values  = {};
       }
-    matrix = std::shared_ptr<Epetra_CrsMatrix>(storage, storage->matrix.get());
-    rhs    = std::make_unique<Epetra_Vector>(Copy, row_map, condensation.values.data());
-    scale_changed(stiffness);
+    // Rows that refer to the stiffness have no entry in the columns that are scaled.
+    if (scale)
+      {
+        storage->matrix->LeftScale(*scale);
+        storage->matrix->RightScale(*scale);
+      }
+    return std::shared_ptr<Epetra_CrsMatrix>(storage, storage->matrix.get());
   }
 
 
 
   void
-  CondensedSystem::scale_changed(const Epetra_CrsMatrix &stiffness)
+  CondensedSystem::make_scale()
   {
     int any = 0, here = std::count(changed.begin(), changed.end(), 1) > 0;
-    matrix->Comm().MaxAll(&here, &any, 1);
+    row_map.Comm().MaxAll(&here, &any, 1);
     if (any == 0)
       return;
-    Epetra_Vector present(rhs->Map()), own(stiffness.RowMap());
-    matrix->ExtractDiagonalCopy(present);
+    // No constraint refers to these unknowns: the entry of the diagonal is that of the
+    // stiffness and of the springs.
+    Vector springs(system.rhs.locally_owned_elements(), system.rhs.get_mpi_communicator());
+    std::map<Index, double> sums;
+    for (const MatrixTerm &term : system.terms)
+      if (term.row == term.column && system.basis_change.is_constrained(term.row))
+        sums[term.row] += term.value;
+    for (const auto &[i, value] : sums)
+      springs(i) += value;
+    springs.compress(dealii::VectorOperation::add);
+
+    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
+    Epetra_Vector           own(stiffness.RowMap());
     stiffness.ExtractDiagonalCopy(own);
-    scale = std::make_unique<Epetra_Vector>(rhs->Map());
+    scale = std::make_unique<Epetra_Vector>(row_map);
     scale->PutScalar(1.);
     for (int i = 0; i < own.MyLength(); ++i)
-      if (changed[i] && present[i] > own[i])
-        (*scale)[i] = own[i] / present[i];
-    // Rows that refer to the stiffness have no entry in these columns.
-    matrix->LeftScale(*scale);
-    matrix->RightScale(*scale);
-    for (int i = 0; i < own.MyLength(); ++i)
-      (*rhs)[i] *= (*scale)[i];
+      if (const double spring = springs.begin()[i]; changed[i] && spring > 0.)
+        (*scale)[i] = own[i] / (own[i] + spring);
   }
 } // namespace Touchstone

@@ -97,10 +97,10 @@ namespace Touchstone
         far_columns[i].push_back(numbers.local(aggregate));
 
     // Row by row of A P, added to the rows of the aggregates to which the node belongs.
-    std::vector<AggregateRow> sums(
-      (coarse->locally_owned_size() + coarse->n_ghost_indices()) / n_modes);
-    BlockRows              rows(matrix, *fine);
-    RowOfBlocks<NodeBlock> product;
+    std::vector<AggregateRow> sums((coarse->locally_owned_size() + coarse->n_ghost_indices()) /
+                                   n_modes);
+    BlockRows                 rows(matrix, *fine);
+    RowOfBlocks<NodeBlock>    product;
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
         rows.read(node);
@@ -161,8 +161,8 @@ namespace Touchstone
          Utilities::MPI::some_to_some(coarse->get_mpi_communicator(), packages))
       for (std::size_t k = 0; k < package.size();)
         {
-          auto &to = result[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) /
-                            n_modes];
+          auto &to =
+            result[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) / n_modes];
           const std::size_t n = static_cast<std::size_t>(package[k + 1]);
           k += 2;
           for (std::size_t b = 0; b < n; ++b, k += n_entries + 1)
@@ -195,7 +195,7 @@ namespace Touchstone
     std::vector<int> lengths;
     for (const auto &row : rows)
       lengths.insert(lengths.end(), n_modes, static_cast<int>(n_modes * row.size()));
-    auto result = std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
+    auto             result = std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
     std::vector<int> columns;
     std::vector<double> values;
     for (unsigned int row = 0; row < rows.size(); ++row)

@@ -22,7 +22,7 @@ namespace Touchstone
     do_solve(system, motions, solution);
 
     Epetra_Vector rest(system.rhs->Map());
-    system.matrix->Apply(solution, rest);
+    system.product().Apply(solution, rest);
     rest.Update(1., *system.rhs, -1.);
     double residual = 0.;
     rest.Norm2(&residual);

@@ -107,7 +107,7 @@ namespace Touchstone
                        const Epetra_MultiVector               &near_kernel,
                        const std::vector<unsigned int>        &body,
                        const bool                              coarse_levels)
-    : map(system->RowMap())
+    : SquareOperator(system->RowMap(), "smoothed aggregation")
     , matrix(std::move(system))
   {
     if (coarse_levels && map.NumGlobalElements() > few)

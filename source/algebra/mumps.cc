@@ -86,7 +86,7 @@ namespace Touchstone
     void
     Mumps::start(const CondensedSystem &system)
     {
-      const auto &comm  = dynamic_cast<const Epetra_MpiComm &>(system.matrix->Comm());
+      const auto &comm  = dynamic_cast<const Epetra_MpiComm &>(system.rows().Comm());
       data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.Comm()));
       data.par          = 1; // rank 0 takes part in the factorisation
       data.sym          = kind(system);
@@ -127,9 +127,10 @@ namespace Touchstone
     void
     Mumps::factorise(const CondensedSystem &system)
     {
-      const Epetra_CrsMatrix &matrix = *system.matrix;
-      std::vector<int>        old_rows, old_columns;
-      std::vector<double>     old_values;
+      const std::shared_ptr<const Epetra_CrsMatrix> assembled = system.matrix();
+      const Epetra_CrsMatrix                       &matrix    = *assembled;
+      std::vector<int>                              old_rows, old_columns;
+      std::vector<double>                           old_values;
       rows.swap(old_rows);
       columns.swap(old_columns);
       values.swap(old_values);
@@ -224,7 +225,7 @@ namespace Touchstone
       factorise(system);
 
       // The right-hand side is centralised: a vector is small beside the factors.
-      const Epetra_Comm &comm = system.matrix->Comm();
+      const Epetra_Comm &comm = system.rows().Comm();
       const Epetra_Map   root(-1, comm.MyPID() == 0 ? data.n : 0, 0, comm);
       Epetra_Import      importer(root, system.rhs->Map());
       Epetra_Vector      central(root);

@@ -111,7 +111,6 @@ namespace Touchstone
                              const double                       largest)
     : fine(std::move(partitioner))
   {
-    AssertThrow(near_kernel.NumVectors() == static_cast<int>(n_modes), ExcInternalError());
     BlockRows           rows(matrix, *fine);
     const unsigned int  n_nodes = rows.n_nodes();
     std::vector<double> diagonal(matrix.NumMyRows());
@@ -137,13 +136,14 @@ namespace Touchstone
     std::vector<std::vector<double>> tentative(n_modes,
                                                std::vector<double>(matrix.NumMyRows(), 0.));
     std::vector<double>              target(matrix.NumMyRows(), nowhere);
+    const unsigned int               n_given = near_kernel.NumVectors();
     std::vector<Modes>               q;
     for (int a = 0; a < aggregates.n; ++a)
       {
         body_of_aggregate[a] = body_of_node[nodes[a].front()];
-        q.resize(dim * nodes[a].size());
+        q.assign(dim * nodes[a].size(), Modes());
         for (unsigned int k = 0; k < q.size(); ++k)
-          for (unsigned int m = 0; m < n_modes; ++m)
+          for (unsigned int m = 0; m < n_given; ++m)
             q[k][m] = near_kernel[m][dim * nodes[a][k / dim] + k % dim];
         const AggregateBlock factor = orthonormalise(q);
         for (unsigned int k = 0; k < q.size(); ++k)

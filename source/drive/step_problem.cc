@@ -48,7 +48,6 @@ namespace Touchstone
     , increment(u)
     , before_increment(u)
   {
-    return_free_memory();
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.assemble();
@@ -446,8 +445,9 @@ namespace Touchstone
     if (solver->wants_basis_change(static_cast<int>(u.size())))
       system->basis_change =
         graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
-    condensed = std::make_unique<CondensedSystem>(*system);
-    return_free_memory();
+    condensed =
+      std::make_unique<CondensedSystem>(*system,
+                                        solver->applies_operator(static_cast<int>(u.size())));
   }
 
 
@@ -515,7 +515,7 @@ namespace Touchstone
   {
     TimerOutput::Scope scope(timer, "linear solver");
     const unsigned int before = solver->counts().iterations;
-    Epetra_Vector      solution(condensed->matrix->RowMap());
+    Epetra_Vector      solution(condensed->rows());
     solver->solve(*condensed, modes->motions(), solution);
     const Index n = solid.owned.n_elements();
     std::copy(solution.Values(), solution.Values() + n, increment.begin());

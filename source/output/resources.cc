@@ -2,9 +2,6 @@
 
 #include <deal.II/base/utilities.h>
 
-#ifdef __GLIBC__
-#  include <malloc.h>
-#endif
 #include <sys/resource.h>
 
 namespace Touchstone
@@ -30,13 +27,4 @@ namespace Touchstone
     return dealii::Utilities::MPI::sum(1024e-6 * stats.VmHWM, communicator);
   }
 
-
-
-  void
-  return_free_memory()
-  {
-#ifdef __GLIBC__
-    malloc_trim(0);
-#endif
-  }
 } // namespace Touchstone

@@ -245,6 +245,13 @@ namespace Touchstone
                       "GMRES starts anew after this many iterations. It keeps two vectors "
                       "for each of them.",
                       Patterns::Integer(1));
+    prm.add_parameter("Contact operator",
+                      contact_operator,
+                      "How an iterative solver multiplies: 'applied' applies constraints and "
+                      "contact terms beside the continuum matrix, and assembles all in "
+                      "one matrix only where multigrid is set up; 'assembled' does so in each "
+                      "Newton iteration.",
+                      Patterns::Selection("applied|assembled"));
     prm.add_parameter(
       "Low rank tolerance",
       low_rank_tolerance,

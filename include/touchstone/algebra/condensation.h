@@ -143,8 +143,6 @@ namespace Touchstone
     std::unordered_map<int, SparseRow> rows;
     /** Right-hand side of this rank's rows. */
     std::vector<double> values;
-    /** Rows of constrained unknowns. */
-    std::vector<char> constrained;
 
   private:
     /** Part of the product: row @p source times @p factor goes to row @p target. */

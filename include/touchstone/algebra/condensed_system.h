@@ -23,11 +23,34 @@ namespace Touchstone
   class CondensedSystem
   {
   public:
-    explicit CondensedSystem(const LinearSystem &system);
+    /**
+     * @param system  Must live as long.
+     * @param applied Products are made factor by factor (AppliedOperator), and matrix() is
+     *                assembled for those who ask for it. Otherwise both are the same
+     *                matrix.
+     */
+    explicit CondensedSystem(const LinearSystem &system, bool applied = false);
 
-    /** Shared with preconditioners that are made from it. */
-    std::shared_ptr<Epetra_CrsMatrix> matrix;
-    std::unique_ptr<Epetra_Vector>    rhs;
+    /** @brief Unknowns of this rank, extra ones last. */
+    const Epetra_Map &
+    rows() const
+    {
+      return row_map;
+    }
+
+    /** @brief What multiplies a solution. */
+    Epetra_Operator &
+    product() const
+    {
+      return *operation;
+    }
+
+    /** @brief The matrix, assembled anew in each call if products are applied: keep it no
+     * longer than needed. Collective. */
+    std::shared_ptr<Epetra_CrsMatrix>
+    matrix() const;
+
+    std::unique_ptr<Epetra_Vector> rhs;
     /** Marks rows of constrained unknowns, in the order of the local rows. */
     std::vector<char> constrained;
     /** Marks rows of unknowns that count the deviation from a combination of
@@ -37,12 +60,21 @@ namespace Touchstone
      * springs have their stretch in units that make an error of it count as much
      * as one of a displacement. */
     std::unique_ptr<Epetra_Vector> scale;
-    bool                           symmetric, definite;
-    double                         tolerance;
+    const bool                     symmetric, definite;
+    const double                   tolerance;
 
   private:
+    const LinearSystem               &system;
+    const Epetra_Map                  row_map;
+    std::shared_ptr<Epetra_CrsMatrix> assembled;
+    std::shared_ptr<Epetra_Operator>  operation;
+
     void
-    scale_changed(const Epetra_CrsMatrix &stiffness);
+    make_scale();
+
+    /** @param values Right-hand side, not scaled, if not null. */
+    std::shared_ptr<Epetra_CrsMatrix>
+    assemble(std::vector<double> *values) const;
   };
 } // namespace Touchstone
 

@@ -70,6 +70,14 @@ namespace Touchstone
       return false;
     }
 
+    /** @brief Whether products with a system of that size are all it mostly needs:
+     * CondensedSystem::matrix() is assembled when it asks for it. */
+    virtual bool
+    applies_operator(int /*n_unknowns*/) const
+    {
+      return false;
+    }
+
     /** @brief Drop what is kept from one solve for the next: what follows must not
      * depend on what was before, as a checkpoint knows nothing of it. Collective. */
     virtual void

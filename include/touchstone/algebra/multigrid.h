@@ -3,11 +3,11 @@
 
 #include <touchstone/algebra/block_matrix.h>
 #include <touchstone/algebra/prolongation.h>
+#include <touchstone/algebra/square_operator.h>
 
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/precondition.h>
 
-#include <Epetra_Operator.h>
 #include <Epetra_Vector.h>
 #include <memory>
 #include <ml_MultiLevelPreconditioner.h>
@@ -23,7 +23,7 @@ namespace Touchstone
    * Vanek, Mandel and Brezina (1996), Computing 56; smoothing by Chebyshev polynomials:
    * Adams, Brezina, Hu and Tuminaro (2003), J. Comput. Phys. 188.
    */
-  class Multigrid : public Epetra_Operator
+  class Multigrid : public SquareOperator
   {
   public:
     /**
@@ -43,61 +43,11 @@ namespace Touchstone
     int
     ApplyInverse(const Epetra_MultiVector &rhs, Epetra_MultiVector &result) const override;
 
-    /** @name The rest of what Epetra asks for */
-    /** @{ */
-    int
-    SetUseTranspose(bool) override
-    {
-      return -1;
-    }
-    int
-    Apply(const Epetra_MultiVector &, Epetra_MultiVector &) const override
-    {
-      return -1;
-    }
-    double
-    NormInf() const override
-    {
-      return 0.;
-    }
-    const char *
-    Label() const override
-    {
-      return "smoothed aggregation";
-    }
-    bool
-    UseTranspose() const override
-    {
-      return false;
-    }
-    bool
-    HasNormInf() const override
-    {
-      return false;
-    }
-    const Epetra_Comm &
-    Comm() const override
-    {
-      return map.Comm();
-    }
-    const Epetra_Map &
-    OperatorDomainMap() const override
-    {
-      return map;
-    }
-    const Epetra_Map &
-    OperatorRangeMap() const override
-    {
-      return map;
-    }
-    /** @} */
-
   private:
     using VectorType = BlockMatrix::VectorType;
     using Chebyshev =
       dealii::PreconditionChebyshev<BlockMatrix, VectorType, dealii::DiagonalMatrix<VectorType>>;
 
-    const Epetra_Map map;
     /** The finest level, unless ML has all of them. */
     std::unique_ptr<BlockMatrix>  fine_matrix;
     std::unique_ptr<Chebyshev>    smoother;

@@ -14,11 +14,6 @@ namespace Touchstone
    * far, MB of 10^6 bytes. Collective. */
   double
   peak_memory_mb(MPI_Comm communicator);
-
-  /** @brief Give memory that many small objects have left back to the system,
-   * before large ones come that would not fit into the gaps. */
-  void
-  return_free_memory();
 } // namespace Touchstone
 
 #endif

@@ -106,6 +106,8 @@ namespace Touchstone
     unsigned int maximum_iterations = 2000;
     /** Iterations of GMRES after which it starts anew, to save memory. */
     unsigned int restart = 100;
+    /** Of iterative solvers: "applied" or "assembled". */
+    std::string contact_operator = "applied";
     /** Of MUMPS: relative size of what is left out of the blocks of its factors; 0
      * keeps all; no unit. */
     double low_rank_tolerance = 0.;

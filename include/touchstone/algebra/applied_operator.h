@@ -1,0 +1,67 @@
+#ifndef touchstone_algebra_applied_operator_h
+#define touchstone_algebra_applied_operator_h
+
+#include <touchstone/algebra/linear_system.h>
+#include <touchstone/algebra/square_operator.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief A linear system with its constraints condensed out, S^T (A + D + C) T, applied
+   * factor by factor: the continuum stiffness A as it is, beside it the shift D of its
+   * diagonal, the contact terms C, and the constraints T and S, which are small.
+   *
+   * Nothing is assembled when contact changes. Constrained unknowns keep the diagonal
+   * entry of the stiffness.
+   */
+  class AppliedOperator : public SquareOperator
+  {
+  public:
+    /**
+     * @param system      Must live as long.
+     * @param rows        Unknowns of this rank, extra ones last.
+     * @param constrained Marks rows of constrained unknowns.
+     * @param scale       Of the unknowns and of the equations; may be null.
+     */
+    AppliedOperator(const LinearSystem      &system,
+                    const Epetra_Map        &rows,
+                    const std::vector<char> &constrained,
+                    const Epetra_Vector     *scale);
+
+    /** @brief Right-hand side S^T (b - (A + D + C) g). Collective. */
+    std::unique_ptr<Epetra_Vector>
+    right_hand_side() const;
+
+    int
+    Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const override;
+
+  private:
+    const LinearSystem               &system;
+    std::unique_ptr<Epetra_CrsMatrix> motion, test, terms;
+    /** The g of x = T y + g. */
+    Epetra_Vector inhomogeneity;
+    /** Diagonal entries of constrained unknowns, zero at others. */
+    Epetra_Vector         diagonal;
+    mutable Epetra_Vector all, force, part;
+
+    /** @brief The T of @p constraints with the change of basis; its inhomogeneities go to
+     * @p shift unless null. */
+    std::unique_ptr<Epetra_CrsMatrix>
+    expansion(const dealii::AffineConstraints<double> &constraints,
+              const Epetra_Vector                     *scale,
+              Epetra_Vector                           *shift) const;
+    void
+    make_terms();
+
+    /** @brief result = (A + D + C) x, of all unknowns. */
+    void
+    multiply(const Epetra_Vector &x, Epetra_Vector &result) const;
+  };
+} // namespace Touchstone
+
+#endif
