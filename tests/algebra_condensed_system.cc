@@ -157,9 +157,13 @@ namespace
     tmp.sadd(-1., b);
     t.Tvmult(rhs, tmp);
     for (unsigned int i = 0; i < n; ++i)
-      if (change.is_constrained(i) && reference(i, i) > entry(i, i))
+      if (change.is_constrained(i))
         {
-          const double scale = entry(i, i) / reference(i, i);
+          double spring = shifted ? 1. + i : 0.;
+          for (const MatrixTerm &term : terms)
+            if (term.row == i && term.column == i)
+              spring += term.value;
+          const double scale = spring > 0. ? entry(i, i) / (entry(i, i) + spring) : 1.;
           rhs[i] *= scale;
           for (unsigned int j = 0; j < m; ++j)
             {
@@ -170,7 +174,8 @@ namespace
 
     double                  worst = 0., worst_rhs = 0., worst_constrained = 0.;
     bool                    diagonal = true, marks = true;
-    const Epetra_CrsMatrix &matrix = *condensed.matrix;
+    const auto              assembled = condensed.matrix();
+    const Epetra_CrsMatrix &matrix    = *assembled;
     for (int row = 0; row < matrix.NumMyRows(); ++row)
       {
         const unsigned int  i = matrix.GRID(row);
@@ -198,10 +203,36 @@ namespace
         worst_rhs =
           std::max(worst_rhs, std::abs((*condensed.rhs)[row] - (constrained ? 0. : rhs[i])));
       }
+    // The same system applied factor by factor, to each unit vector.
+    const CondensedSystem applied(system, true);
+    Epetra_Vector         unit(applied.rows()), column(applied.rows());
+    double                worst_product = 0.;
+    for (unsigned int j = 0; j < m; ++j)
+      {
+        unit.PutScalar(0.);
+        if (const int local = applied.rows().LID(static_cast<int>(j)); local >= 0)
+          unit[local] = 1.;
+        applied.product().Apply(unit, column);
+        for (int row = 0; row < column.MyLength(); ++row)
+          {
+            const unsigned int i = applied.rows().GID(row);
+            const bool         held =
+              (i < n && constraints.is_constrained(i)) || (j < n && constraints.is_constrained(j));
+            if (held && i == j)
+              diagonal = diagonal && column[row] > 0.;
+            else
+              worst_product =
+                std::max(worst_product, std::abs(column[row] - (held ? 0. : reference(i, j))));
+          }
+      }
+    for (int row = 0; row < column.MyLength(); ++row)
+      worst_product =
+        std::max(worst_product, std::abs((*applied.rhs)[row] - (*condensed.rhs)[row]));
     const auto all    = [&](const double x) { return Utilities::MPI::max(x, communicator); };
     worst             = all(worst);
     worst_rhs         = all(worst_rhs);
     worst_constrained = all(worst_constrained);
+    worst_product     = all(worst_product);
     const bool good   = all(diagonal && marks ? 0. : 1.) == 0.;
     const int  rows   = Utilities::MPI::sum(matrix.NumMyRows(), communicator);
     if (rank == 0)
@@ -212,7 +243,8 @@ namespace
                     << std::endl;
         else
           std::cout << small(worst) << ", constrained " << small(worst_constrained) << ", rhs "
-                    << small(worst_rhs) << (good ? "" : ", diagonal or marks FAILED") << std::endl;
+                    << small(worst_rhs) << ", applied " << small(worst_product)
+                    << (good ? "" : ", diagonal or marks FAILED") << std::endl;
       }
   }
 

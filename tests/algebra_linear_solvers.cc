@@ -40,9 +40,9 @@ namespace
    * its neighbours by @p friction in one triangle of the matrix only. */
   struct System
   {
-    Matrix                              stiffness;
-    std::unique_ptr<CondensedSystem>    condensed;
-    std::unique_ptr<RigidMotions>       motions;
+    Matrix                           stiffness;
+    std::unique_ptr<CondensedSystem> condensed;
+    std::unique_ptr<RigidMotions>    motions;
 
     System(const double friction, const bool multiplier)
     {

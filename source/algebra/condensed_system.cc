@@ -82,11 +82,11 @@ namespace Touchstone
     if (values)
       values->swap(condensation.values);
 
-    const int        n_rows  = row_map.NumMyElements();
-    const auto       storage = std::make_shared<MatrixWithStorage>();
-    std::size_t      size    = 0;
-    std::vector<int> lengths(n_rows);
-    for (int i = 0; i < n_rows; ++i)
+    const unsigned int n_rows  = row_map.NumMyElements();
+    const auto         storage = std::make_shared<MatrixWithStorage>();
+    std::size_t        size    = 0;
+    std::vector<int>   lengths(n_rows);
+    for (unsigned int i = 0; i < n_rows; ++i)
       {
         const auto found = condensation.rows.find(i);
         lengths[i] =
@@ -102,7 +102,7 @@ namespace Touchstone
     const auto access = system.lasting_stiffness ? View : Copy;
     storage->matrix =
       std::make_unique<Epetra_CrsMatrix>(access, row_map, column_map, lengths.data(), true);
-    for (int i = 0; i < n_rows; ++i)
+    for (unsigned int i = 0; i < n_rows; ++i)
       {
         const auto found = condensation.rows.find(i);
         int        n;
@@ -151,8 +151,7 @@ namespace Touchstone
     row_map.Comm().MaxAll(&here, &any, 1);
     if (any == 0)
       return;
-    // No constraint refers to these unknowns: the entry of the diagonal is that of the
-    // stiffness and of the springs.
+    // Any number would do: what constraints add to the entry of the diagonal is left out.
     Vector springs(system.rhs.locally_owned_elements(), system.rhs.get_mpi_communicator());
     std::map<Index, double> sums;
     for (const MatrixTerm &term : system.terms)
@@ -161,6 +160,8 @@ namespace Touchstone
     for (const auto &[i, value] : sums)
       springs(i) += value;
     springs.compress(dealii::VectorOperation::add);
+    if (system.diagonal_shift.size() > 0)
+      springs += system.diagonal_shift;
 
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
     Epetra_Vector           own(stiffness.RowMap());

@@ -1,4 +1,5 @@
 #include <touchstone/mesh/body_mesh.h>
+#include <touchstone/mesh/contact_work.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/mesh/partition.h>
 #include <touchstone/scene/input_error.h>
@@ -115,29 +116,27 @@ namespace Touchstone
             surfaces[ids.at(own)] = surface;
       }
 
-    std::map<types::boundary_id, unsigned int> work;
+    const auto contact_work = std::make_shared<ContactWork>();
     for (const ContactPairParameters &pair : scene.pairs)
       {
-        const auto add = [&](const std::string              &body,
+        const auto ids = [&](const std::string              &body,
                              const std::vector<std::string> &boundaries,
-                             const std::string              &key,
-                             const unsigned int              of_face) {
+                             const std::string              &key) {
+          std::set<types::boundary_id> result;
           for (const std::string &name : boundaries)
-            work[boundary_id(scene.body_index(body), name, pair.section(), key)] += of_face;
+            result.insert(boundary_id(scene.body_index(body), name, pair.section(), key));
+          return result;
         };
-        add(pair.slave_body, pair.slave_boundaries, "Slave boundaries", slave_face_work);
-        if (!pair.master_body.empty())
-          add(pair.master_body, pair.master_boundaries, "Master boundaries", master_face_work);
+        const auto slaves = ids(pair.slave_body, pair.slave_boundaries, "Slave boundaries");
+        contact_work->add_pair(all,
+                               slaves,
+                               pair.master_body.empty() ? std::set<types::boundary_id>()
+                                                        : ids(pair.master_body,
+                                                              pair.master_boundaries,
+                                                              "Master boundaries"));
       }
-    const CellWork contact_work = [work](const Triangulation<dim>::cell_iterator &cell) {
-      unsigned int sum = 0;
-      for (const auto &face : cell->face_iterators())
-        if (face->at_boundary())
-          {
-            const auto found = work.find(face->boundary_id());
-            sum += (found != work.end() ? found->second : 0);
-          }
-      return sum;
+    const CellWork work = [contact_work](const Triangulation<dim>::cell_iterator &cell) {
+      return (*contact_work)(cell);
     };
     std::vector<unsigned int> work_of_body;
     for (const BodyParameters &body : scene.bodies)
@@ -151,10 +150,10 @@ namespace Touchstone
     const DiscretisationParameters &parameters = scene.discretisation;
     if (parameters.partitioner != "p4est")
       return partition_by_graph(
-        all, level, cell_work, contact_work, parameters.partitioner == "METIS", communicator);
+        all, level, cell_work, work, parameters.partitioner == "METIS", communicator);
     has_weights = parameters.contact_weight > 0. || !alike;
     return partition_by_curve(
-      all, level, cell_work, contact_work, has_weights, parameters.contact_weight, communicator);
+      all, level, cell_work, work, has_weights, parameters.contact_weight, communicator);
   }
 
 

@@ -1,4 +1,5 @@
 #include <touchstone/mesh/body_mesh.h>
+#include <touchstone/mesh/contact_work.h>
 #include <touchstone/mesh/partition.h>
 
 #include <deal.II/base/mpi.h>
@@ -116,7 +117,7 @@ namespace Touchstone
     if (weighted)
       {
         // Weights are whole numbers: in thousandths of the least work of a cell.
-        const double unit = 1000. * contact_weight / slave_face_work;
+        const double unit = 1000. * contact_weight / ContactWork::slave_face;
         triangulation->signals.weight.connect(
           [=](const Mesh::cell_iterator &cell, const Mesh::CellStatus status) {
             // For each child of a cell that is refined this asks for the parent, whose

@@ -47,8 +47,8 @@ spread() {
 # fewer_rows A B: the busiest rank of B has fewer slave rows than that of A, by a tenth.
 fewer_rows() {
   same "$1" "$2" 1e-6
-  below "$2 on 4 ranks" "slave rows against $1" "$(imbalance "$2" slave_rows)" \
-    "$(awk -v x="$(imbalance "$1" slave_rows)" 'BEGIN { print 0.9 * x }')"
+  below "$2 on 4 ranks" "search against $1" "$(imbalance "$2" search_candidates)" \
+    "$(awk -v x="$(imbalance "$1" search_candidates)" 'BEGIN { print 0.9 * x }')"
 }
 
 spread metis-cells "METIS, cells only" 0
@@ -60,5 +60,5 @@ fewer_rows curve curve-4
 # METIS is asked for 1.03 of the cells and 1.1 of the contact work, which is slave and
 # master faces together, so that rows have more room.
 below "METIS on 4 ranks" "cells" "$(imbalance metis cells)" 1.05
-below "METIS on 4 ranks" "slave rows" "$(imbalance metis slave_rows)" 1.35
+below "METIS on 4 ranks" "search" "$(imbalance metis search_candidates)" 1.5
 finish

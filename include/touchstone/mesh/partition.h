@@ -20,16 +20,10 @@ namespace Touchstone
    * @brief What a cell asks for, in whole numbers.
    *
    * By itself: 1, and 3 if it is integrated anew in each Newton iteration and others
-   * are not (measured on prm/plate_drop.prm: 2 with MUMPS, 6 with Belos CG).
-   *
-   * For contact: 4 for each face that is a slave, 1 for each that is a master. The nodes
-   * of a slave face look for partners, project on several faces and make rows; a master
-   * face has its normals averaged and is sent.
+   * are not (measured on prm/plate_drop.prm: 2 with MUMPS, 6 with Belos CG). For contact:
+   * see ContactWork.
    */
   using CellWork = std::function<unsigned int(const dealii::Triangulation<dim>::cell_iterator &)>;
-
-  /** @brief Units of the contact's work that are one slave face. */
-  constexpr unsigned int slave_face_work = 4, master_face_work = 1;
 
   /** @brief The mesh in as many pieces of p4est's space-filling curve as there are
    * ranks, of about the same sum of weights if it is @p weighted: the work of each cell,
