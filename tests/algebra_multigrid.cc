@@ -279,4 +279,22 @@ main(int argc, char **argv)
                   << (std::abs(a - b) < 1e-5 * std::abs(a) ? "symmetric" : "NOT SYMMETRIC")
                   << ", error falls " << (after < 0.35 * before ? "fast" : "slowly") << std::endl;
     }
+
+  // Nothing is coupled: there is no coarse level to be made.
+  auto diagonal_matrix = std::make_shared<Epetra_CrsMatrix>(Copy, map, 1);
+  for (const int i : rows)
+    {
+      const double two = 2.;
+      diagonal_matrix->InsertGlobalValues(i, 1, &two, &i);
+    }
+  diagonal_matrix->FillComplete();
+  const Multigrid alone(diagonal_matrix, motions, body, true);
+  Epetra_Vector   half(map);
+  alone.ApplyInverse(x, half);
+  double error = 0., of_x = 0.;
+  half.Update(-0.5, x, 1.);
+  half.Norm2(&error);
+  x.Norm2(&of_x);
+  if (root)
+    std::cout << "nothing coupled: " << (error < 0.3 * of_x ? "smoothed" : "WRONG") << std::endl;
 }

@@ -113,8 +113,9 @@ namespace Touchstone
     if (coarse_levels && map.NumGlobalElements() > few)
       {
         make_finest_level(near_kernel, body);
-        make_hierarchy(ml_parameters(prolongation->coarse_near_kernel(), Prolongation::n_modes),
-                       prolongation->coarse_body());
+        if (prolongation)
+          make_hierarchy(ml_parameters(prolongation->coarse_near_kernel(), Prolongation::n_modes),
+                         prolongation->coarse_body());
         return;
       }
     std::vector<unsigned int> body_of_nodes(map.NumMyElements() / dim);
@@ -148,6 +149,12 @@ namespace Touchstone
 
     prolongation = std::make_unique<Prolongation>(
       *matrix, near_kernel, body, fine_matrix->vector_partitioner(), largest / margin);
+    // Where nothing is coupled, smoothing is all.
+    if (prolongation->coarse_near_kernel().GlobalLength() == 0)
+      {
+        prolongation.reset();
+        return;
+      }
     matrix = prolongation->galerkin(*matrix);
     prolongation->initialize_coarse_vector(coarse_values);
     coarse_rhs      = std::make_unique<Epetra_Vector>(matrix->RowMap());
@@ -187,18 +194,20 @@ namespace Touchstone
   void
   Multigrid::cycle(const double *rhs, double *result) const
   {
-    const int n = map.NumMyElements(), m = coarse_rhs->MyLength();
+    const int n = map.NumMyElements();
     std::copy(rhs, rhs + n, fine_rhs.begin());
     smoother->vmult(fine_solution, fine_rhs);
-    fine_matrix->vmult(fine_residual, fine_solution);
-    fine_residual.sadd(-1.f, 1.f, fine_rhs);
-
-    prolongation->restrict_to(coarse_values, fine_residual);
-    std::copy(coarse_values.begin(), coarse_values.begin() + m, coarse_rhs->Values());
-    hierarchy->ApplyInverse(*coarse_rhs, *coarse_solution);
-    std::copy(coarse_solution->Values(), coarse_solution->Values() + m, coarse_values.begin());
-    prolongation->prolongate_and_add(fine_solution, coarse_values);
-
+    if (prolongation)
+      {
+        fine_matrix->vmult(fine_residual, fine_solution);
+        fine_residual.sadd(-1.f, 1.f, fine_rhs);
+        prolongation->restrict_to(coarse_values, fine_residual);
+        const int m = coarse_rhs->MyLength();
+        std::copy(coarse_values.begin(), coarse_values.begin() + m, coarse_rhs->Values());
+        hierarchy->ApplyInverse(*coarse_rhs, *coarse_solution);
+        std::copy(coarse_solution->Values(), coarse_solution->Values() + m, coarse_values.begin());
+        prolongation->prolongate_and_add(fine_solution, coarse_values);
+      }
     smoother->step(fine_solution, fine_rhs);
     std::copy(fine_solution.begin(), fine_solution.begin() + n, result);
   }

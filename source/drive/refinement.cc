@@ -43,6 +43,27 @@ namespace Touchstone
       return result;
     }
 
+    /** Side length of a face. */
+    template <class Cell>
+    double
+    size(const Cell &cell, const unsigned int f)
+    {
+      return std::sqrt(cell->face(f)->measure());
+    }
+
+    /** What it will be as marked. */
+    template <class Cell>
+    double
+    size_to_come(const Cell &cell, const unsigned int f)
+    {
+      const double factor = cell->refine_flag_set() ? 0.5 : cell->coarsen_flag_set() ? 2. : 1.;
+      return factor * size(cell, f);
+    }
+
+    /** Sums of this power of one over the size of faces tell the size of the
+     * finest: that of ten equal ones by 15 per cent, and meshes differ by factors of two. */
+    constexpr double sharpness = 16.;
+
     /** With ghosts, and what hanging nodes follow. */
     Vector
     conforming(const Vector &field, const Solid &solid)
@@ -62,6 +83,14 @@ namespace Touchstone
   {
     if (!scene.refinement.region.empty())
       region = make_function(scene.refinement.region);
+  }
+
+
+
+  int
+  Refinement::finest_level() const
+  {
+    return std::min<int>(10, forest.first_level() + scene.refinement.maximum_level);
   }
 
 
@@ -123,58 +152,84 @@ namespace Touchstone
 
 
 
-  void
-  Refinement::mark_masters(const StepProblem &problem, std::vector<bool> &marked) const
+  Vector
+  Refinement::faces_at_masters(const StepProblem             &problem,
+                               const unsigned int             pair,
+                               const Contact::PairBoundaries &boundaries,
+                               const double                   length,
+                               const bool                     refined_only) const
   {
-    const auto pairs = problem.contact_state().boundaries();
+    Vector at_slaves(solid.owned, solid.communicator), at_masters(at_slaves);
+    for_each_face(solid,
+                  boundaries.slave_body,
+                  boundaries.slave,
+                  [&](const auto &cell, const unsigned int f) {
+                    if (refined_only && !cell->refine_flag_set())
+                      return;
+                    const double finer = length / size_to_come(cell, f);
+                    for (const Index node : face_nodes(solid, cell, f))
+                      at_slaves(node) += std::pow(finer, sharpness);
+                  });
+    at_slaves.compress(VectorOperation::add);
+    solid.condense(at_slaves);
+    for (const ContactRow &row : problem.contact_state().rows[pair])
+      if (row.active())
+        if (const double value = at_slaves(dim * row.slave); value > 0.)
+          for (const StencilEntry &entry : row.stencil)
+            if (entry.weight > 0.)
+              at_masters(dim * entry.node) += entry.weight * value;
+    at_masters.compress(VectorOperation::add);
+    return solid.ghosted(at_masters);
+  }
+
+
+
+  bool
+  Refinement::follow_slaves(const StepProblem &problem)
+  {
+    int        changes = 0;
+    const auto pairs   = problem.contact_state().boundaries();
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         if (pairs[p].master.empty())
           continue;
-        // Slave nodes of marked faces, with the size of these; then what their
-        // stencils refer to, with the mean of the sizes.
-        Vector count(solid.owned, solid.communicator), size(count);
+        double length = 0.;
         for_each_face(solid,
                       pairs[p].slave_body,
                       pairs[p].slave,
                       [&](const auto &cell, const unsigned int f) {
-                        if (marked[cell->active_cell_index()])
-                          for (const Index node : face_nodes(solid, cell, f))
-                            {
-                              count(node) += 1.;
-                              size(node) += std::sqrt(cell->face(f)->measure());
-                            }
+                        length = std::max(length, 2. * size(cell, f));
                       });
-        count.compress(VectorOperation::add);
-        size.compress(VectorOperation::add);
-        solid.condense(count);
-        solid.condense(size);
-        Vector master_count(solid.owned, solid.communicator), master_size(master_count);
-        for (const ContactRow &row : problem.contact_state().rows[p])
-          if (row.active() && count(dim * row.slave) > 0.)
-            for (const StencilEntry &entry : row.stencil)
-              if (entry.weight > 0.)
-                {
-                  master_count(dim * entry.node) += entry.weight * count(dim * row.slave);
-                  master_size(dim * entry.node) += entry.weight * size(dim * row.slave);
-                }
-        master_count.compress(VectorOperation::add);
-        master_size.compress(VectorOperation::add);
-        const Vector all_count = solid.ghosted(master_count), all_size = solid.ghosted(master_size);
+        length               = Utilities::MPI::max(length, solid.communicator);
+        const Vector refined = faces_at_masters(problem, p, pairs[p], length, true),
+                     all     = faces_at_masters(problem, p, pairs[p], length, false);
         for_each_face(solid,
                       pairs[p].master_body,
                       pairs[p].master,
                       [&](const auto &cell, const unsigned int f) {
-                        double faces = 0., sum = 0.;
-                        for (const Index node : face_nodes(solid, cell, f))
+                        const auto coarse = [&](const Vector &slaves) {
+                          double finest_slave = 0.;
+                          for (const Index node : face_nodes(solid, cell, f))
+                            finest_slave = std::max(finest_slave, slaves(node));
+                          return finest_slave > 0. &&
+                                 size_to_come(cell, f) >
+                                   1.4 * length * std::pow(finest_slave, -1. / sharpness);
+                        };
+                        if (cell->coarsen_flag_set() && coarse(all))
                           {
-                            faces += all_count(node);
-                            sum += all_size(node);
+                            cell->clear_coarsen_flag();
+                            changes = 1;
                           }
-                        if (faces > 0.5 && std::sqrt(cell->face(f)->measure()) > 0.7 * sum / faces)
-                          marked[cell->active_cell_index()] = true;
+                        if (!cell->refine_flag_set() && cell->level() < finest_level() &&
+                            coarse(refined))
+                          {
+                            cell->clear_coarsen_flag();
+                            cell->set_refine_flag();
+                            changes = 1;
+                          }
                       });
       }
+    return Utilities::MPI::max(changes, solid.communicator) == 1;
   }
 
 
@@ -189,9 +244,9 @@ namespace Touchstone
     if (estimator == "region")
       return 0.;
     errors = estimator == "Kelly" ? jump_errors(scene, solid, u) : recovery_errors(scene, solid, u);
-    variation            = pressure_variation(problem.contact_state().fields(false),
+    variation           = pressure_variation(problem.contact_state().fields(false),
                                    problem.contact_state().boundaries());
-    const double energy  = problem.strain_energy();
+    const double energy = problem.strain_energy();
     // A body in free flight: what round-off makes of no stress says nothing of the mesh.
     if (energy <= solid.round_off(problem.displacement()) * problem.displacement().l2_norm())
       {
@@ -210,44 +265,46 @@ namespace Touchstone
     const RefinementParameters &parameters = scene.refinement;
     auto                       &mesh       = forest.triangulation;
 
-    std::vector<bool> refine(mesh.n_active_cells());
-    const double      high = bulk_threshold(variation, parameters.contact_fraction);
-    for (const auto &cell : mesh.active_cell_iterators())
-      if (cell->is_locally_owned())
-        refine[cell->active_cell_index()] = variation(cell->active_cell_index()) >= high;
-    mark_masters(problem, refine);
-    const double large = bulk_threshold(errors, parameters.refine_fraction);
+    const double high  = bulk_threshold(variation, parameters.contact_fraction),
+                 large = bulk_threshold(errors, parameters.refine_fraction);
     // What is left over by the largest 98 % are the smallest 2 %.
     const double small = bulk_threshold(errors, 1. - parameters.coarsen_fraction),
                  low   = bulk_threshold(variation, 1. - parameters.coarsen_fraction);
     if (region)
       region->set_time(time);
-
-    unsigned int       finer = 0;
-    const unsigned int finest =
-      std::min<unsigned int>(10, forest.first_level() + parameters.maximum_level);
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const unsigned int i = cell->active_cell_index();
-          if (refine[i] || errors(i) >= large || (region && region->value(cell->center()) > 0.))
+          if (variation(i) >= high || errors(i) >= large ||
+              (region && region->value(cell->center()) > 0.))
             {
-              if (static_cast<unsigned int>(cell->level()) < finest)
-                {
-                  cell->set_refine_flag();
-                  ++finer;
-                }
+              if (cell->level() < finest_level())
+                cell->set_refine_flag();
             }
           else if (parameters.coarsen_fraction > 0. && errors(i) < small &&
                    (variation(i) < low || variation(i) == 0.) &&
                    static_cast<unsigned int>(cell->level()) > forest.first_level())
             cell->set_coarsen_flag();
         }
+    // Slave faces that are finer than the master faces they meet have pressures that
+    // oscillate. What the mesh adds to the marks may be slave faces, and so on.
+    unsigned int sweep = 0;
+    do
+      mesh.prepare_coarsening_and_refinement();
+    while (follow_slaves(problem) && ++sweep < 20);
+
+    unsigned int finer = 0;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (cell->is_locally_owned())
+        finer += cell->refine_flag_set();
     finer = Utilities::MPI::sum(finer, solid.communicator);
     if (mesh.n_global_active_cells() + 7 * std::uint64_t(finer) > parameters.maximum_cells)
-      for (const auto &cell : mesh.active_cell_iterators())
-        cell->clear_refine_flag();
-    mesh.prepare_coarsening_and_refinement();
+      {
+        for (const auto &cell : mesh.active_cell_iterators())
+          cell->clear_refine_flag();
+        mesh.prepare_coarsening_and_refinement();
+      }
 
     int changes = 0;
     for (const auto &cell : mesh.active_cell_iterators())

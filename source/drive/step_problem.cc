@@ -368,15 +368,15 @@ namespace Touchstone
     // that moves supports has a right-hand side much larger than the forces that
     // it leads to, and one that leads to wrong signs of contact forces costs
     // further iterations: these get two digits more, three where stick and slip are
-    // told apart by small differences. The last one should be the last: it aims well
-    // below the residual that Newton asks for.
-    linear_tolerance = scene.linear_solver.tolerance;
+    // told apart by small differences. One that can be the last should be: it aims well
+    // below the residual that Newton asks for, with two digits more if it takes them.
+    const double usual = scene.linear_solver.tolerance;
+    const double last  = 0.03 * scene.newton.residual_tolerance / state.residual;
+    linear_tolerance   = usual;
     if (!state.prescribed || state.changes > 0)
       linear_tolerance *= scene.has_friction() ? 1e-3 : 1e-2;
-    else if (state.residual > 0.)
-      linear_tolerance = std::clamp(0.03 * scene.newton.residual_tolerance / state.residual,
-                                    linear_tolerance,
-                                    std::max(linear_tolerance, 0.1));
+    else if (state.residual > 0. && last >= 1e-2 * usual)
+      linear_tolerance = std::min(last, std::max(usual, 0.1));
     return state;
   }
 

@@ -1,10 +1,39 @@
 #include <touchstone/solid/element_kernel.h>
+#include <touchstone/vectorised.h>
 
 #include <deal.II/fe/fe_q.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace Touchstone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** The upper part of X^T X, of @p m rows of @p n numbers each, with all of the blocks
+     * on the diagonal. */
+    TOUCHSTONE_VECTORISED void
+    upper_part_of_square(const unsigned int n,
+                         const unsigned int m,
+                         const double      *x,
+                         double            *result)
+    {
+      std::fill(result, result + n * n, 0.);
+      for (unsigned int r = 0; r < n; ++r)
+        for (unsigned int q = 0; q < m; ++q)
+          {
+            const double  factor = x[n * q + r];
+            const double *other  = x + n * q;
+            double       *row    = result + n * r;
+            for (unsigned int c = r / dim * dim; c < n; ++c)
+              row[c] += factor * other[c];
+          }
+    }
+  } // namespace
+
+
 
   ElementKernel::ElementKernel(const Mapping<dim>       &mapping,
                                const FiniteElement<dim> &fe,
@@ -28,6 +57,8 @@ namespace Touchstone
     , n_points(quadrature.size())
     , gradients(n_points, std::vector<Tensor<1, dim>>(n_nodes + n_modes))
     , mean_gradients(n_nodes)
+    , weighted(dim * (n_nodes + n_modes) * n_points)
+    , products(dim * dim * (n_nodes + n_modes) * (n_nodes + n_modes))
     , full(dim * (n_nodes + n_modes), dim * (n_nodes + n_modes))
     , condensed(dim * n_nodes, dim * n_nodes)
     , recovery(dim * n_modes, dim * n_nodes)
@@ -91,24 +122,24 @@ namespace Touchstone
     const double       bulk    = lambda + 2. / 3. * mu;
     const double       lambda_ = b_bar ? -2. / 3. * mu : lambda;
     const unsigned int n       = n_nodes + n_modes;
+    for (unsigned int q = 0; q < n_points; ++q)
+      {
+        const double factor = std::sqrt(values.JxW(q));
+        for (unsigned int a = 0; a < n; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            weighted[dim * (n * q + a) + i] = factor * gradients[q][a][i];
+      }
+    upper_part_of_square(dim * n, n_points, weighted.data(), products.data());
     for (unsigned int a = 0; a < n; ++a)
       for (unsigned int b = a; b < n; ++b)
         {
-          double g[dim][dim] = {};
-          for (unsigned int q = 0; q < n_points; ++q)
-            {
-              const Tensor<1, dim> &ga = gradients[q][a];
-              const Tensor<1, dim> &gb = gradients[q][b];
-              const double          w  = values.JxW(q);
-              for (unsigned int i = 0; i < dim; ++i)
-                for (unsigned int j = 0; j < dim; ++j)
-                  g[i][j] += w * ga[i] * gb[j];
-            }
-          const double trace = g[0][0] + g[1][1] + g[2][2];
+          const double *g     = &products[dim * (dim * n * a + b)];
+          const double  trace = g[0] + g[dim * n + 1] + g[2 * (dim * n + 1)];
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = 0; j < dim; ++j)
               {
-                double k = lambda_ * g[i][j] + mu * (g[j][i] + (i == j ? trace : 0.));
+                double k =
+                  lambda_ * g[dim * n * i + j] + mu * (g[dim * n * j + i] + (i == j ? trace : 0.));
                 if (b_bar)
                   k += bulk * cell_volume * mean_gradients[a][i] * mean_gradients[b][j];
                 full(dim * a + i, dim * b + j) = k;
@@ -132,22 +163,24 @@ namespace Touchstone
       for (unsigned int j = 0; j < m; ++j)
         inner(i, j) = full(n + i, n + j);
     inner.gauss_jordan();
+    recovery = 0.;
     for (unsigned int i = 0; i < m; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        {
-          double sum = 0.;
-          for (unsigned int k = 0; k < m; ++k)
-            sum -= inner(i, k) * full(n + k, j);
-          recovery(i, j) = sum;
-        }
+      for (unsigned int k = 0; k < m; ++k)
+        for (unsigned int j = 0; j < n; ++j)
+          recovery(i, j) -= inner(i, k) * full(n + k, j);
     for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = i; j < n; ++j)
-        {
-          double sum = full(i, j);
-          for (unsigned int k = 0; k < m; ++k)
-            sum += full(n + k, i) * recovery(k, j);
-          condensed(i, j) = condensed(j, i) = sum;
-        }
+      {
+        for (unsigned int j = i; j < n; ++j)
+          condensed(i, j) = full(i, j);
+        for (unsigned int k = 0; k < m; ++k)
+          {
+            const double factor = full(n + k, i);
+            for (unsigned int j = i; j < n; ++j)
+              condensed(i, j) += factor * recovery(k, j);
+          }
+        for (unsigned int j = i + 1; j < n; ++j)
+          condensed(j, i) = condensed(i, j);
+      }
     return condensed;
   }
 

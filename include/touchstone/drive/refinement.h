@@ -68,9 +68,20 @@ namespace Touchstone
     Values
     pressure_variation(const std::vector<Vector>                  &fields,
                        const std::vector<Contact::PairBoundaries> &pairs) const;
-    /** Add the master faces that the marked slave faces meet. */
-    void
-    mark_masters(const StepProblem &problem, std::vector<bool> &marked) const;
+    int
+    finest_level() const;
+    /** Of the slave faces of a pair whose rows refer to a master node, as they will be: the
+     * sum of (length / size)^sharpness, on the first component of the node. */
+    Vector
+    faces_at_masters(const StepProblem             &problem,
+                     unsigned int                   pair,
+                     const Contact::PairBoundaries &boundaries,
+                     double                         length,
+                     bool                           refined_only) const;
+    /** Mark the master faces that would be coarser than the refined slave faces that they
+     * meet, and keep those that would become so. @return whether any. Collective. */
+    bool
+    follow_slaves(const StepProblem &problem);
     /** The value down to which the largest @p values make up a share of their sum. */
     double
     bulk_threshold(const Values &values, double fraction) const;

@@ -105,10 +105,13 @@ namespace Touchstone
     /** Gradients of shapes and incompatible modes, [point][shape]. */
     std::vector<std::vector<dealii::Tensor<1, dim>>> gradients;
     std::vector<dealii::Tensor<1, dim>>              mean_gradients;
-    double                                           cell_volume = 0.;
-    dealii::FullMatrix<double>                       full, condensed, recovery;
-    std::vector<double>                              displacement;
-    double                                           mean_dilatation = 0.;
+    /** Gradients times the root of their weight, and the sums over all points of products of
+     * two. */
+    std::vector<double>        weighted, products;
+    double                     cell_volume = 0.;
+    dealii::FullMatrix<double> full, condensed, recovery;
+    std::vector<double>        displacement;
+    double                     mean_dilatation = 0.;
 
     void
     integrate();
