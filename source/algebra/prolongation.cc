@@ -158,6 +158,9 @@ namespace Touchstone
             (*coarse_kernel)[m][n_modes * a + i] = factor[n_modes * i + m];
       }
 
+    if (coarse_map.NumGlobalElements() == 0)
+      return;
+
     // With those of the neighbouring ranks.
     const auto                                        aim = with_ghosts(fine, target);
     std::vector<std::unique_ptr<const GhostedVector>> shape;

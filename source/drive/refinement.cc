@@ -4,7 +4,7 @@
 #include <touchstone/solid/state_transfer.h>
 
 #include <deal.II/distributed/solution_transfer.h>
-#include <deal.II/grid/grid_refinement.h>
+#include <deal.II/grid/grid_tools.h>
 
 #include <cmath>
 
@@ -260,6 +260,52 @@ namespace Touchstone
 
 
   bool
+  Refinement::share_marks()
+  {
+    enum : unsigned int
+    {
+      keep,
+      refine,
+      coarsen
+    };
+    using Cell      = Triangulation<dim>::active_cell_iterator;
+    const auto pack = [](const Cell &cell) -> std_cxx17::optional<unsigned int> {
+      return cell->refine_flag_set() ? refine : cell->coarsen_flag_set() ? coarsen : keep;
+    };
+    int changes = 0;
+    GridTools::exchange_cell_data_to_ghosts<unsigned int>(
+      forest.triangulation, pack, [&](const Cell &cell, const unsigned int mark) {
+        if (mark == *pack(cell))
+          return;
+        changes = 1;
+        cell->clear_refine_flag();
+        cell->clear_coarsen_flag();
+        if (mark == refine)
+          cell->set_refine_flag();
+        // Its owner knows of the whole family, this rank perhaps not.
+        else if (mark == coarsen)
+          for (unsigned int child = 0; child < cell->parent()->n_children(); ++child)
+            if (cell->parent()->child(child)->is_active())
+              cell->parent()->child(child)->set_coarsen_flag();
+      });
+    return Utilities::MPI::max(changes, solid.communicator) == 1;
+  }
+
+
+
+  void
+  Refinement::settle_marks()
+  {
+    share_marks();
+    unsigned int sweep = 0;
+    do
+      forest.triangulation.prepare_coarsening_and_refinement();
+    while (share_marks() && ++sweep < 20);
+  }
+
+
+
+  bool
   Refinement::mark(const StepProblem &problem, const double time)
   {
     const RefinementParameters &parameters = scene.refinement;
@@ -291,7 +337,7 @@ namespace Touchstone
     // oscillate. What the mesh adds to the marks may be slave faces, and so on.
     unsigned int sweep = 0;
     do
-      mesh.prepare_coarsening_and_refinement();
+      settle_marks();
     while (follow_slaves(problem) && ++sweep < 20);
 
     unsigned int finer = 0;
@@ -303,7 +349,7 @@ namespace Touchstone
       {
         for (const auto &cell : mesh.active_cell_iterators())
           cell->clear_refine_flag();
-        mesh.prepare_coarsening_and_refinement();
+        settle_marks();
       }
 
     int changes = 0;

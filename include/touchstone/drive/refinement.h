@@ -82,6 +82,13 @@ namespace Touchstone
      * meet, and keep those that would become so. @return whether any. Collective. */
     bool
     follow_slaves(const StepProblem &problem);
+    /** Learn the marks of ghost cells. @return whether any is new. Collective. */
+    bool
+    share_marks();
+    /** Complete the marks so that neighbours stay alike, those of other ranks as well: else
+     * less would be joined where ranks meet. Collective. */
+    void
+    settle_marks();
     /** The value down to which the largest @p values make up a share of their sum. */
     double
     bulk_threshold(const Values &values, double fraction) const;
