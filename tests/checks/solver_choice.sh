@@ -28,8 +28,11 @@ tubes factorised 1 1.5 --set "Linear solver/Type=MUMPS"
 tubes fallen_back 1 1.5 --set "Linear solver/Maximum iterations=3"
 [ "$(count fallen_back preconditioner_setups)" -eq 1 ] || fail "tried again after it failed"
 [ "$(count fallen_back factorisations)" -gt 0 ] || fail "MUMPS does not take over"
+[ "$(count fallen_back steps)" -eq 1 ] || fail "the step is cut where MUMPS takes over"
 same large factorised 1e-7
 same large fallen_back 1e-7
+tubes assembled 1 1.5 --set "Linear solver/Contact operator=assembled"
+same large assembled 1e-7
 
 # Iterations hardly grow with the mesh, and are the same on two ranks: aggregates that
 # went through the contact surface took 14.2, and 15.6 on the finer mesh.
