@@ -41,6 +41,7 @@ namespace
   struct System
   {
     Matrix                           stiffness;
+    LinearSystem                     system;
     std::unique_ptr<CondensedSystem> condensed;
     std::unique_ptr<RigidMotions>    motions;
 
@@ -72,7 +73,6 @@ namespace
       entries([&](const Index i, const Index j, const double k) { stiffness.add(i, j, k); });
       stiffness.compress(VectorOperation::add);
 
-      LinearSystem system;
       system.stiffness = &stiffness;
       system.tolerance = 1e-10;
       system.rhs.reinit(owned, communicator);

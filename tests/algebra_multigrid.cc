@@ -262,7 +262,10 @@ main(int argc, char **argv)
       if (rows[i] / 3 >= layer)
         motions[rows[i] % 3][i] = 1.;
     }
-  test_prolongation(*matrix, motions, body, rows);
+  std::vector<unsigned int> body_of_nodes;
+  for (std::size_t i = 0; i < rows.size(); i += 3)
+    body_of_nodes.push_back(body[i]);
+  test_prolongation(*matrix, motions, body_of_nodes, rows);
   for (const bool coarse_levels : {true, false})
     {
       const Multigrid multigrid(matrix, motions, body, coarse_levels);

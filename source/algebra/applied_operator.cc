@@ -86,27 +86,22 @@ namespace Touchstone
     map.Comm().MaxAll(&here, &any, 1);
     if (any == 0)
       return;
-    std::vector<unsigned int> order(system.terms.size());
-    for (unsigned int k = 0; k < order.size(); ++k)
-      order[k] = k;
-    std::stable_sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-      return system.terms[a].row < system.terms[b].row;
-    });
     auto                matrix = std::make_unique<Epetra_FECrsMatrix>(Copy, map, 0);
     std::vector<int>    columns;
     std::vector<double> values;
-    for (std::size_t k = 0; k < order.size();)
-      {
-        const int row = static_cast<int>(system.terms[order[k]].row);
-        columns.clear();
-        values.clear();
-        for (; k < order.size() && static_cast<int>(system.terms[order[k]].row) == row; ++k)
-          {
-            columns.push_back(static_cast<int>(system.terms[order[k]].column));
-            values.push_back(system.terms[order[k]].value);
-          }
-        matrix->InsertGlobalValues(row, columns.size(), values.data(), columns.data());
-      }
+    for_each_row(system.terms, [&](const Index row, const std::vector<const MatrixTerm *> &of_row) {
+      columns.clear();
+      values.clear();
+      for (const MatrixTerm *term : of_row)
+        {
+          columns.push_back(static_cast<int>(term->column));
+          values.push_back(term->value);
+        }
+      matrix->InsertGlobalValues(static_cast<int>(row),
+                                 columns.size(),
+                                 values.data(),
+                                 columns.data());
+    });
     matrix->GlobalAssemble(map, map);
     terms = std::move(matrix);
   }

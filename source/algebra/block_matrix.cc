@@ -45,8 +45,6 @@ namespace Touchstone
                        const Utilities::MPI::Partitioner &partitioner)
     : matrix(matrix)
     , number(matrix.NumMyCols())
-    , place((partitioner.locally_owned_size() + partitioner.n_ghost_indices()) / dim,
-            numbers::invalid_unsigned_int)
   {
     for (unsigned int j = 0; j < number.size(); ++j)
       number[j] = partitioner.global_to_local(matrix.GCID(j));
@@ -54,11 +52,10 @@ namespace Touchstone
 
 
 
-  void
+  const RowOfBlocks<BlockRows::Block> &
   BlockRows::read(const unsigned int node)
   {
-    columns.clear();
-    blocks.clear();
+    present.clear();
     for (unsigned int d = 0; d < dim; ++d)
       {
         int     n;
@@ -67,18 +64,11 @@ namespace Touchstone
         matrix.ExtractMyRowView(dim * node + d, n, value, local);
         for (int k = 0; k < n; ++k)
           {
-            const unsigned int j = number[local[k]], other = j / dim;
-            if (place[other] == numbers::invalid_unsigned_int)
-              {
-                place[other] = columns.size();
-                columns.push_back(other);
-                blocks.push_back({});
-              }
-            blocks[place[other]][dim * d + j % dim] += value[k];
+            const unsigned int j = number[local[k]];
+            present.at(static_cast<int>(j / dim))[dim * d + j % dim] += value[k];
           }
       }
-    for (const unsigned int other : columns)
-      place[other] = numbers::invalid_unsigned_int;
+    return present;
   }
 
 
@@ -96,18 +86,18 @@ namespace Touchstone
     entries.reserve(block * n_blocks + 1);
     for (unsigned int node = 0; node < rows.n_nodes(); ++node)
       {
-        rows.read(node);
-        order.resize(rows.columns.size());
+        const auto &row = rows.read(node);
+        order.resize(row.columns.size());
         std::iota(order.begin(), order.end(), 0U);
         std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-          return rows.columns[a] < rows.columns[b];
+          return row.columns[a] < row.columns[b];
         });
         for (const unsigned int k : order)
           {
-            column.push_back(rows.columns[k]);
+            column.push_back(row.columns[k]);
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int r = 0; r < dim; ++r)
-                entries.push_back(static_cast<float>(rows.blocks[k][dim * r + c]));
+                entries.push_back(static_cast<float>(row.blocks[k][dim * r + c]));
           }
         start.push_back(column.size());
       }

@@ -11,6 +11,29 @@ namespace Touchstone
   using namespace dealii;
 
   void
+  for_each_row(const std::vector<MatrixTerm>                                             &terms,
+               const std::function<void(Index, const std::vector<const MatrixTerm *> &)> &visit)
+  {
+    std::vector<const MatrixTerm *> order;
+    for (const MatrixTerm &term : terms)
+      order.push_back(&term);
+    std::stable_sort(order.begin(), order.end(), [](const MatrixTerm *a, const MatrixTerm *b) {
+      return a->row < b->row;
+    });
+    std::vector<const MatrixTerm *> of_row;
+    for (std::size_t k = 0; k < order.size();)
+      {
+        of_row.clear();
+        const Index row = order[k]->row;
+        for (; k < order.size() && order[k]->row == row; ++k)
+          of_row.push_back(order[k]);
+        visit(row, of_row);
+      }
+  }
+
+
+
+  void
   LinearSystem::expand(Vector &solution) const
   {
     if (basis_change.get_local_lines().size() > 0)
@@ -202,23 +225,12 @@ namespace Touchstone
   void
   Condensation::add_terms()
   {
-    std::vector<unsigned int> order(system.terms.size());
-    for (unsigned int k = 0; k < order.size(); ++k)
-      order[k] = k;
-    std::stable_sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-      return system.terms[a].row < system.terms[b].row;
+    for_each_row(system.terms, [&](const Index row, const std::vector<const MatrixTerm *> &terms) {
+      double product = 0.;
+      for (const MatrixTerm *term : terms)
+        product += expand(columns.local(term->column), term->value);
+      add_source(row_numbers.local(row), -product);
     });
-    for (std::size_t k = 0; k < order.size();)
-      {
-        const Index row     = system.terms[order[k]].row;
-        double      product = 0.;
-        for (; k < order.size() && system.terms[order[k]].row == row; ++k)
-          {
-            const MatrixTerm &term = system.terms[order[k]];
-            product += expand(columns.local(term.column), term.value);
-          }
-        add_source(row_numbers.local(row), -product);
-      }
   }
 
 

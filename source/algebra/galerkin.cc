@@ -103,17 +103,17 @@ namespace Touchstone
     RowOfBlocks<NodeBlock>    product;
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
-        rows.read(node);
+        const auto &row = rows.read(node);
         product.clear();
-        for (unsigned int k = 0; k < rows.columns.size(); ++k)
-          if (const unsigned int other = rows.columns[k]; other < n_nodes)
+        for (unsigned int k = 0; k < row.columns.size(); ++k)
+          if (const unsigned int other = row.columns[k]; other < n_nodes)
             for (std::size_t b = start[other]; b < start[other + 1]; ++b)
-              add_product(rows.blocks[k],
+              add_product(row.blocks[k],
                           entries.data() + block * b,
                           product.at(static_cast<int>(column[b])));
           else
             for (unsigned int b = 0; b < far_columns[other - n_nodes].size(); ++b)
-              add_product(rows.blocks[k],
+              add_product(row.blocks[k],
                           far[other - n_nodes].entries.data() + block * b,
                           product.at(far_columns[other - n_nodes][b]));
         for (std::size_t b = start[node]; b < start[node + 1]; ++b)

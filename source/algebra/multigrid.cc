@@ -34,7 +34,7 @@ namespace Touchstone
       // Aggregates of the user need levels counted from the coarsest one.
       list.set("increasing or decreasing", "decreasing");
       list.set("aggregation: type", "user");
-      list.set("aggregation: threshold", 0.003);
+      list.set("aggregation: threshold", weak_coupling);
       list.set("smoother: type", "Chebyshev");
       list.set("smoother: sweeps", degree);
       list.set("smoother: Chebyshev alpha", range);
@@ -110,17 +110,17 @@ namespace Touchstone
     : SquareOperator(system->RowMap(), "smoothed aggregation")
     , matrix(std::move(system))
   {
+    std::vector<unsigned int> body_of_nodes(map.NumMyElements() / dim);
+    for (unsigned int node = 0; node < body_of_nodes.size(); ++node)
+      body_of_nodes[node] = body[dim * node];
     if (coarse_levels && map.NumGlobalElements() > few)
       {
-        make_finest_level(near_kernel, body);
+        make_finest_level(near_kernel, body_of_nodes);
         if (prolongation)
           make_hierarchy(ml_parameters(prolongation->coarse_near_kernel(), Prolongation::n_modes),
                          prolongation->coarse_body());
         return;
       }
-    std::vector<unsigned int> body_of_nodes(map.NumMyElements() / dim);
-    for (unsigned int node = 0; node < body_of_nodes.size(); ++node)
-      body_of_nodes[node] = body[dim * node];
     Teuchos::ParameterList list = ml_parameters(near_kernel, dim);
     if (!coarse_levels)
       {
@@ -135,7 +135,7 @@ namespace Touchstone
 
   void
   Multigrid::make_finest_level(const Epetra_MultiVector        &near_kernel,
-                               const std::vector<unsigned int> &body)
+                               const std::vector<unsigned int> &body_of_nodes)
   {
     fine_matrix = std::make_unique<BlockMatrix>(*matrix);
     Chebyshev::AdditionalData data(degree, range, estimate_iterations);
@@ -148,7 +148,7 @@ namespace Touchstone
     const double largest = smoother->estimate_eigenvalues(fine_rhs).max_eigenvalue_estimate;
 
     prolongation = std::make_unique<Prolongation>(
-      *matrix, near_kernel, body, fine_matrix->vector_partitioner(), largest / margin);
+      *matrix, near_kernel, body_of_nodes, fine_matrix->vector_partitioner(), largest / margin);
     // Where nothing is coupled, smoothing is all.
     if (prolongation->coarse_near_kernel().GlobalLength() == 0)
       {

@@ -13,9 +13,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Couplings weaker than this, over the diagonal, do not count for aggregates. */
-    constexpr double weak = 0.003;
-
     using NodeBlock      = Prolongation::NodeBlock;
     using AggregateBlock = Prolongation::AggregateBlock;
     using Modes          = std::array<double, Prolongation::n_modes>;
@@ -28,18 +25,19 @@ namespace Touchstone
       std::vector<std::vector<int>> graph(n_nodes);
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
-          rows.read(node);
-          for (unsigned int k = 0; k < rows.columns.size(); ++k)
+          const auto &row = rows.read(node);
+          for (unsigned int k = 0; k < row.columns.size(); ++k)
             {
-              const unsigned int other = rows.columns[k];
+              const unsigned int other = row.columns[k];
               if (other == node || other >= n_nodes)
                 continue;
               bool strong = false;
               for (unsigned int r = 0; r < dim; ++r)
                 for (unsigned int c = 0; c < dim; ++c)
                   {
-                    const double entry = rows.blocks[k][dim * r + c];
-                    strong = strong || entry * entry > weak * weak * diagonal[dim * node + r] *
+                    const double entry = row.blocks[k][dim * r + c];
+                    strong             = strong || entry * entry > weak_coupling * weak_coupling *
+                                                         diagonal[dim * node + r] *
                                                          diagonal[dim * other + c];
                   }
               if (strong)
@@ -118,10 +116,7 @@ namespace Touchstone
       Epetra_Vector copy(View, matrix.RowMap(), diagonal.data());
       matrix.ExtractDiagonalCopy(copy);
     }
-    std::vector<unsigned int> body_of_node(n_nodes);
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      body_of_node[node] = body[dim * node];
-    const Aggregates aggregates = aggregate(couplings(rows, diagonal), body_of_node);
+    const Aggregates aggregates = aggregate(couplings(rows, diagonal), body);
 
     // Motions of each aggregate, orthonormal.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);
@@ -140,7 +135,7 @@ namespace Touchstone
     std::vector<Modes>               q;
     for (int a = 0; a < aggregates.n; ++a)
       {
-        body_of_aggregate[a] = body_of_node[nodes[a].front()];
+        body_of_aggregate[a] = body[nodes[a].front()];
         q.assign(dim * nodes[a].size(), Modes());
         for (unsigned int k = 0; k < q.size(); ++k)
           for (unsigned int m = 0; m < n_given; ++m)
@@ -193,15 +188,15 @@ namespace Touchstone
     start.push_back(0);
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
-        rows.read(node);
+        const auto &of_matrix = rows.read(node);
         row.clear();
         for (unsigned int r = 0; r < dim; ++r)
           {
             add(dim * node + r, r, 1.);
             const double damping = omega / diagonal[dim * node + r];
-            for (unsigned int k = 0; k < rows.columns.size(); ++k)
+            for (unsigned int k = 0; k < of_matrix.columns.size(); ++k)
               for (unsigned int c = 0; c < dim; ++c)
-                add(dim * rows.columns[k] + c, r, -damping * rows.blocks[k][dim * r + c]);
+                add(dim * of_matrix.columns[k] + c, r, -damping * of_matrix.blocks[k][dim * r + c]);
           }
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           {

@@ -5,6 +5,9 @@
 
 namespace Touchstone
 {
+  /** @brief Couplings weaker than this, over the diagonal, do not count for aggregates. */
+  constexpr double weak_coupling = 0.003;
+
   /** @brief Nodes that stand for one on the next coarser level of multigrid. */
   struct Aggregates
   {

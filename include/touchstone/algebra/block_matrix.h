@@ -1,6 +1,7 @@
 #ifndef touchstone_algebra_block_matrix_h
 #define touchstone_algebra_block_matrix_h
 
+#include <touchstone/algebra/row_of_blocks.h>
 #include <touchstone/types.h>
 
 #include <deal.II/base/aligned_vector.h>
@@ -30,8 +31,9 @@ namespace Touchstone
     BlockRows(const Epetra_CrsMatrix                    &matrix,
               const dealii::Utilities::MPI::Partitioner &partitioner);
 
-    /** @brief Read the rows of a node of this rank into columns and blocks. */
-    void
+    /** @brief The rows of a node of this rank: nodes to which it is coupled, itself
+     * included, by local number, and blocks. Valid until the next call. */
+    const RowOfBlocks<Block> &
     read(unsigned int node);
 
     unsigned int
@@ -45,15 +47,11 @@ namespace Touchstone
     static std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
     make_partitioner(const Epetra_CrsMatrix &matrix);
 
-    /** Nodes to which the present one is coupled, itself included, by local number; and
-     * the blocks. */
-    std::vector<unsigned int> columns;
-    std::vector<Block>        blocks;
-
   private:
     const Epetra_CrsMatrix &matrix;
-    /** Local number of each column of the matrix; place of each node in the present rows. */
-    std::vector<unsigned int> number, place;
+    /** Local number of each column of the matrix. */
+    std::vector<unsigned int> number;
+    RowOfBlocks<Block>        present;
   };
 
   /**

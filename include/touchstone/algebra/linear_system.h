@@ -7,6 +7,7 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,6 +20,12 @@ namespace Touchstone
     Index  row, column;
     double value;
   };
+
+  /** @brief Visit the terms of each row together, rows in ascending order and the terms of
+   * a row as they came: visit(row, its terms). */
+  void
+  for_each_row(const std::vector<MatrixTerm>                                             &terms,
+               const std::function<void(Index, const std::vector<const MatrixTerm *> &)> &visit);
 
   /**
    * @brief The linear system of a Newton iteration as its parts: continuum

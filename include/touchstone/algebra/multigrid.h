@@ -27,7 +27,7 @@ namespace Touchstone
   {
   public:
     /**
-     * @param matrix        Kept if there are no coarse levels.
+     * @param matrix        Kept where ML has all levels.
      * @param near_kernel   Motions with little or no energy that the coarse levels must be
      *                      able to represent, zero at constrained unknowns.
      * @param body          Body of each row of this rank: aggregates() are within one.
@@ -61,7 +61,8 @@ namespace Touchstone
 
     /** @brief The finest level and the matrix of the next. */
     void
-    make_finest_level(const Epetra_MultiVector &near_kernel, const std::vector<unsigned int> &body);
+    make_finest_level(const Epetra_MultiVector        &near_kernel,
+                      const std::vector<unsigned int> &body_of_nodes);
     void
     make_hierarchy(const Teuchos::ParameterList    &list,
                    const std::vector<unsigned int> &body_of_nodes);

@@ -43,7 +43,7 @@ namespace Touchstone
     /**
      * @param matrix      Over the displacements, symmetric pattern.
      * @param near_kernel Rigid motions, zero at constrained unknowns; at most n_modes.
-     * @param body        Body of each row of this rank.
+     * @param body        Body of each node of this rank.
      * @param fine        Of vectors over the displacements.
      * @param largest     Largest eigenvalue of the matrix over its diagonal.
      */
