@@ -2,10 +2,11 @@
 #include <touchstone/contact/facing_faces.h>
 #include <touchstone/contact/pairing.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
 
-#include <list>
-#include <map>
+#include <algorithm>
+#include <optional>
 #include <unordered_map>
 
 namespace Touchstone
@@ -14,6 +15,10 @@ namespace Touchstone
 
   namespace
   {
+    /** Of the shortest edge: nodes that move by less do not change which faces face each
+     * other, but for those beside them. */
+    constexpr double small_part = 0.02;
+
     /**
      * Rows that pass the patch test: the stencil of a slave node are averages of
      * the master shapes, weighted with the dual basis of its slave faces. With
@@ -37,9 +42,12 @@ namespace Touchstone
                  input.parameters->edge_tolerance,
                  master_normal(input.parameters->master_normal),
                  input.solid->communicator)
-        , facing(search)
+        , facing(search,
+                 small_part * std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
         , kind(master_normal(input.parameters->master_normal))
       {
+        for (const SurfaceNode &node : input.slave->owned_nodes())
+          places.emplace(node.node, places.size());
         search.commit(nullptr);
         // Both sides of the gap are smooth or none, or it would be measured from
         // facets that stray from their surface to one that does not. The normals of
@@ -74,6 +82,7 @@ namespace Touchstone
               found != memory.of_faces.end())
             own.insert(*found);
         facing.remember(own);
+        searched.clear();
       }
 
       SearchWork
@@ -86,12 +95,31 @@ namespace Touchstone
       }
 
     private:
-      /** Sums over the slave faces around a node. */
-      struct Sums
+      /** Of a weight function over slave faces, times 1, the gap and the normal. */
+      struct Integrals
       {
-        double                  area = 0.;
-        std::map<Index, double> stencil;
-        Tensor<1, dim>          gap, normal;
+        double         area = 0.;
+        Tensor<1, dim> gap, normal;
+      };
+
+      /** Sums over the slave faces around a node. */
+      struct Sums : Integrals
+      {
+        /** A dozen nodes or two, in the order in which they came. */
+        Stencil stencil;
+
+        void
+        add(const Index node, const double value)
+        {
+          const auto found =
+            std::find_if(stencil.begin(), stencil.end(), [node](const StencilEntry &entry) {
+              return entry.node == node;
+            });
+          if (found != stencil.end())
+            found->weight += value;
+          else
+            stencil.push_back({node, value});
+        }
       };
 
       Search       search;
@@ -109,10 +137,27 @@ namespace Touchstone
         std::vector<const Face *> masters;
       };
 
-      /** Of the last update: sums by owned node, and the slave faces around them. */
-      std::unordered_map<Index, Sums> sums;
-      std::vector<Covered>            slave_faces;
+      /** Of the last update: sums in the order of the owned nodes, and the slave faces
+       * around them. */
+      std::vector<Sums>    sums;
+      std::vector<Covered> slave_faces;
 
+      /** Places of the owned nodes. */
+      std::unordered_map<Index, std::size_t> places;
+
+      /** Of the faces that the search knows, made when one is first asked for. */
+      std::vector<std::optional<FaceGeometry>> geometries;
+
+      /** Displacements of the faces of this rank, slaves and then masters, when all
+       * facing faces were looked for last. */
+      std::vector<Tensor<1, dim>> searched;
+
+      const FaceGeometry &
+      geometry(const Face &master);
+      /** Look for facing faces anew if any node has moved so far that others may face.
+       * Collective. */
+      void
+      watch_motion();
       void
       add_face(Covered &covered);
     };
@@ -131,6 +176,39 @@ namespace Touchstone
       facing.commit(faces);
       search.commit(&u);
       start = u;
+      searched.clear();
+    }
+
+
+
+    const FaceGeometry &
+    AveragedPairing::geometry(const Face &master)
+    {
+      auto &result = geometries[search.place(master)];
+      if (!result)
+        result.emplace(search.geometry(master));
+      return *result;
+    }
+
+
+
+    void
+    AveragedPairing::watch_motion()
+    {
+      std::vector<Tensor<1, dim>> now;
+      for (const Surface *surface : {input.slave, input.master})
+        for (const Face &face : surface->owned_faces())
+          now.insert(now.end(),
+                     face.displacement.begin(),
+                     face.displacement.begin() + face.n_nodes());
+      const double square = facing.motion() * facing.motion();
+      bool         close  = searched.size() == now.size();
+      for (std::size_t i = 0; close && i < now.size(); ++i)
+        close = (now[i] - searched[i]).norm_square() <= square;
+      if (Utilities::MPI::min(close ? 1 : 0, input.solid->communicator) == 1)
+        return;
+      facing.look_anew();
+      searched.swap(now);
     }
 
 
@@ -138,70 +216,93 @@ namespace Touchstone
     void
     AveragedPairing::add_face(Covered &covered)
     {
-      const Face                                                &slave = covered.slave;
-      const unsigned int                                         n     = slave.n_nodes();
-      std::vector<std::pair<const FaceGeometry *, OverlapPoint>> points;
-      std::list<FaceGeometry>                                    geometries;
-      for (const FacingFace &face : facing.find(slave))
+      const Face                   &slave  = covered.slave;
+      const std::vector<FacingFace> masters = facing.find(slave);
+      const unsigned int            n      = slave.n_nodes();
+      const FaceGeometry            on_slave(slave, input.slave->exact_surface(slave), kind);
+
+      // Integrals of the slave shapes times themselves, 1, gap, normal, and master shapes.
+      using Values = std::array<double, Face::max_nodes>;
+      std::array<Values, Face::max_nodes>              mass{};
+      std::array<Integrals, Face::max_nodes>           integrals{};
+      std::vector<std::array<Values, Face::max_nodes>> mixed(masters.size());
+      for (std::size_t f = 0; f < masters.size(); ++f)
         {
-          covered.masters.push_back(face.master);
-          geometries.push_back(search.geometry(*face.master));
-          for (const OverlapPoint &point : face.points)
-            points.emplace_back(&geometries.back(), point);
+          const Face &face = *masters[f].master;
+          covered.masters.push_back(&face);
+          const FaceGeometry &on_master = geometry(face);
+          for (const OverlapPoint &point : masters[f].points)
+            {
+              const FaceShapes     shapes(slave.degree, point.slave);
+              const FaceShapes     master_shapes(face.degree, point.master);
+              const auto          [x, normal] = on_master.position_and_normal(point.master);
+              const Tensor<1, dim> gap        = on_slave.position(point.slave) - x;
+              for (unsigned int j = 0; j < n; ++j)
+                {
+                  const double value = point.weight * shapes.value[j];
+                  for (unsigned int k = 0; k < n; ++k)
+                    mass[j][k] += value * shapes.value[k];
+                  for (unsigned int m = 0; m < face.n_nodes(); ++m)
+                    mixed[f][j][m] += value * master_shapes.value[m];
+                  integrals[j].area += value;
+                  integrals[j].gap += value * gap;
+                  integrals[j].normal += value * normal;
+                }
+            }
         }
-      if (points.empty())
+      if (masters.empty())
         return;
 
-      const TraceBasis *basis  = input.slave->trace(slave);
-      const auto        values = [&](const OverlapPoint &point) {
-        const FaceShapes shapes(slave.degree, point.slave);
-        return basis ? basis->apply(shapes.value) : shapes.value;
+      // The basis N~ of the continuous displacements is C^T N, and the dual one of the
+      // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
+      // those with N.
+      const TraceBasis *basis = input.slave->trace(slave);
+      const auto        c     = [&](const unsigned int i, const unsigned int p) {
+        return basis ? basis->weights[i][p] : (i == p ? 1. : 0.);
       };
-
-      // The dual basis psi = D M^-1 N of the covered part.
-      FullMatrix<double>  mass(n, n);
-      std::vector<double> area(n, 0.);
-      for (const auto &[master, point] : points)
-        {
-          const auto shapes = values(point);
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              area[i] += point.weight * shapes[i];
-              for (unsigned int j = 0; j < n; ++j)
-                mass(i, j) += point.weight * shapes[i] * shapes[j];
-            }
-        }
+      FullMatrix<double> inverse(n, n), to_basis(n, n), weights(n, n);
+      double             trace = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int p = 0; p < n; ++p)
+          to_basis(p, i) = c(i, p);
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int k = 0; k < n; ++k)
+          weights(j, k) = mass[j][k];
+      inverse.triple_product(weights, to_basis, to_basis, false, true);
       // A sliver of coverage leaves the mass matrix singular to working precision:
       // a trace of the full face's matrix keeps it regular.
-      double trace = 0.;
       for (unsigned int i = 0; i < n; ++i)
-        trace += mass(i, i);
+        trace += inverse(i, i);
       for (unsigned int i = 0; i < n; ++i)
-        mass(i, i) += 1e-14 * trace;
-      mass.gauss_jordan();
+        inverse(i, i) += 1e-14 * trace;
+      inverse.gauss_jordan();
+      inverse.mmult(weights, to_basis);
 
-      const FaceGeometry on_slave(slave, input.slave->exact_surface(slave), kind);
-      for (const auto &[master, point] : points)
+      for (unsigned int i = 0; i < n; ++i)
         {
-          const auto           slave_shapes = values(point);
-          const Face          &face         = master->face();
-          const FaceShapes     master_shapes(face.degree, point.master);
-          const Tensor<1, dim> gap =
-            on_slave.evaluate(point.slave).x - master->evaluate(point.master).x;
-          const Tensor<1, dim> normal = master->normal(point.master);
-          for (unsigned int i = 0; i < n; ++i)
+          double area = 0.;
+          for (unsigned int j = 0; j < n; ++j)
+            area += to_basis(i, j) * integrals[j].area;
+          const auto found = places.find(basis ? basis->nodes[i] : slave.nodes[i]);
+          // Nodes of other ranks get their shares there.
+          if (found == places.end())
+            continue;
+          Sums &sum = sums[found->second];
+          for (unsigned int j = 0; j < n; ++j)
             {
-              double psi = 0.;
-              for (unsigned int j = 0; j < n; ++j)
-                psi += area[i] * mass(i, j) * slave_shapes[j];
-              Sums &sum = sums[basis ? basis->nodes[i] : slave.nodes[i]];
-              psi *= point.weight;
-              sum.area += psi;
-              sum.gap += psi * gap;
-              sum.normal += psi * normal;
-              for (unsigned int m = 0; m < face.n_nodes(); ++m)
-                sum.stencil[face.nodes[m]] += psi * master_shapes.value[m];
+              const double psi = area * weights(i, j);
+              sum.area += psi * integrals[j].area;
+              sum.gap += psi * integrals[j].gap;
+              sum.normal += psi * integrals[j].normal;
             }
+          for (std::size_t f = 0; f < masters.size(); ++f)
+            for (unsigned int m = 0; m < masters[f].master->n_nodes(); ++m)
+              {
+                double value = 0.;
+                for (unsigned int j = 0; j < n; ++j)
+                  value += weights(i, j) * mixed[f][j][m];
+                sum.add(masters[f].master->nodes[m], area * value);
+              }
         }
     }
 
@@ -211,9 +312,7 @@ namespace Touchstone
     AveragedPairing::update(const Vector &, const double, std::vector<ContactRow> &rows)
     {
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
-      sums.clear();
-      for (const SurfaceNode &node : nodes)
-        sums[node.node];
+      sums.assign(nodes.size(), {});
 
       // Faces of owned and of ghost cells that touch an owned node: their sums are
       // complete here without another rank.
@@ -225,7 +324,7 @@ namespace Touchstone
             bool              touches = false;
             const TraceBasis *basis   = input.slave->trace(face);
             for (unsigned int m = 0; m < face.n_nodes(); ++m)
-              touches = touches || sums.count(basis ? basis->nodes[m] : face.nodes[m]) > 0;
+              touches = touches || places.count(basis ? basis->nodes[m] : face.nodes[m]) > 0;
             if (!touches)
               continue;
             slave_faces.push_back({face, {}});
@@ -255,14 +354,16 @@ namespace Touchstone
               covered.slave.outer_edges  = complete.outer_edges;
             }
         }
-      // Nodes that are not owned here get a share, too, which is not used.
+      geometries.clear();
+      geometries.resize(search.known_faces().size());
+      watch_motion();
       for (Covered &covered : slave_faces)
         add_face(covered);
 
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow &row = rows[k];
-          const Sums &sum = sums.at(nodes[k].node);
+          Sums       &sum = sums[k];
           row.stencil.clear();
           if (sum.area < 1e-6 * nodes[k].area || sum.normal.norm() == 0.)
             {
@@ -272,9 +373,12 @@ namespace Touchstone
             }
           if (row.status == ContactStatus::no_partner)
             row.status = ContactStatus::open;
-          for (const auto &[node, value] : sum.stencil)
-            if (std::abs(value) > 1e-14 * sum.area)
-              row.stencil.push_back({node, value / sum.area});
+          std::sort(sum.stencil.begin(),
+                    sum.stencil.end(),
+                    [](const StencilEntry &a, const StencilEntry &b) { return a.node < b.node; });
+          for (const StencilEntry &entry : sum.stencil)
+            if (std::abs(entry.weight) > 1e-14 * sum.area)
+              row.stencil.push_back({entry.node, entry.weight / sum.area});
           row.normal     = sum.normal / sum.normal.norm();
           row.gap_vector = sum.gap / sum.area;
           row.gap        = row.gap_vector * row.normal;
@@ -291,7 +395,7 @@ namespace Touchstone
       for (const ContactRow &row : rows)
         if (row.active())
           {
-            const Sums &sum = sums.at(row.slave);
+            const Sums &sum = sums[places.at(row.slave)];
             derivative.add_row(row, sum.area, sum.normal);
           }
       for (const auto &[slave, masters] : slave_faces)

@@ -34,6 +34,21 @@ namespace Touchstone
 
   FaceShapes::FaceShapes(const unsigned int degree, const std::array<double, 2> &xi)
   {
+    // Searches and averages ask for millions of points, most of them on bilinear faces.
+    if (degree == 1)
+      {
+        const double low[2]  = {0.5 * (1. - xi[0]), 0.5 * (1. - xi[1])},
+                     high[2] = {0.5 * (1. + xi[0]), 0.5 * (1. + xi[1])};
+        value[0]             = low[0] * low[1];
+        value[1]             = high[0] * low[1];
+        value[2]             = low[0] * high[1];
+        value[3]             = high[0] * high[1];
+        gradient[0]          = {{-0.5 * low[1], -0.5 * low[0]}};
+        gradient[1]          = {{0.5 * low[1], -0.5 * high[0]}};
+        gradient[2]          = {{-0.5 * high[1], 0.5 * low[0]}};
+        gradient[3]          = {{0.5 * high[1], 0.5 * high[0]}};
+        return;
+      }
     double n[2][3], dn[2][3];
     for (unsigned int d = 0; d < 2; ++d)
       lagrange(degree, xi[d], n[d], dn[d]);

@@ -39,6 +39,33 @@ namespace Touchstone
 
 
 
+  Point<dim>
+  FaceGeometry::position(const std::array<double, 2> &xi) const
+  {
+    if (patch)
+      return patch->evaluate(xi).x;
+    const FaceShapes shapes(data.degree, xi);
+    Point<dim>       x;
+    Tensor<1, dim>   displacement;
+    for (unsigned int m = 0; m < data.n_nodes(); ++m)
+      {
+        x += shapes.value[m] * data.reference[m];
+        displacement += shapes.value[m] * data.displacement[m];
+      }
+    return (exact ? exact->project(x) : x) + displacement;
+  }
+
+
+
+  std::pair<Point<dim>, Tensor<1, dim>>
+  FaceGeometry::position_and_normal(const std::array<double, 2> &xi) const
+  {
+    const FacePoint point = evaluate(xi);
+    return {point.x, interpolates_normals() ? interpolated_normal(xi, point) : point.normal()};
+  }
+
+
+
   std::array<Tensor<1, dim>, 3>
   FaceGeometry::second_derivatives(const std::array<double, 2> &xi) const
   {
@@ -86,7 +113,7 @@ namespace Touchstone
 
 
   Tensor<1, dim>
-  FaceGeometry::interpolated_normal(const std::array<double, 2> &xi) const
+  FaceGeometry::interpolated_normal(const std::array<double, 2> &xi, const FacePoint &point) const
   {
     const FaceShapes shapes(data.degree, xi);
     Tensor<1, dim>   result;
@@ -101,7 +128,7 @@ namespace Touchstone
             for (unsigned int m = 0; m < data.n_nodes(); ++m)
               (*deviations)[m] = data.normals[m] - evaluate(node_coordinates(data, m)).normal();
           }
-        result = evaluate(xi).normal();
+        result = point.normal();
         for (unsigned int m = 0; m < data.n_nodes(); ++m)
           result += shapes.value[m] * (*deviations)[m];
       }
@@ -113,7 +140,7 @@ namespace Touchstone
   Tensor<1, dim>
   FaceGeometry::normal(const std::array<double, 2> &xi) const
   {
-    return interpolates_normals() ? interpolated_normal(xi) : evaluate(xi).normal();
+    return position_and_normal(xi).second;
   }
 
 
@@ -125,6 +152,6 @@ namespace Touchstone
     mean = Tensor<1, dim>();
     for (unsigned int m = 0; m < data.n_nodes(); ++m)
       mean += shapes.value[m] * data.edge_normals[m];
-    return interpolated_normal(xi) * mean < 0.999 * mean.norm();
+    return interpolated_normal(xi, evaluate(xi)) * mean < 0.999 * mean.norm();
   }
 } // namespace Touchstone

@@ -170,24 +170,39 @@ namespace Touchstone
 
 
   std::vector<FacingFace>
-  FacingFaces::find(const Face &slave) const
+  FacingFaces::find(const Face &slave)
   {
-    const Tensor<1, dim>            normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
-    const std::vector<const Face *> near   = search.near(box(slave), normal);
-    std::vector<FacingFace>         all    = cover(slave, near);
+    std::vector<const Face *> near;
+    if (const auto known = candidates.find(slave.key); known != candidates.end())
+      {
+        for (const auto &[key, place] : known->second)
+          if (const Face *face = search.face(key, place))
+            near.push_back(face);
+        return cover(slave, near);
+      }
+    const Tensor<1, dim> normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
+    near                        = search.near(box(slave), normal);
+    std::vector<FacingFace> all = cover(slave, near);
     // Those that cover the face mostly hang together without the help of others.
     const bool   layered = !one_layer(all, masters_of(all)) && !one_layer(all, near);
     const double far     = small_motion * std::sqrt(area(slave));
     bool         moved   = all.empty();
     for (const FacingFace &facing : all)
       moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
-    if (!moved && !layered)
-      return all;
-    const Entries in    = entries(slave, normal);
-    const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {
-      return std::find(near.begin(), near.end(), face) != near.end();
-    });
-    return known && !layered ? all : resolve(slave, normal, in);
+    if (moved || layered)
+      {
+        const Entries in    = entries(slave, normal);
+        const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {
+          return std::find(near.begin(), near.end(), face) != near.end();
+        });
+        if (!known || layered)
+          return resolve(slave, normal, in);
+      }
+    Candidates &those = candidates[slave.key];
+    for (const Face *face : near)
+      if (may_overlap(slave, *face, limit))
+        those.emplace_back(face->key, search.place(*face));
+    return all;
   }
 
 
@@ -281,5 +296,6 @@ namespace Touchstone
           now[slave->key] = master->key;
       }
     touched.swap(now);
+    look_anew();
   }
 } // namespace Touchstone

@@ -1,4 +1,5 @@
 #include <touchstone/contact/overlap.h>
+#include <touchstone/contact/polygon.h>
 #include <touchstone/contact/vector3.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -13,31 +14,6 @@ namespace Touchstone
 
   namespace
   {
-    // The geometry in the plane is written for double and for numbers that carry
-    // derivatives (Sacado); deal.II's Point does not go with the latter, whose
-    // products are expression templates.
-    template <typename Number>
-    struct Point2
-    {
-      Number x, y;
-    };
-
-    template <typename Number>
-    Point2<Number>
-    operator-(const Point2<Number> &a, const Point2<Number> &b)
-    {
-      return {a.x - b.x, a.y - b.y};
-    }
-
-    using Touchstone::cross;
-
-    template <typename Number>
-    Number
-    cross(const Point2<Number> &a, const Point2<Number> &b)
-    {
-      return a.x * b.y - a.y * b.x;
-    }
-
     inline double
     value(const double x)
     {
@@ -49,71 +25,6 @@ namespace Touchstone
     value(const Sacado::Fad::SFad<double, n> &x)
     {
       return x.val();
-    }
-
-    template <typename Number>
-    using Polygon = std::vector<Point2<Number>>;
-
-    template <typename Number>
-    Number
-    area(const Polygon<Number> &polygon)
-    {
-      Number sum = 0.;
-      for (std::size_t i = 2; i < polygon.size(); ++i)
-        sum += 0.5 * cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-      return sum;
-    }
-
-    /** Centre of area: unlike any of the corners it moves by round-off only when
-     * round-off adds or removes a corner. */
-    template <typename Number>
-    Point2<Number>
-    centroid(const Polygon<Number> &polygon)
-    {
-      Point2<Number> sum{0., 0.};
-      for (std::size_t i = 2; i < polygon.size(); ++i)
-        {
-          const Point2<Number> a = polygon[i - 1] - polygon[0];
-          const Point2<Number> b = polygon[i] - polygon[0];
-          const Number         c = 0.5 * cross(a, b) / 3.;
-          sum.x += c * (a.x + b.x);
-          sum.y += c * (a.y + b.y);
-        }
-      const Number whole = area(polygon);
-      return {polygon[0].x + sum.x / whole, polygon[0].y + sum.y / whole};
-    }
-
-    /** The part of @p subject within the convex, counterclockwise @p window.
-     * Sutherland and Hodgman (1974), Commun. ACM 17. */
-    template <typename Number>
-    Polygon<Number>
-    clip(Polygon<Number> subject, const Polygon<Number> &window)
-    {
-      for (std::size_t e = 0; e < window.size() && !subject.empty(); ++e)
-        {
-          const Point2<Number> &a    = window[e];
-          const Point2<Number>  edge = window[(e + 1) % window.size()] - a;
-          std::vector<Number>   side;
-          for (const Point2<Number> &p : subject)
-            side.push_back(cross(edge, p - a));
-          Polygon<Number> result;
-          for (std::size_t i = 0; i < subject.size(); ++i)
-            {
-              const std::size_t     j  = (i + 1) % subject.size();
-              const Point2<Number> &p  = subject[i];
-              const Number         &dp = side[i], &dq = side[j];
-              if (dp >= 0.)
-                result.push_back(p);
-              if ((dp > 0. && dq < 0.) || (dp < 0. && dq > 0.))
-                {
-                  const Number t = dp / (dp - dq);
-                  result.push_back(
-                    {p.x + t * (subject[j].x - p.x), p.y + t * (subject[j].y - p.y)});
-                }
-            }
-          subject.swap(result);
-        }
-      return subject;
     }
 
     template <typename Number>
@@ -134,6 +45,8 @@ namespace Touchstone
     struct Plane
     {
       Vector3<Number> origin, e1, e2;
+      /** Of the first tangent, and of the parallelogram of both. */
+      Number length, area;
 
       Plane(const Face &face, const Positions<Number> &x)
       {
@@ -153,7 +66,8 @@ namespace Touchstone
           }
         using std::sqrt;
         Vector3<Number> normal = cross(t[0], t[1]);
-        const Number    area = sqrt(dot(normal, normal)), length = sqrt(dot(t[0], t[0]));
+        area                   = sqrt(dot(normal, normal));
+        length                 = sqrt(dot(t[0], t[0]));
         for (unsigned int d = 0; d < dim; ++d)
           {
             normal[d] /= area;
@@ -163,12 +77,49 @@ namespace Touchstone
       }
     };
 
+    /** A bilinear map c_0 + c_1 xi + c_2 eta + c_3 xi eta, which takes a third of the
+     * operations of shape functions. */
+    template <unsigned int n>
+    struct Bilinear
+    {
+      using Values = std::array<double, n>;
+      Values c[4];
+
+      Bilinear() = default;
+
+      /** @param corner values of component d at corner m. */
+      template <typename Corner>
+      explicit Bilinear(const Corner &corner)
+      {
+        for (unsigned int d = 0; d < n; ++d)
+          {
+            const double a = corner(0, d), b = corner(1, d), e = corner(2, d), f = corner(3, d);
+            c[0][d]        = 0.25 * (a + b + e + f);
+            c[1][d]        = 0.25 * (b - a + f - e);
+            c[2][d]        = 0.25 * (e - a + f - b);
+            c[3][d]        = 0.25 * (a - b + f - e);
+          }
+      }
+
+      void
+      evaluate(const std::array<double, 2> &xi, Values &x, Values (&t)[2]) const
+      {
+        for (unsigned int d = 0; d < n; ++d)
+          {
+            t[0][d] = c[1][d] + c[3][d] * xi[1];
+            t[1][d] = c[2][d] + c[3][d] * xi[0];
+            x[d]    = c[0][d] + c[2][d] * xi[1] + t[0][d] * xi[0];
+          }
+      }
+    };
+
     /** A face projected onto a plane. */
     template <typename Number>
     struct Shadow
     {
       const Face                                 &face;
       std::array<Point2<Number>, Face::max_nodes> nodes;
+      Bilinear<2>                                 bilinear; // if of degree 1
 
       Shadow(const Face &face, const Positions<Number> &x, const Plane<Number> &plane)
         : face(face)
@@ -180,14 +131,18 @@ namespace Touchstone
               y[d] -= plane.origin[d];
             nodes[m] = {dot(y, plane.e1), dot(y, plane.e2)};
           }
+        if (face.degree == 1)
+          bilinear = Bilinear<2>([this](const unsigned int m, const unsigned int d) {
+            return value(d == 0 ? nodes[m].x : nodes[m].y);
+          });
       }
 
       /** The bilinear pieces, counterclockwise. */
-      std::vector<Polygon<Number>>
+      boost::container::static_vector<Polygon<Number>, 4>
       pieces() const
       {
-        std::vector<Polygon<Number>> result;
-        const unsigned int           p = face.degree;
+        boost::container::static_vector<Polygon<Number>, 4> result;
+        const unsigned int                                  p = face.degree;
         for (unsigned int j = 0; j < p; ++j)
           for (unsigned int i = 0; i < p; ++i)
             {
@@ -200,7 +155,7 @@ namespace Touchstone
         return result;
       }
 
-      /** Position and tangents at @p xi, without derivatives. */
+      /** Position and tangents, without derivatives. */
       Point2<double>
       evaluate(const FaceShapes &shapes, Point2<double> (&t)[2]) const
       {
@@ -220,18 +175,30 @@ namespace Touchstone
         return position;
       }
 
+      Point2<double>
+      evaluate(const std::array<double, 2> &xi, Point2<double> (&t)[2]) const
+      {
+        if (face.degree > 1)
+          return evaluate(FaceShapes(face.degree, xi), t);
+        Bilinear<2>::Values x, tangents[2];
+        bilinear.evaluate(xi, x, tangents);
+        for (unsigned int a = 0; a < 2; ++a)
+          t[a] = {tangents[a][0], tangents[a][1]};
+        return {x[0], x[1]};
+      }
+
       /** Face coordinates of a point of the plane, by Newton's method.
        * @return false if there are none near the face. */
       bool
-      invert(const double x, const double y, std::array<double, 2> &xi, double &jacobian) const
+      invert(const double x, const double y, std::array<double, 2> &xi) const
       {
         xi = {{0., 0.}};
         for (unsigned int iteration = 0; iteration < 20; ++iteration)
           {
             Point2<double>       t[2];
-            const Point2<double> position = evaluate(FaceShapes(face.degree, xi), t);
+            const Point2<double> position = evaluate(xi, t);
             const Point2<double> r{x - position.x, y - position.y};
-            jacobian = cross(t[0], t[1]);
+            const double         jacobian = cross(t[0], t[1]);
             if (jacobian == 0.)
               return false;
             const double d[2] = {cross(r, t[1]) / jacobian, cross(t[0], r) / jacobian};
@@ -245,9 +212,9 @@ namespace Touchstone
       }
     };
 
-    /** Whether the boxes around two shadows have nothing in common. */
+    /** Whether the boxes around two shadows are no closer than @p distance. */
     bool
-    apart(const Shadow<double> &a, const Shadow<double> &b)
+    apart(const Shadow<double> &a, const Shadow<double> &b, const double distance = 0.)
     {
       const auto range = [](const Shadow<double> &shadow, double Point2<double>::*const axis) {
         const auto end = shadow.nodes.begin() + shadow.face.n_nodes();
@@ -260,7 +227,7 @@ namespace Touchstone
       for (const auto axis : {&Point2<double>::x, &Point2<double>::y})
         {
           const auto of_a = range(a, axis), of_b = range(b, axis);
-          if (of_a.second <= of_b.first || of_b.second <= of_a.first)
+          if (of_a.second + distance <= of_b.first || of_b.second + distance <= of_a.first)
             return true;
         }
       return false;
@@ -301,6 +268,45 @@ namespace Touchstone
             }
         }
     }
+
+    /** Area of a face per area of its shadow. */
+    class Stretch
+    {
+    public:
+      Stretch(const Shadow<double> &shadow, const Positions<double> &x)
+        : shadow(shadow)
+        , x(x)
+      {
+        if (shadow.face.degree == 1)
+          bilinear = Bilinear<dim>(
+            [&x](const unsigned int m, const unsigned int d) { return x[m][d]; });
+      }
+
+      double
+      operator()(const std::array<double, 2> &xi) const
+      {
+        Vector3<double> place, t[2] = {{}, {}};
+        if (shadow.face.degree == 1)
+          bilinear.evaluate(xi, place, t);
+        else
+          {
+            const FaceShapes shapes(shadow.face.degree, xi);
+            for (unsigned int m = 0; m < shadow.face.n_nodes(); ++m)
+              for (unsigned int a = 0; a < 2; ++a)
+                for (unsigned int d = 0; d < dim; ++d)
+                  t[a][d] += shapes.gradient[m][a] * x[m][d];
+          }
+        const Vector3<double> c = cross(t[0], t[1]);
+        Point2<double>        flat[2];
+        shadow.evaluate(xi, flat);
+        return std::sqrt(dot(c, c)) / std::abs(cross(flat[0], flat[1]));
+      }
+
+    private:
+      const Shadow<double>    &shadow;
+      const Positions<double> &x;
+      Bilinear<dim>            bilinear; // if of degree 1
+    };
   } // namespace
 
 
@@ -317,23 +323,37 @@ namespace Touchstone
     // Most faces that are near are beside it.
     if (apart(slave_shadow, master_shadow))
       return points;
+    const Stretch stretch(slave_shadow, x);
     for_each_point(slave_shadow,
                    master_shadow,
                    [&](const Point2<double> &place, const double weight) {
                      OverlapPoint point;
-                     double       slave_jacobian, master_jacobian;
-                     if (!slave_shadow.invert(place.x, place.y, point.slave, slave_jacobian) ||
-                         !master_shadow.invert(place.x, place.y, point.master, master_jacobian))
+                     if (!slave_shadow.invert(place.x, place.y, point.slave) ||
+                         !master_shadow.invert(place.x, place.y, point.master))
                        return;
-                     // From the plane to the slave face.
-                     const FacePoint on_slave = evaluate(slave, nullptr, point.slave);
-                     const double    stretch =
-                       cross_product_3d(on_slave.tangents[0], on_slave.tangents[1]).norm() /
-                       std::abs(slave_jacobian);
-                     point.weight = weight * stretch;
+                     point.weight = weight * stretch(point.slave);
                      points.push_back(point);
                    });
     return points;
+  }
+
+
+
+  bool
+  may_overlap(const Face &slave, const Face &master, const double motion)
+  {
+    const Positions<double> x = positions(slave), y = positions(master);
+    const Plane<double>     plane(slave, x);
+    const Vector3<double>   normal = cross(plane.e1, plane.e2);
+    double                  height = 0.;
+    for (unsigned int m = 0; m < master.n_nodes(); ++m)
+      height = std::max(height,
+                        std::abs(dot(normal, y[m]) - dot(normal, plane.origin)));
+    // The plane may tilt, and then shadows move by the height.
+    const double tilt = motion * (1. / plane.length + plane.length / plane.area);
+    return !apart(Shadow<double>(slave, x, plane),
+                  Shadow<double>(master, y, plane),
+                  2. * (2. * motion + tilt * height));
   }
 
 
@@ -403,10 +423,9 @@ namespace Touchstone
     for_each_point(
       slave_shadow, master_shadow, [&](const Point2<Number> &place, const Number &weight) {
         Result       point;
-        double       slave_jacobian, master_jacobian;
         const double px = place.x.val(), py = place.y.val();
-        if (!slave_shadow.invert(px, py, point.slave, slave_jacobian) ||
-            !master_shadow.invert(px, py, point.master, master_jacobian))
+        if (!slave_shadow.invert(px, py, point.slave) ||
+            !master_shadow.invert(px, py, point.master))
           return;
         const FaceShapes shapes(slave.degree, point.slave);
         differentiate_inverse(slave_shadow, shapes, place, point.d_slave);
@@ -451,7 +470,7 @@ namespace Touchstone
               for (unsigned int v = 0; v < n * dim; ++v)
                 relative[v] -= gx * flat.x.fastAccessDx(v) + gy * flat.y.fastAccessDx(v);
             }
-        point.weight = weight.val() * size / std::abs(slave_jacobian);
+        point.weight = weight.val() * size / std::abs(j);
         for (unsigned int v = 0; v < n_variables; ++v)
           point.d_weight[v] = point.weight * (relative[v] + by_xi[0] * point.d_slave[0][v] +
                                               by_xi[1] * point.d_slave[1][v]);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 
 namespace Touchstone
@@ -146,6 +147,7 @@ namespace Touchstone
       exchange_far_faces(solid);
 
     std::map<Index, SurfaceNode> found;
+    shortest = std::numeric_limits<double>::max();
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
         {
@@ -173,10 +175,15 @@ namespace Touchstone
           diagonal                = std::max({diagonal,
                                               face.reference[0].distance(face.reference[last]),
                                               face.reference[p].distance(face.reference[last - p])});
+          for (const unsigned int corner : {p, last - p})
+            for (const unsigned int end : {0u, last})
+              shortest =
+                std::min(shortest, face.reference[corner].distance(face.reference[end]));
         }
     for (const auto &entry : found)
       nodes.push_back(entry.second);
     diagonal = Utilities::MPI::max(diagonal, solid.communicator);
+    shortest = Utilities::MPI::min(shortest, solid.communicator);
   }
 
 

@@ -57,8 +57,9 @@ namespace Touchstone
   /** @brief Values and derivatives of the shape functions of a face. */
   struct FaceShapes
   {
-    std::array<double, Face::max_nodes>                value{};
-    std::array<std::array<double, 2>, Face::max_nodes> gradient{};
+    /** Of the nodes of the face; the rest is left as it is. */
+    std::array<double, Face::max_nodes>                value;
+    std::array<std::array<double, 2>, Face::max_nodes> gradient;
 
     FaceShapes(unsigned int degree, const std::array<double, 2> &xi);
   };

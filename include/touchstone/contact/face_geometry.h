@@ -65,6 +65,14 @@ namespace Touchstone
     FacePoint
     evaluate(const std::array<double, 2> &xi) const;
 
+    /** @brief Position alone, which costs half. */
+    dealii::Point<dim>
+    position(const std::array<double, 2> &xi) const;
+
+    /** @brief Position and normal() for the price of one. */
+    std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
+    position_and_normal(const std::array<double, 2> &xi) const;
+
     /** @brief Second derivatives of the position with respect to xi: 11, 12, 22;
      * length. Those of an exact surface are central differences of its projection
      * gradient. */
@@ -96,8 +104,9 @@ namespace Touchstone
      * asked for. */
     mutable std::optional<std::array<dealii::Tensor<1, dim>, Face::max_nodes>> deviations;
 
+    /** @param point The evaluate() there. */
     dealii::Tensor<1, dim>
-    interpolated_normal(const std::array<double, 2> &xi) const;
+    interpolated_normal(const std::array<double, 2> &xi, const FacePoint &point) const;
   };
 
   /** @brief Result of a closest-point projection. */

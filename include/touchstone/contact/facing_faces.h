@@ -28,16 +28,33 @@ namespace Touchstone
   class FacingFaces
   {
   public:
-    /** @param search Must live as long. */
-    explicit FacingFaces(const Search &search)
+    /** @param search Must live as long.
+     *  @param motion How far nodes may move until look_anew() must be called; length. */
+    FacingFaces(const Search &search, const double motion)
       : search(search)
+      , limit(motion)
     {
     }
 
-    /** @param slave In its present position, with `committed` of the start of the
+    /** @brief The faces that cover @p slave now. Those that can are looked for only the
+     * first time after look_anew(), but for faces in doubt between several layers.
+     * @param slave In its present position, with `committed` of the start of the
      * step. */
     std::vector<FacingFace>
-    find(const Face &slave) const;
+    find(const Face &slave);
+
+    /** @brief Nodes have moved by more than motion(). */
+    void
+    look_anew()
+    {
+      candidates.clear();
+    }
+
+    double
+    motion() const
+    {
+      return limit;
+    }
 
     /** @brief A step ends in the present positions: each face remembers what it
      * touches. @param faces All slave faces of this rank. */
@@ -59,11 +76,18 @@ namespace Touchstone
     remember(const Touched &found)
     {
       touched = found;
+      look_anew();
     }
 
   private:
     const Search &search;
+    const double  limit;
     Touched       touched;
+
+    /** Keys of master faces and their places in the search. */
+    using Candidates = std::vector<std::pair<std::uint64_t, std::size_t>>;
+    /** By the keys of slave faces those that cover them or may soon. */
+    std::unordered_map<std::uint64_t, Candidates> candidates;
 
     /** Master faces where @p slave has gone in since the start of the step; the last
      * one, if @p last_touched, is that which it touched then. */

@@ -29,6 +29,11 @@ namespace Touchstone
   std::vector<OverlapPoint>
   overlap(const Face &slave, const Face &master);
 
+  /** @brief Whether two faces overlap, or may do so after each of their nodes has moved
+   * by no more than @p motion (length). */
+  bool
+  may_overlap(const Face &slave, const Face &master, double motion);
+
   /** @brief An OverlapPoint with derivatives with respect to the positions of the
    * slave nodes and then of the master nodes: component d of node m is variable
    * dim * m + d.

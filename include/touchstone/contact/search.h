@@ -141,6 +141,21 @@ namespace Touchstone
     const Face *
     face(std::uint64_t key) const;
 
+    /** @brief The same, of a face that was at @p place in known_faces() at an earlier
+     * update and is so still if nothing else was received. */
+    const Face *
+    face(std::uint64_t key, std::size_t place) const
+    {
+      return place < faces.size() && faces[place].key == key ? &faces[place] : face(key);
+    }
+
+    /** @brief Where a face is in known_faces(). */
+    std::size_t
+    place(const Face &face) const
+    {
+      return &face - faces.data();
+    }
+
     /** @brief Faces of the last update: of this rank, and near its slave nodes. */
     const std::vector<Face> &
     known_faces() const

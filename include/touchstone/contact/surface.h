@@ -127,6 +127,13 @@ namespace Touchstone
       return diagonal;
     }
 
+    /** @brief Shortest side of any face in the reference state, over all ranks; length. */
+    double
+    shortest_edge() const
+    {
+      return shortest;
+    }
+
   private:
     const Forest                              &forest;
     const std::set<dealii::types::boundary_id> ids;
@@ -134,7 +141,7 @@ namespace Touchstone
     std::vector<Face>                          faces, ghost_faces;
     std::vector<SurfaceNode>                   nodes;
     std::vector<Index>                         far;
-    double                                     diagonal = 0.;
+    double                                     diagonal = 0., shortest = 0.;
 
     /** By the keys of faces with hanging nodes. */
     std::unordered_map<std::uint64_t, TraceBasis> traces;
