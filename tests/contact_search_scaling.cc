@@ -71,7 +71,7 @@ namespace
         }
     const double pointwise = timer.wall_time();
 
-    const FacingFaces facing(search);
+    FacingFaces facing(search, 0.);
     double            covered = 0., whole = 0.;
     timer.restart();
     for (unsigned int j = 0; j < n_slave; ++j)

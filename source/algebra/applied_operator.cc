@@ -24,12 +24,14 @@ namespace Touchstone
     if (system.test_constraints)
       test = expansion(*system.test_constraints, scale, nullptr);
     make_terms();
+    // Of few rows: ExtractDiagonalCopy() would search all.
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    Epetra_Vector           own(stiffness.RowMap());
-    stiffness.ExtractDiagonalCopy(own);
-    for (int i = 0; i < own.MyLength(); ++i)
+    for (int i = 0; i < stiffness.NumMyRows(); ++i)
       if (constrained[i])
-        diagonal[i] = own[i] != 0. ? own[i] : 1.;
+        {
+          const double own = diagonal_entry(stiffness, i);
+          diagonal[i]      = own != 0. ? own : 1.;
+        }
   }
 
 

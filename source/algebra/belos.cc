@@ -1,3 +1,4 @@
+#include <touchstone/algebra/condensation.h>
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/algebra/multigrid.h>
 #include <touchstone/algebra/non_convergence.h>
@@ -152,15 +153,15 @@ namespace Touchstone
                          const RigidMotions     &motions)
     {
       const Epetra_Vector &translation = *motions.columns(0);
-      Epetra_Vector        diagonal(system.rhs->Map()), force(diagonal);
-      matrix.ExtractDiagonalCopy(diagonal);
+      Epetra_Vector        force(system.rhs->Map());
       matrix.Multiply(false, translation, force);
       double sums[2] = {0., 0.}, all[2];
       for (int i = 0; i < force.MyLength(); ++i)
         if (!system.constrained[i] && !system.changed[i])
           {
             sums[0] += force[i] * translation[i];
-            sums[1] += diagonal[i] * translation[i] * translation[i];
+            if (translation[i] != 0.)
+              sums[1] += diagonal_entry(matrix, i) * translation[i] * translation[i];
           }
       matrix.Comm().SumAll(sums, all, 2);
       return all[1] > 0. ? all[0] / all[1] : 0.;

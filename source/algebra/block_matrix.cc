@@ -56,18 +56,35 @@ namespace Touchstone
   BlockRows::read(const unsigned int node)
   {
     present.clear();
+    int     n[dim] = {};
+    double *value[dim];
+    int    *local[dim];
     for (unsigned int d = 0; d < dim; ++d)
+      matrix.ExtractMyRowView(dim * node + d, n[d], value[d], local[d]);
+    // Three rows with the same columns, three after three: almost all are so.
+    bool even = n[0] % dim == 0;
+    for (unsigned int d = 1; d < dim; ++d)
+      even = even && n[d] == n[0] && std::equal(local[0], local[0] + n[0], local[d]);
+    for (int k = 0; even && k < n[0]; ++k)
       {
-        int     n;
-        double *value;
-        int    *local;
-        matrix.ExtractMyRowView(dim * node + d, n, value, local);
-        for (int k = 0; k < n; ++k)
-          {
-            const unsigned int j = number[local[k]];
-            present.at(static_cast<int>(j / dim))[dim * d + j % dim] += value[k];
-          }
+        const unsigned int place = k % int(dim), j = number[local[0][k]];
+        even                     = j % dim == place && j - place == number[local[0][k - place]];
       }
+    if (even)
+      for (int k = 0; k < n[0]; k += dim)
+        {
+          Block &to = present.at(static_cast<int>(number[local[0][k]] / dim));
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int c = 0; c < dim; ++c)
+              to[dim * d + c] += value[d][k + c];
+        }
+    else
+      for (unsigned int d = 0; d < dim; ++d)
+        for (int k = 0; k < n[d]; ++k)
+          {
+            const unsigned int j = number[local[d][k]];
+            present.at(static_cast<int>(j / dim))[dim * d + j % dim] += value[d][k];
+          }
     return present;
   }
 

@@ -2,13 +2,28 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsMatrix.h>
 #include <algorithm>
 #include <map>
 
 namespace Touchstone
 {
   using namespace dealii;
+
+  double
+  diagonal_entry(const Epetra_CrsMatrix &matrix, const int i)
+  {
+    int     n;
+    double *value;
+    int    *column;
+    matrix.ExtractMyRowView(i, n, value, column);
+    const int local = matrix.LCID(matrix.GRID(i));
+    int      *found = std::lower_bound(column, column + n, local);
+    if (found == column + n || *found != local)
+      found = std::find(column, column + n, local); // of a row that is not sorted
+    return found == column + n ? 0. : value[found - column];
+  }
+
+
 
   void
   for_each_row(const std::vector<MatrixTerm>                                             &terms,

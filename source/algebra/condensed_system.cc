@@ -164,12 +164,13 @@ namespace Touchstone
       springs += system.diagonal_shift;
 
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    Epetra_Vector           own(stiffness.RowMap());
-    stiffness.ExtractDiagonalCopy(own);
     scale = std::make_unique<Epetra_Vector>(row_map);
     scale->PutScalar(1.);
-    for (int i = 0; i < own.MyLength(); ++i)
+    for (int i = 0; i < stiffness.NumMyRows(); ++i)
       if (const double spring = springs.begin()[i]; changed[i] && spring > 0.)
-        (*scale)[i] = own[i] / (own[i] + spring);
+        {
+          const double own = diagonal_entry(stiffness, i);
+          (*scale)[i]      = own / (own + spring);
+        }
   }
 } // namespace Touchstone

@@ -12,29 +12,41 @@ namespace Touchstone
   {
     constexpr unsigned int n_modes = Prolongation::n_modes;
 
-    /** to += a p, of a block of the matrix and one of P. */
-    TOUCHSTONE_VECTORISED void
-    add_product(const BlockRows::Block &a, const float *p, Prolongation::NodeBlock &to)
+    /** Rows of P over nodes, by local numbers of nodes: where their blocks and the columns
+     * of these begin, and how many there are. */
+    struct RowOfP
     {
-      for (unsigned int r = 0; r < dim; ++r)
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int m = 0; m < n_modes; ++m)
-            to[n_modes * r + m] += a[dim * r + c] * p[n_modes * c + m];
+      const float       *entries;
+      const unsigned int *columns;
+      std::size_t        size;
+    };
+
+    /** product += A_i P, of a row of blocks of the matrix. */
+    TOUCHSTONE_VECTORISED void
+    add_product(const RowOfBlocks<BlockRows::Block> &row,
+                const std::vector<RowOfP>           &p,
+                RowOfBlocks<OctetsOfNode>           &product)
+    {
+      for (unsigned int k = 0; k < row.columns.size(); ++k)
+        {
+          const RowOfP &of_node = p[row.columns[k]];
+          for (std::size_t b = 0; b < of_node.size; ++b)
+            Touchstone::add_product(row.blocks[k],
+                                    of_node.entries + dim * n_modes * b,
+                                    product.at(static_cast<int>(of_node.columns[b])));
+        }
     }
 
     /** to += p^T ap, of a block of P and one of A P. */
     TOUCHSTONE_VECTORISED void
-    add_transposed_product(const float                   *p,
-                           const Prolongation::NodeBlock &ap,
-                           Prolongation::AggregateBlock  &to)
+    add_transposed_product(const float                  *p,
+                           const OctetsOfNode           &ap,
+                           Prolongation::AggregateBlock &to)
     {
+      const Octet ap0 = ap[0], ap1 = ap[1], ap2 = ap[2];
       for (unsigned int i = 0; i < n_modes; ++i)
-        for (unsigned int r = 0; r < dim; ++r)
-          {
-            const double factor = p[n_modes * r + i];
-            for (unsigned int m = 0; m < n_modes; ++m)
-              to[n_modes * i + m] += factor * ap[n_modes * r + m];
-          }
+        to[i] += double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 +
+                 double(p[2 * n_modes + i]) * ap2;
     }
   } // namespace
 
@@ -80,6 +92,7 @@ namespace Touchstone
               for (unsigned int e = 0; e < block; ++e)
                 row.entries.push_back(static_cast<float>(package[k + 1 + e]));
             }
+          row.entries.resize(row.entries.size() + 2);
         }
     return result;
   }
@@ -89,33 +102,29 @@ namespace Touchstone
   std::vector<Prolongation::AggregateRow>
   Prolongation::part_of_galerkin(const Epetra_CrsMatrix &matrix, LocalNumbers &numbers) const
   {
-    const unsigned int            n_nodes = start.size() - 1;
-    const std::vector<FarRow>     far     = far_rows();
-    std::vector<std::vector<int>> far_columns(far.size());
+    const unsigned int                     n_nodes = start.size() - 1;
+    const std::vector<FarRow>              far     = far_rows();
+    std::vector<std::vector<unsigned int>> far_columns(far.size());
     for (unsigned int i = 0; i < far.size(); ++i)
       for (const Index aggregate : far[i].aggregates)
         far_columns[i].push_back(numbers.local(aggregate));
+    std::vector<RowOfP> p;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      p.push_back({entries.data() + block * start[node],
+                   column.data() + start[node],
+                   start[node + 1] - start[node]});
+    for (unsigned int i = 0; i < far.size(); ++i)
+      p.push_back({far[i].entries.data(), far_columns[i].data(), far_columns[i].size()});
 
     // Row by row of A P, added to the rows of the aggregates to which the node belongs.
     std::vector<AggregateRow> sums((coarse->locally_owned_size() + coarse->n_ghost_indices()) /
                                    n_modes);
     BlockRows                 rows(matrix, *fine);
-    RowOfBlocks<NodeBlock>    product;
+    RowOfBlocks<OctetsOfNode> product;
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
-        const auto &row = rows.read(node);
         product.clear();
-        for (unsigned int k = 0; k < row.columns.size(); ++k)
-          if (const unsigned int other = row.columns[k]; other < n_nodes)
-            for (std::size_t b = start[other]; b < start[other + 1]; ++b)
-              add_product(row.blocks[k],
-                          entries.data() + block * b,
-                          product.at(static_cast<int>(column[b])));
-          else
-            for (unsigned int b = 0; b < far_columns[other - n_nodes].size(); ++b)
-              add_product(row.blocks[k],
-                          far[other - n_nodes].entries.data() + block * b,
-                          product.at(far_columns[other - n_nodes][b]));
+        add_product(rows.read(node), p, product);
         for (std::size_t b = start[node]; b < start[node + 1]; ++b)
           for (unsigned int k = 0; k < product.columns.size(); ++k)
             add_transposed_product(entries.data() + block * b,
@@ -130,7 +139,6 @@ namespace Touchstone
   std::vector<std::map<Index, Prolongation::AggregateBlock>>
   Prolongation::sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const
   {
-    constexpr unsigned int                       n_entries = n_modes * n_modes;
     const unsigned int                           n_mine    = coarse->locally_owned_size() / n_modes;
     std::vector<std::map<Index, AggregateBlock>> result(n_mine);
     for (unsigned int row = 0; row < n_mine; ++row)
@@ -154,7 +162,9 @@ namespace Touchstone
             {
               const AggregateBlock &entry = parts[row].blocks[place];
               to.push_back(global[aggregate]);
-              to.insert(to.end(), entry.begin(), entry.end());
+              for (unsigned int i = 0; i < n_modes; ++i)
+                for (unsigned int m = 0; m < n_modes; ++m)
+                  to.push_back(entry[i][m]);
             }
         }
     for (const auto &[rank, package] :
@@ -165,11 +175,12 @@ namespace Touchstone
             result[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) / n_modes];
           const std::size_t n = static_cast<std::size_t>(package[k + 1]);
           k += 2;
-          for (std::size_t b = 0; b < n; ++b, k += n_entries + 1)
+          for (std::size_t b = 0; b < n; ++b, k += n_modes * n_modes + 1)
             {
               AggregateBlock &sum = to[static_cast<Index>(package[k])];
-              for (unsigned int e = 0; e < n_entries; ++e)
-                sum[e] += package[k + 1 + e];
+              for (unsigned int i = 0; i < n_modes; ++i)
+                for (unsigned int m = 0; m < n_modes; ++m)
+                  sum[i][m] += package[k + 1 + n_modes * i + m];
             }
         }
     return result;
@@ -208,7 +219,7 @@ namespace Touchstone
             for (unsigned int m = 0; m < n_modes; ++m)
               {
                 columns.push_back(static_cast<int>(n_modes * aggregate + m));
-                values.push_back(entry[n_modes * i + m]);
+                values.push_back(entry[i][m]);
                 // A motion that the aggregate does not have stands alone.
                 if (columns.back() == here && values.back() == 0.)
                   values.back() = 1.;

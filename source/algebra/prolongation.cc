@@ -1,8 +1,8 @@
 #include <touchstone/algebra/aggregation.h>
 #include <touchstone/algebra/prolongation.h>
 #include <touchstone/algebra/row_of_blocks.h>
+#include <touchstone/vectorised.h>
 
-#include <Epetra_Vector.h>
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +13,9 @@ namespace Touchstone
 
   namespace
   {
-    using NodeBlock      = Prolongation::NodeBlock;
-    using AggregateBlock = Prolongation::AggregateBlock;
-    using Modes          = std::array<double, Prolongation::n_modes>;
+    using Modes = std::array<double, Prolongation::n_modes>;
+    /** Square, by rows. */
+    using Factor = std::array<double, Prolongation::n_modes * Prolongation::n_modes>;
 
     /** The nodes of this rank to which each of them is coupled. */
     std::vector<std::vector<int>>
@@ -50,11 +50,11 @@ namespace Touchstone
 
     /** Orthonormal columns from the motions of an aggregate, in place, and the factor that
      * takes them back; columns that depend on those before them become zero. */
-    AggregateBlock
+    Factor
     orthonormalise(std::vector<Modes> &q)
     {
       constexpr unsigned int n = Prolongation::n_modes;
-      AggregateBlock         factor{};
+      Factor                 factor{};
       const auto             product = [&](const unsigned int a, const unsigned int b) {
         double sum = 0.;
         for (const Modes &row : q)
@@ -96,6 +96,33 @@ namespace Touchstone
       return result;
     }
 
+    /** row += (1 - damping A) P_0, of a node: a motion of its own, if it has a place, less
+     * those that its neighbours take. */
+    TOUCHSTONE_VECTORISED void
+    add_smoothed(const RowOfBlocks<BlockRows::Block> &of_matrix,
+                 const unsigned int                   node,
+                 const std::array<double, dim>       &damping,
+                 const std::vector<int>              &place,
+                 const std::vector<float>            &tentative,
+                 RowOfBlocks<OctetsOfNode>           &row)
+    {
+      constexpr unsigned int block = dim * Prolongation::n_modes;
+      if (place[node] >= 0)
+        {
+          const BlockRows::Block one = {{1., 0., 0., 0., 1., 0., 0., 0., 1.}};
+          add_product(one, tentative.data() + block * node, row.at(place[node]));
+        }
+      for (unsigned int k = 0; k < of_matrix.columns.size(); ++k)
+        if (const unsigned int other = of_matrix.columns[k]; place[other] >= 0)
+          {
+            BlockRows::Block a = of_matrix.blocks[k];
+            for (unsigned int r = 0; r < dim; ++r)
+              for (unsigned int c = 0; c < dim; ++c)
+                a[dim * r + c] *= -damping[r];
+            add_product(a, tentative.data() + block * other, row.at(place[other]));
+          }
+    }
+
     /** An aggregate without place. */
     constexpr double nowhere = -1.;
   } // namespace
@@ -112,10 +139,8 @@ namespace Touchstone
     BlockRows           rows(matrix, *fine);
     const unsigned int  n_nodes = rows.n_nodes();
     std::vector<double> diagonal(matrix.NumMyRows());
-    {
-      Epetra_Vector copy(View, matrix.RowMap(), diagonal.data());
-      matrix.ExtractDiagonalCopy(copy);
-    }
+    for (unsigned int i = 0; i < diagonal.size(); ++i)
+      diagonal[i] = diagonal_entry(matrix, i);
     const Aggregates aggregates = aggregate(couplings(rows, diagonal), body);
 
     // Motions of each aggregate, orthonormal.
@@ -140,7 +165,7 @@ namespace Touchstone
         for (unsigned int k = 0; k < q.size(); ++k)
           for (unsigned int m = 0; m < n_given; ++m)
             q[k][m] = near_kernel[m][dim * nodes[a][k / dim] + k % dim];
-        const AggregateBlock factor = orthonormalise(q);
+        const Factor factor = orthonormalise(q);
         for (unsigned int k = 0; k < q.size(); ++k)
           {
             const unsigned int i = dim * nodes[a][k / dim] + k % dim;
@@ -175,37 +200,38 @@ namespace Touchstone
     coarse = std::make_shared<Partitioner>(owned, ghosts, fine->get_mpi_communicator());
 
     // P = (1 - omega D^-1 A) P_0, with the omega that makes the motions cost the least.
-    const double           omega = 4. / 3. / largest;
-    RowOfBlocks<NodeBlock> row;
-    const auto add = [&](const unsigned int i, const unsigned int r, const double factor) {
-      if (aim->local_element(i) == nowhere)
-        return;
-      NodeBlock &to = row.at(static_cast<int>(
-        coarse->global_to_local(n_modes * static_cast<Index>(aim->local_element(i))) / n_modes));
-      for (unsigned int m = 0; m < n_modes; ++m)
-        to[n_modes * r + m] += factor * shape[m]->local_element(i);
-    };
+    std::vector<int>   place(n_local / dim, -1);
+    std::vector<float> tentative_blocks(block * place.size() + 2);
+    for (unsigned int node = 0; node < place.size(); ++node)
+      if (const double aggregate = aim->local_element(dim * node); aggregate != nowhere)
+        {
+          place[node] = static_cast<int>(
+            coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
+          for (unsigned int r = 0; r < dim; ++r)
+            for (unsigned int m = 0; m < n_modes; ++m)
+              tentative_blocks[block * node + n_modes * r + m] =
+                static_cast<float>(shape[m]->local_element(dim * node + r));
+        }
+    const double              omega = 4. / 3. / largest;
+    RowOfBlocks<OctetsOfNode> row;
     start.push_back(0);
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
-        const auto &of_matrix = rows.read(node);
-        row.clear();
+        std::array<double, dim> damping;
         for (unsigned int r = 0; r < dim; ++r)
-          {
-            add(dim * node + r, r, 1.);
-            const double damping = omega / diagonal[dim * node + r];
-            for (unsigned int k = 0; k < of_matrix.columns.size(); ++k)
-              for (unsigned int c = 0; c < dim; ++c)
-                add(dim * of_matrix.columns[k] + c, r, -damping * of_matrix.blocks[k][dim * r + c]);
-          }
+          damping[r] = omega / diagonal[dim * node + r];
+        row.clear();
+        add_smoothed(rows.read(node), node, damping, place, tentative_blocks, row);
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           {
             column.push_back(row.columns[k]);
-            for (const double entry : row.blocks[k])
-              entries.push_back(static_cast<float>(entry));
+            for (unsigned int r = 0; r < dim; ++r)
+              for (unsigned int m = 0; m < n_modes; ++m)
+                entries.push_back(static_cast<float>(row.blocks[k][r][m]));
           }
         start.push_back(column.size());
       }
+    entries.resize(entries.size() + 2);
   }
 
 

@@ -51,16 +51,36 @@ namespace Touchstone
         }
 
     // Rows are built from owned and ghost cells, so no rank waits for another.
-    DynamicSparsityPattern pattern(dof_handler.n_dofs(), dof_handler.n_dofs(), owned);
+    // Of nodes first, which are a ninth of the entries.
+    const Index n_nodes = dof_handler.n_dofs() / dim;
+    IndexSet    owned_nodes(n_nodes);
+    if (!owned.is_empty())
+      owned_nodes.add_range(owned.nth_index_in_set(0) / dim,
+                            owned.nth_index_in_set(owned.n_elements() - 1) / dim + 1);
+    DynamicSparsityPattern couplings(n_nodes, n_nodes, owned_nodes);
+    std::vector<Index>     nodes(dofs.size() / dim);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
           cell->get_dof_indices(dofs);
           std::sort(dofs.begin(), dofs.end());
-          for (const Index row : dofs)
-            if (owned.is_element(row))
-              pattern.add_entries(row, dofs.begin(), dofs.end(), true);
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            nodes[a] = dofs[dim * a] / dim;
+          for (const Index row : nodes)
+            if (owned_nodes.is_element(row))
+              couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
+    DynamicSparsityPattern pattern(dof_handler.n_dofs(), dof_handler.n_dofs(), owned);
+    std::vector<Index>     columns;
+    for (const Index node : owned_nodes)
+      {
+        columns.clear();
+        for (auto entry = couplings.begin(node); entry != couplings.end(node); ++entry)
+          for (unsigned int d = 0; d < dim; ++d)
+            columns.push_back(dim * entry->column() + d);
+        for (unsigned int d = 0; d < dim; ++d)
+          pattern.add_entries(dim * node + d, columns.begin(), columns.end(), true);
+      }
     matrix.reinit(owned, owned, pattern, communicator);
     nonlinear = std::make_unique<NonlinearCells>(scene, fe, mapping, dof_handler, matrix);
   }

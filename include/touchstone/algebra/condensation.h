@@ -3,6 +3,7 @@
 
 #include <touchstone/algebra/linear_system.h>
 
+#include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 #include <deque>
 #include <unordered_map>
@@ -13,6 +14,11 @@ namespace Touchstone
 {
   /** @brief Entries of a sparse row, by local number. */
   using SparseRow = std::vector<std::pair<int, double>>;
+
+  /** @brief Entry of the diagonal of row @p i of this rank, 0 if there is none. Epetra's
+   * ExtractDiagonalCopy() reads all columns of all rows. */
+  double
+  diagonal_entry(const Epetra_CrsMatrix &matrix, int i);
 
   /** @brief Local numbers: those of a map, then those met later, in the order in
    * which they are met. */

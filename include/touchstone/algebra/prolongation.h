@@ -3,6 +3,7 @@
 
 #include <touchstone/algebra/block_matrix.h>
 #include <touchstone/algebra/condensation.h>
+#include <touchstone/algebra/octet.h>
 
 #include <Epetra_MultiVector.h>
 #include <algorithm>
@@ -33,12 +34,8 @@ namespace Touchstone
     /** @brief Rigid motions of an aggregate. */
     static constexpr unsigned int n_modes = 6;
 
-    /** @name Blocks of a row of a node, and of an aggregate, over the unknowns of an
-     * aggregate; row by row. */
-    /** @{ */
-    using NodeBlock      = std::array<double, dim * n_modes>;
-    using AggregateBlock = std::array<double, n_modes * n_modes>;
-    /** @} */
+    /** @brief Block of the rows of an aggregate over the unknowns of another. */
+    using AggregateBlock = Octets<n_modes>;
 
     /**
      * @param matrix      Over the displacements, symmetric pattern.
@@ -115,7 +112,8 @@ namespace Touchstone
      * aggregate; their entries, row by row. */
     std::vector<std::size_t>  start;
     std::vector<unsigned int> column;
-    std::vector<float>        entries;
+    /** Read beyond their end, as those of FarRow. */
+    std::vector<float> entries;
 
     std::unique_ptr<Epetra_MultiVector> coarse_kernel;
     std::vector<unsigned int>           body_of_aggregate;
