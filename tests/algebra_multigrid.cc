@@ -134,8 +134,9 @@ namespace
                     const std::vector<unsigned int> &body,
                     const std::vector<int>          &rows)
   {
-    using VectorType       = Prolongation::VectorType;
-    const auto partitioner = BlockRows::make_partitioner(matrix);
+    using VectorType = Prolongation::VectorType;
+    const BlockMatrix blocks(matrix);
+    const auto       &partitioner = blocks.vector_partitioner();
     VectorType fine(partitioner), forces(partitioner), coarse, gathered;
     const auto fill = [](VectorType &vector) {
       for (const auto i : vector.locally_owned_elements())
@@ -146,7 +147,7 @@ namespace
 
     // Motions come back smoothed by one step of Jacobi's method, whatever the aggregates.
     const double       largest = 2.;
-    const Prolongation smooth(matrix, motions, body, partitioner, largest);
+    const Prolongation smooth(blocks, motions, body, largest);
     smooth.initialize_coarse_vector(coarse);
     smooth.initialize_coarse_vector(gathered);
     Epetra_MultiVector smoothed(motions);
@@ -219,7 +220,7 @@ main(int argc, char **argv)
     for (int d = 0; d < 3; ++d)
       rows.push_back(3 * node + d);
   const Epetra_Map map(-1, rows.size(), rows.data(), 0, Epetra_MpiComm(communicator));
-  const std::shared_ptr<const Epetra_CrsMatrix> matrix = make_matrix(map, 0.);
+  const std::shared_ptr<Epetra_CrsMatrix> matrix = make_matrix(map, 0.);
 
   Epetra_Vector x(map), y(map), exact(map);
   for (int i = 0; i < x.MyLength(); ++i)

@@ -154,7 +154,7 @@ namespace Touchstone
     {
       const Epetra_Vector &translation = *motions.columns(0);
       Epetra_Vector        force(system.rhs->Map());
-      matrix.Multiply(false, translation, force);
+      system.product().Apply(translation, force);
       double sums[2] = {0., 0.}, all[2];
       for (int i = 0; i < force.MyLength(); ++i)
         if (!system.constrained[i] && !system.changed[i])
@@ -180,7 +180,7 @@ namespace Touchstone
         for (int i = 0; i < near_kernel.MyLength(); ++i)
           if (system.constrained[i] || system.changed[i])
             near_kernel[v][i] = 0.;
-      const std::shared_ptr<const Epetra_CrsMatrix> matrix = system.matrix();
+      const std::shared_ptr<Epetra_CrsMatrix> matrix = system.matrix(false);
       // With much inertia it alone bounds the condition number: coarse spaces have nothing
       // to do, and the aggregates that weak couplings leave would hardly be fewer.
       preconditioner = std::make_unique<Multigrid>(

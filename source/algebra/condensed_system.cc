@@ -56,7 +56,7 @@ namespace Touchstone
         return;
       }
     std::vector<double> values;
-    assembled = assemble(&values);
+    assembled = assemble(&values, true);
     operation = assembled;
     rhs       = std::make_unique<Epetra_Vector>(Copy, row_map, values.data());
     if (scale)
@@ -66,15 +66,15 @@ namespace Touchstone
 
 
   std::shared_ptr<Epetra_CrsMatrix>
-  CondensedSystem::matrix() const
+  CondensedSystem::matrix(const bool complete) const
   {
-    return assembled ? assembled : assemble(nullptr);
+    return assembled ? assembled : assemble(nullptr, complete);
   }
 
 
 
   std::shared_ptr<Epetra_CrsMatrix>
-  CondensedSystem::assemble(std::vector<double> *values) const
+  CondensedSystem::assemble(std::vector<double> *values, const bool complete) const
   {
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
     LocalNumbers            columns(stiffness.ColMap());
@@ -127,7 +127,8 @@ namespace Touchstone
         AssertThrow(error == 0, dealii::ExcMessage("A row does not fit into the matrix."));
       }
     const bool copied = !system.lasting_stiffness;
-    storage->matrix->FillComplete(row_map, row_map, copied);
+    if (complete || scale)
+      storage->matrix->FillComplete(row_map, row_map, copied);
     if (copied)
       {
         storage->columns = {};

@@ -136,22 +136,21 @@ namespace Touchstone
 
 
 
-  std::vector<std::map<Index, Prolongation::AggregateBlock>>
+  void
   Prolongation::sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const
   {
-    const unsigned int                           n_mine    = coarse->locally_owned_size() / n_modes;
-    std::vector<std::map<Index, AggregateBlock>> result(n_mine);
-    for (unsigned int row = 0; row < n_mine; ++row)
+    for (AggregateRow &part : parts)
       {
-        for (const auto &[aggregate, place] : parts[row].places)
-          result[row][global[aggregate]] = parts[row].blocks[place];
-        parts[row] = {};
+        for (auto &[aggregate, place] : part.places)
+          aggregate = global[aggregate];
+        std::sort(part.places.begin(), part.places.end());
       }
 
     // What belongs to other ranks goes there: row, number of blocks, then column and
     // entries of each.
     std::map<unsigned int, std::vector<double>> packages;
-    unsigned int                                row = n_mine;
+    const unsigned int n_mine = coarse->locally_owned_size() / n_modes;
+    unsigned int       row    = n_mine;
     for (const auto &[rank, n] : coarse->ghost_targets())
       for (const unsigned int end = row + n / n_modes; row < end; ++row)
         {
@@ -161,29 +160,29 @@ namespace Touchstone
           for (const auto &[aggregate, place] : parts[row].places)
             {
               const AggregateBlock &entry = parts[row].blocks[place];
-              to.push_back(global[aggregate]);
+              to.push_back(aggregate);
               for (unsigned int i = 0; i < n_modes; ++i)
                 for (unsigned int m = 0; m < n_modes; ++m)
                   to.push_back(entry[i][m]);
             }
         }
+    parts.resize(n_mine);
     for (const auto &[rank, package] :
          Utilities::MPI::some_to_some(coarse->get_mpi_communicator(), packages))
       for (std::size_t k = 0; k < package.size();)
         {
-          auto &to =
-            result[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) / n_modes];
+          AggregateRow &to =
+            parts[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) / n_modes];
           const std::size_t n = static_cast<std::size_t>(package[k + 1]);
           k += 2;
           for (std::size_t b = 0; b < n; ++b, k += n_modes * n_modes + 1)
             {
-              AggregateBlock &sum = to[static_cast<Index>(package[k])];
+              AggregateBlock &sum = to.at(static_cast<int>(package[k]));
               for (unsigned int i = 0; i < n_modes; ++i)
                 for (unsigned int m = 0; m < n_modes; ++m)
                   sum[i][m] += package[k + 1 + n_modes * i + m];
             }
         }
-    return result;
   }
 
 
@@ -199,13 +198,13 @@ namespace Touchstone
       known.push_back(static_cast<int>(coarse->local_to_global(i) / n_modes));
     const Epetra_Map known_map(-1, known.size(), known.data(), 0, matrix.Comm());
     LocalNumbers     numbers(known_map);
-    auto             parts = part_of_galerkin(matrix, numbers);
-    const auto       rows  = sum_up(parts, numbers.global());
+    auto             rows = part_of_galerkin(matrix, numbers);
+    sum_up(rows, numbers.global());
 
     const Epetra_Map map(-1, coarse_kernel->MyLength(), 0, matrix.Comm());
     std::vector<int> lengths;
     for (const auto &row : rows)
-      lengths.insert(lengths.end(), n_modes, static_cast<int>(n_modes * row.size()));
+      lengths.insert(lengths.end(), n_modes, static_cast<int>(n_modes * row.places.size()));
     auto             result = std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
     std::vector<int> columns;
     std::vector<double> values;
@@ -215,11 +214,11 @@ namespace Touchstone
           columns.clear();
           values.clear();
           const int here = map.GID(n_modes * row + i);
-          for (const auto &[aggregate, entry] : rows[row])
+          for (const auto &[aggregate, place] : rows[row].places)
             for (unsigned int m = 0; m < n_modes; ++m)
               {
-                columns.push_back(static_cast<int>(n_modes * aggregate + m));
-                values.push_back(entry[i][m]);
+                columns.push_back(static_cast<int>(n_modes) * aggregate + static_cast<int>(m));
+                values.push_back(rows[row].blocks[place][i][m]);
                 // A motion that the aggregate does not have stands alone.
                 if (columns.back() == here && values.back() == 0.)
                   values.back() = 1.;

@@ -103,10 +103,10 @@ namespace Touchstone
 
 
 
-  Multigrid::Multigrid(std::shared_ptr<const Epetra_CrsMatrix> system,
-                       const Epetra_MultiVector               &near_kernel,
-                       const std::vector<unsigned int>        &body,
-                       const bool                              coarse_levels)
+  Multigrid::Multigrid(std::shared_ptr<Epetra_CrsMatrix> system,
+                       const Epetra_MultiVector         &near_kernel,
+                       const std::vector<unsigned int>  &body,
+                       const bool                        coarse_levels)
     : SquareOperator(system->RowMap(), "smoothed aggregation")
     , matrix(std::move(system))
   {
@@ -121,6 +121,9 @@ namespace Touchstone
                          prolongation->coarse_body());
         return;
       }
+    // Its rows may be those of the stiffness, which stay where they are.
+    if (!matrix->Filled())
+      matrix->FillComplete(false);
     Teuchos::ParameterList list = ml_parameters(near_kernel, dim);
     if (!coarse_levels)
       {
@@ -148,7 +151,7 @@ namespace Touchstone
     const double largest = smoother->estimate_eigenvalues(fine_rhs).max_eigenvalue_estimate;
 
     prolongation = std::make_unique<Prolongation>(
-      *matrix, near_kernel, body_of_nodes, fine_matrix->vector_partitioner(), largest / margin);
+      *fine_matrix, near_kernel, body_of_nodes, largest / margin);
     // Where nothing is coupled, smoothing is all.
     if (prolongation->coarse_near_kernel().GlobalLength() == 0)
       {

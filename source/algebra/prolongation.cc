@@ -19,14 +19,14 @@ namespace Touchstone
 
     /** The nodes of this rank to which each of them is coupled. */
     std::vector<std::vector<int>>
-    couplings(BlockRows &rows, const std::vector<double> &diagonal)
+    couplings(const BlockMatrix &matrix, const std::vector<float> &diagonal)
     {
-      const unsigned int            n_nodes = rows.n_nodes();
+      const unsigned int            n_nodes = matrix.n_nodes();
       std::vector<std::vector<int>> graph(n_nodes);
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
-          const auto &row = rows.read(node);
-          for (unsigned int k = 0; k < row.columns.size(); ++k)
+          const BlockMatrix::Row row = matrix.row(node);
+          for (unsigned int k = 0; k < row.size; ++k)
             {
               const unsigned int other = row.columns[k];
               if (other == node || other >= n_nodes)
@@ -35,15 +35,15 @@ namespace Touchstone
               for (unsigned int r = 0; r < dim; ++r)
                 for (unsigned int c = 0; c < dim; ++c)
                   {
-                    const double entry = row.blocks[k][dim * r + c];
+                    // Stiffness squared leaves the range of single precision.
+                    const double entry = row(k, r, c);
                     strong             = strong || entry * entry > weak_coupling * weak_coupling *
-                                                         diagonal[dim * node + r] *
+                                                         double(diagonal[dim * node + r]) *
                                                          diagonal[dim * other + c];
                   }
               if (strong)
                 graph[node].push_back(static_cast<int>(other));
             }
-          std::sort(graph[node].begin(), graph[node].end());
         }
       return graph;
     }
@@ -99,12 +99,12 @@ namespace Touchstone
     /** row += (1 - damping A) P_0, of a node: a motion of its own, if it has a place, less
      * those that its neighbours take. */
     TOUCHSTONE_VECTORISED void
-    add_smoothed(const RowOfBlocks<BlockRows::Block> &of_matrix,
-                 const unsigned int                   node,
-                 const std::array<double, dim>       &damping,
-                 const std::vector<int>              &place,
-                 const std::vector<float>            &tentative,
-                 RowOfBlocks<OctetsOfNode>           &row)
+    add_smoothed(const BlockMatrix::Row        &of_matrix,
+                 const unsigned int             node,
+                 const std::array<double, dim> &damping,
+                 const std::vector<int>        &place,
+                 const std::vector<float>      &tentative,
+                 RowOfBlocks<OctetsOfNode>     &row)
     {
       constexpr unsigned int block = dim * Prolongation::n_modes;
       if (place[node] >= 0)
@@ -112,13 +112,13 @@ namespace Touchstone
           const BlockRows::Block one = {{1., 0., 0., 0., 1., 0., 0., 0., 1.}};
           add_product(one, tentative.data() + block * node, row.at(place[node]));
         }
-      for (unsigned int k = 0; k < of_matrix.columns.size(); ++k)
+      for (std::size_t k = 0; k < of_matrix.size; ++k)
         if (const unsigned int other = of_matrix.columns[k]; place[other] >= 0)
           {
-            BlockRows::Block a = of_matrix.blocks[k];
+            BlockRows::Block a;
             for (unsigned int r = 0; r < dim; ++r)
               for (unsigned int c = 0; c < dim; ++c)
-                a[dim * r + c] *= -damping[r];
+                a[dim * r + c] = -damping[r] * of_matrix(k, r, c);
             add_product(a, tentative.data() + block * other, row.at(place[other]));
           }
     }
@@ -129,19 +129,20 @@ namespace Touchstone
 
 
 
-  Prolongation::Prolongation(const Epetra_CrsMatrix            &matrix,
-                             const Epetra_MultiVector          &near_kernel,
-                             const std::vector<unsigned int>   &body,
-                             std::shared_ptr<const Partitioner> partitioner,
-                             const double                       largest)
-    : fine(std::move(partitioner))
+  Prolongation::Prolongation(const BlockMatrix               &matrix,
+                             const Epetra_MultiVector        &near_kernel,
+                             const std::vector<unsigned int> &body,
+                             const double                     largest)
+    : fine(matrix.vector_partitioner())
   {
-    BlockRows           rows(matrix, *fine);
-    const unsigned int  n_nodes = rows.n_nodes();
-    std::vector<double> diagonal(matrix.NumMyRows());
-    for (unsigned int i = 0; i < diagonal.size(); ++i)
-      diagonal[i] = diagonal_entry(matrix, i);
-    const Aggregates aggregates = aggregate(couplings(rows, diagonal), body);
+    const unsigned int n_nodes = matrix.n_nodes();
+    std::vector<float> diagonal(dim * n_nodes);
+    {
+      const VectorType inverse = matrix.inverse_diagonal();
+      for (unsigned int i = 0; i < diagonal.size(); ++i)
+        diagonal[i] = 1.f / inverse.local_element(i);
+    }
+    const Aggregates aggregates = aggregate(couplings(matrix, diagonal), body);
 
     // Motions of each aggregate, orthonormal.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);
@@ -149,13 +150,13 @@ namespace Touchstone
       if (aggregates.of_node[node] >= 0)
         nodes[aggregates.of_node[node]].push_back(node);
     const int        n_mine = aggregates.n * static_cast<int>(n_modes);
-    const Epetra_Map coarse_map(-1, n_mine, 0, matrix.Comm());
+    const Epetra_Map coarse_map(-1, n_mine, 0, near_kernel.Comm());
     const Index      first = static_cast<Index>(coarse_map.MinMyGID()) / n_modes;
     coarse_kernel          = std::make_unique<Epetra_MultiVector>(coarse_map, n_modes);
     body_of_aggregate.resize(aggregates.n);
     std::vector<std::vector<double>> tentative(n_modes,
-                                               std::vector<double>(matrix.NumMyRows(), 0.));
-    std::vector<double>              target(matrix.NumMyRows(), nowhere);
+                                               std::vector<double>(dim * n_nodes, 0.));
+    std::vector<double>              target(dim * n_nodes, nowhere);
     const unsigned int               n_given = near_kernel.NumVectors();
     std::vector<Modes>               q;
     for (int a = 0; a < aggregates.n; ++a)
@@ -221,7 +222,7 @@ namespace Touchstone
         for (unsigned int r = 0; r < dim; ++r)
           damping[r] = omega / diagonal[dim * node + r];
         row.clear();
-        add_smoothed(rows.read(node), node, damping, place, tentative_blocks, row);
+        add_smoothed(matrix.row(node), node, damping, place, tentative_blocks, row);
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           {
             column.push_back(row.columns[k]);

@@ -89,6 +89,36 @@ namespace Touchstone
       return partitioner->size();
     }
 
+    /** @brief The rows of a node of this rank: nodes to which it is coupled in ascending
+     * order, by local number, and blocks, column by column. */
+    struct Row
+    {
+      const unsigned int *columns;
+      std::size_t         size;
+      const float        *entries;
+
+      /** @brief Entry (r, c) of block @p k. */
+      float
+      operator()(const std::size_t k, const unsigned int r, const unsigned int c) const
+      {
+        return entries[dim * dim * k + dim * c + r];
+      }
+    };
+
+    Row
+    row(const unsigned int node) const
+    {
+      return {column.data() + start[node],
+              start[node + 1] - start[node],
+              entries.data() + dim * dim * start[node]};
+    }
+
+    unsigned int
+    n_nodes() const
+    {
+      return start.size() - 1;
+    }
+
     /** @brief result = A x. Collective. */
     void
     vmult(VectorType &result, const VectorType &x) const;

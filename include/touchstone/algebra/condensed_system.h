@@ -46,9 +46,11 @@ namespace Touchstone
     }
 
     /** @brief The matrix, assembled anew in each call if products are applied: keep it no
-     * longer than needed. Collective. */
+     * longer than needed. Collective.
+     * @param complete If not, its rows can be read and no more: FillComplete() may be left
+     *                 to who needs it, for it takes as long as the rest. */
     std::shared_ptr<Epetra_CrsMatrix>
-    matrix() const;
+    matrix(bool complete = true) const;
 
     std::unique_ptr<Epetra_Vector> rhs;
     /** Marks rows of constrained unknowns, in the order of the local rows. */
@@ -74,7 +76,7 @@ namespace Touchstone
 
     /** @param values Right-hand side, not scaled, if not null. */
     std::shared_ptr<Epetra_CrsMatrix>
-    assemble(std::vector<double> *values) const;
+    assemble(std::vector<double> *values, bool complete) const;
   };
 } // namespace Touchstone
 

@@ -27,17 +27,18 @@ namespace Touchstone
   {
   public:
     /**
-     * @param matrix        Kept where ML has all levels.
+     * @param matrix        Kept where ML has all levels, for which it is completed if it is
+     *                      not.
      * @param near_kernel   Motions with little or no energy that the coarse levels must be
      *                      able to represent, zero at constrained unknowns.
      * @param body          Body of each row of this rank: aggregates() are within one.
      * @param coarse_levels Whether to make any; without them a sweep of symmetric
      *                      Gauss-Seidel is all.
      */
-    Multigrid(std::shared_ptr<const Epetra_CrsMatrix> matrix,
-              const Epetra_MultiVector               &near_kernel,
-              const std::vector<unsigned int>        &body,
-              bool                                    coarse_levels);
+    Multigrid(std::shared_ptr<Epetra_CrsMatrix> matrix,
+              const Epetra_MultiVector         &near_kernel,
+              const std::vector<unsigned int>  &body,
+              bool                              coarse_levels);
 
     /** @brief One V-cycle from zero, for each vector. Collective. */
     int
@@ -53,7 +54,7 @@ namespace Touchstone
     std::unique_ptr<Chebyshev>    smoother;
     std::unique_ptr<Prolongation> prolongation;
     /** What ML works on: the first of the coarse levels, or the matrix itself. */
-    std::shared_ptr<const Epetra_CrsMatrix>              matrix;
+    std::shared_ptr<Epetra_CrsMatrix>                    matrix;
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> hierarchy;
     /** Work space of a cycle. */
     mutable VectorType             fine_rhs, fine_solution, fine_residual, coarse_values;

@@ -8,7 +8,6 @@
 #include <Epetra_MultiVector.h>
 #include <algorithm>
 #include <array>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -38,19 +37,19 @@ namespace Touchstone
     using AggregateBlock = Octets<n_modes>;
 
     /**
-     * @param matrix      Over the displacements, symmetric pattern.
+     * @param matrix      Symmetric pattern.
      * @param near_kernel Rigid motions, zero at constrained unknowns; at most n_modes.
      * @param body        Body of each node of this rank.
-     * @param fine        Of vectors over the displacements.
      * @param largest     Largest eigenvalue of the matrix over its diagonal.
      */
-    Prolongation(const Epetra_CrsMatrix                                    &matrix,
-                 const Epetra_MultiVector                                  &near_kernel,
-                 const std::vector<unsigned int>                           &body,
-                 std::shared_ptr<const dealii::Utilities::MPI::Partitioner> fine,
-                 double                                                     largest);
+    Prolongation(const BlockMatrix               &matrix,
+                 const Epetra_MultiVector        &near_kernel,
+                 const std::vector<unsigned int> &body,
+                 double                           largest);
 
-    /** @brief The matrix of the coarse level, P^T A P. Collective. */
+    /** @brief The matrix of the coarse level, P^T A P. @param matrix That of which the
+     * constructor got the blocks, in double precision; needs no FillComplete().
+     * Collective. */
     std::unique_ptr<Epetra_CrsMatrix>
     galerkin(const Epetra_CrsMatrix &matrix) const;
 
@@ -86,7 +85,8 @@ namespace Touchstone
   private:
     static constexpr unsigned int block = dim * n_modes;
 
-    /** A row over aggregates that stays open while others are worked on. */
+    /** A row over aggregates that stays open while others are worked on; they go by local or
+     * by global numbers. */
     class AggregateRow
     {
     public:
@@ -133,9 +133,9 @@ namespace Touchstone
     std::vector<AggregateRow>
     part_of_galerkin(const Epetra_CrsMatrix &matrix, LocalNumbers &numbers) const;
 
-    /** @brief Rows of this rank's aggregates, with the parts of all ranks, by the global
-     * numbers of aggregates. */
-    std::vector<std::map<Index, AggregateBlock>>
+    /** @brief Make of @p parts the rows of this rank's aggregates, with the parts of all
+     * ranks, by the global numbers of aggregates. */
+    void
     sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const;
   };
 } // namespace Touchstone
