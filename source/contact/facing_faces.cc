@@ -296,6 +296,5 @@ namespace Touchstone
           now[slave->key] = master->key;
       }
     touched.swap(now);
-    look_anew();
   }
 } // namespace Touchstone

@@ -43,7 +43,7 @@ namespace Touchstone
     std::vector<FacingFace>
     find(const Face &slave);
 
-    /** @brief Nodes have moved by more than motion(). */
+    /** @brief Nodes have moved by more than motion(), or a step begins or ends. */
     void
     look_anew()
     {
@@ -76,7 +76,6 @@ namespace Touchstone
     remember(const Touched &found)
     {
       touched = found;
-      look_anew();
     }
 
   private:
