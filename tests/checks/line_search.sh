@@ -1,8 +1,9 @@
 #!/bin/sh
 # line_search.sh PROGRAM PROJECT FOLDER: the rope in one step. With line search no step
-# is cut, and the iterations are fewer than without it; the result is that of small steps.
-# Without it a step is cut; with the springs of a penalty Newton's method may also find another
-# equilibrium on its wild way, which depends on round-off.
+# is cut, and the iterations are at most half of those without it, or fewer at least with
+# the springs of a penalty; the result is that of small steps. Without it Newton's method goes
+# a wild way that depends on round-off: most often a step is cut, and with a penalty it may find
+# another equilibrium.
 set -eu
 . "$(dirname -- "$0")/common.sh"
 rope=$source/tests/rope.prm
@@ -15,8 +16,8 @@ for enforcement in elimination "lagrange multipliers" penalty; do
   run "full_$short" 1 "$rope" "$@" --set "Newton/Line search=none"
   same "$short" "small_$short" 1e-6
   ! grep -q "trying again" "$short/log" || fail "$short: a step was cut"
-  [ "$enforcement" = penalty ] || grep -q "trying again" "full_$short/log" || fail "$short: no step was cut without line search"
-  below "$short" "iterations with line search" "$(value "$short" /iterations/newton)" \
-    "$(value "full_$short" /iterations/newton)"
+  bound=$(value "full_$short" /iterations/newton)
+  [ "$enforcement" = penalty ] || bound=$((bound / 2))
+  below "$short" "iterations with line search" "$(value "$short" /iterations/newton)" "$bound"
 done
 finish
