@@ -9,7 +9,7 @@ namespace Touchstone
   {
     /** From this number of unknowns on, conjugate gradients with multigrid are faster than
      * a factorisation (doc/benchmarks.md), unless they take more iterations than these. */
-    constexpr int          many_unknowns = 6000;
+    constexpr int          many_unknowns = 10000;
     constexpr unsigned int patience      = 300;
 
     /**

@@ -227,7 +227,7 @@ namespace Touchstone
                       "'MUMPS' factorises; 'Belos CG' and 'Belos GMRES' iterate with ML "
                       "multigrid, for large models without multipliers: CG takes "
                       "symmetric systems, GMRES also unsymmetric ones. 'automatic' takes "
-                      "CG from 6,000 unknowns on if the system is symmetric and positive "
+                      "CG from 10,000 unknowns on if the system is symmetric and positive "
                       "definite, and MUMPS otherwise or if CG fails.",
                       Patterns::Selection("automatic|MUMPS|Belos CG|Belos GMRES"));
     prm.add_parameter("Tolerance",
