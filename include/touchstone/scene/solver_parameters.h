@@ -102,7 +102,7 @@ namespace Touchstone
     std::string type = "automatic";
     /** Relative residual to which an iterative solver takes the system of a
      * Newton iteration (inexact Newton); no unit. */
-    double       tolerance          = 3e-4;
+    double       tolerance          = 1e-4;
     unsigned int maximum_iterations = 2000;
     /** Iterations of GMRES after which it starts anew, to save memory. */
     unsigned int restart = 100;
