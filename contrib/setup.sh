@@ -55,10 +55,11 @@ install_packages()
 }
 
 # As many compilers at a time as there are cores, and 2 GB of memory for each:
-# deal.II's headers need that much.
+# deal.II's headers need that much. nproc would count the threads of OpenMP, of which
+# the program is to have one.
 number_of_jobs()
 {
-  cores=$(nproc)
+  cores=$(env -u OMP_NUM_THREADS nproc)
   memory=$(awk '/^MemAvailable:/ { print int($2 / 2000000) }' /proc/meminfo)
   jobs=$cores
   [ "$memory" -ge "$jobs" ] || jobs=$memory

@@ -50,6 +50,7 @@ namespace Touchstone
       candidates.clear();
     }
 
+    /** @brief How far nodes may move. */
     double
     motion() const
     {
