@@ -137,8 +137,8 @@ namespace
     using VectorType = Prolongation::VectorType;
     const BlockMatrix blocks(matrix);
     const auto       &partitioner = blocks.vector_partitioner();
-    VectorType fine(partitioner), forces(partitioner), coarse, gathered;
-    const auto fill = [](VectorType &vector) {
+    VectorType        fine(partitioner), forces(partitioner), coarse, gathered;
+    const auto        fill = [](VectorType &vector) {
       for (const auto i : vector.locally_owned_elements())
         vector(i) = static_cast<float>(wave(i));
     };

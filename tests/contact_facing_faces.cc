@@ -60,18 +60,18 @@ namespace
                               (a.gap_vector - b.gap_vector).norm()});
     for (std::size_t m = 0; m < a.stencil.size(); ++m)
       result = std::max(result,
-                        a.stencil[m].node == b.stencil[m].node ?
-                          std::abs(a.stencil[m].weight - b.stencil[m].weight) :
-                          1.);
+                        a.stencil[m].node == b.stencil[m].node
+                          ? std::abs(a.stencil[m].weight - b.stencil[m].weight)
+                          : 1.);
     return result;
   }
 
   void
   check(const std::string &name, const std::string &text, const std::vector<std::string> &overrides)
   {
-    PairOfScene    watched(text, overrides);
-    const double   limit = 0.02 * std::min(watched.slave->shortest_edge(),
-                                         watched.master->shortest_edge());
+    PairOfScene  watched(text, overrides);
+    const double limit =
+      0.02 * std::min(watched.slave->shortest_edge(), watched.master->shortest_edge());
     const bool     root  = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     double         worst = 0.;
     std::string    looked;

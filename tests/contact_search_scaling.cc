@@ -72,7 +72,7 @@ namespace
     const double pointwise = timer.wall_time();
 
     FacingFaces facing(search, 0.);
-    double            covered = 0., whole = 0.;
+    double      covered = 0., whole = 0.;
     timer.restart();
     for (unsigned int j = 0; j < n_slave; ++j)
       for (unsigned int i = 0; i < n_slave; ++i)

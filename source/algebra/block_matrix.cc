@@ -68,7 +68,7 @@ namespace Touchstone
     for (int k = 0; even && k < n[0]; ++k)
       {
         const unsigned int place = k % int(dim), j = number[local[0][k]];
-        even                     = j % dim == place && j - place == number[local[0][k - place]];
+        even = j % dim == place && j - place == number[local[0][k - place]];
       }
     if (even)
       for (int k = 0; k < n[0]; k += dim)

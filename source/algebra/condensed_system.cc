@@ -165,7 +165,7 @@ namespace Touchstone
       springs += system.diagonal_shift;
 
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    scale = std::make_unique<Epetra_Vector>(row_map);
+    scale                             = std::make_unique<Epetra_Vector>(row_map);
     scale->PutScalar(1.);
     for (int i = 0; i < stiffness.NumMyRows(); ++i)
       if (const double spring = springs.begin()[i]; changed[i] && spring > 0.)

@@ -16,9 +16,9 @@ namespace Touchstone
      * of these begin, and how many there are. */
     struct RowOfP
     {
-      const float       *entries;
+      const float        *entries;
       const unsigned int *columns;
-      std::size_t        size;
+      std::size_t         size;
     };
 
     /** product += A_i P, of a row of blocks of the matrix. */
@@ -39,14 +39,12 @@ namespace Touchstone
 
     /** to += p^T ap, of a block of P and one of A P. */
     TOUCHSTONE_VECTORISED void
-    add_transposed_product(const float                  *p,
-                           const OctetsOfNode           &ap,
-                           Prolongation::AggregateBlock &to)
+    add_transposed_product(const float *p, const OctetsOfNode &ap, Prolongation::AggregateBlock &to)
     {
       const Octet ap0 = ap[0], ap1 = ap[1], ap2 = ap[2];
       for (unsigned int i = 0; i < n_modes; ++i)
-        to[i] += double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 +
-                 double(p[2 * n_modes + i]) * ap2;
+        to[i] +=
+          double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 + double(p[2 * n_modes + i]) * ap2;
     }
   } // namespace
 
@@ -149,8 +147,8 @@ namespace Touchstone
     // What belongs to other ranks goes there: row, number of blocks, then column and
     // entries of each.
     std::map<unsigned int, std::vector<double>> packages;
-    const unsigned int n_mine = coarse->locally_owned_size() / n_modes;
-    unsigned int       row    = n_mine;
+    const unsigned int                          n_mine = coarse->locally_owned_size() / n_modes;
+    unsigned int                                row    = n_mine;
     for (const auto &[rank, n] : coarse->ghost_targets())
       for (const unsigned int end = row + n / n_modes; row < end; ++row)
         {

@@ -150,8 +150,8 @@ namespace Touchstone
       fine_matrix->initialize_vector(*vector);
     const double largest = smoother->estimate_eigenvalues(fine_rhs).max_eigenvalue_estimate;
 
-    prolongation = std::make_unique<Prolongation>(
-      *fine_matrix, near_kernel, body_of_nodes, largest / margin);
+    prolongation =
+      std::make_unique<Prolongation>(*fine_matrix, near_kernel, body_of_nodes, largest / margin);
     // Where nothing is coupled, smoothing is all.
     if (prolongation->coarse_near_kernel().GlobalLength() == 0)
       {

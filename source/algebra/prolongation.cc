@@ -154,8 +154,7 @@ namespace Touchstone
     const Index      first = static_cast<Index>(coarse_map.MinMyGID()) / n_modes;
     coarse_kernel          = std::make_unique<Epetra_MultiVector>(coarse_map, n_modes);
     body_of_aggregate.resize(aggregates.n);
-    std::vector<std::vector<double>> tentative(n_modes,
-                                               std::vector<double>(dim * n_nodes, 0.));
+    std::vector<std::vector<double>> tentative(n_modes, std::vector<double>(dim * n_nodes, 0.));
     std::vector<double>              target(dim * n_nodes, nowhere);
     const unsigned int               n_given = near_kernel.NumVectors();
     std::vector<Modes>               q;

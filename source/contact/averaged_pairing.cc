@@ -216,9 +216,9 @@ namespace Touchstone
     void
     AveragedPairing::add_face(Covered &covered)
     {
-      const Face                   &slave  = covered.slave;
+      const Face                   &slave   = covered.slave;
       const std::vector<FacingFace> masters = facing.find(slave);
-      const unsigned int            n      = slave.n_nodes();
+      const unsigned int            n       = slave.n_nodes();
       const FaceGeometry            on_slave(slave, input.slave->exact_surface(slave), kind);
 
       // Integrals of the slave shapes times themselves, 1, gap, normal, and master shapes.
@@ -233,10 +233,10 @@ namespace Touchstone
           const FaceGeometry &on_master = geometry(face);
           for (const OverlapPoint &point : masters[f].points)
             {
-              const FaceShapes     shapes(slave.degree, point.slave);
-              const FaceShapes     master_shapes(face.degree, point.master);
-              const auto          [x, normal] = on_master.position_and_normal(point.master);
-              const Tensor<1, dim> gap        = on_slave.position(point.slave) - x;
+              const FaceShapes shapes(slave.degree, point.slave);
+              const FaceShapes master_shapes(face.degree, point.master);
+              const auto [x, normal]   = on_master.position_and_normal(point.master);
+              const Tensor<1, dim> gap = on_slave.position(point.slave) - x;
               for (unsigned int j = 0; j < n; ++j)
                 {
                   const double value = point.weight * shapes.value[j];

@@ -94,10 +94,10 @@ namespace Touchstone
         for (unsigned int d = 0; d < n; ++d)
           {
             const double a = corner(0, d), b = corner(1, d), e = corner(2, d), f = corner(3, d);
-            c[0][d]        = 0.25 * (a + b + e + f);
-            c[1][d]        = 0.25 * (b - a + f - e);
-            c[2][d]        = 0.25 * (e - a + f - b);
-            c[3][d]        = 0.25 * (a - b + f - e);
+            c[0][d] = 0.25 * (a + b + e + f);
+            c[1][d] = 0.25 * (b - a + f - e);
+            c[2][d] = 0.25 * (e - a + f - b);
+            c[3][d] = 0.25 * (a - b + f - e);
           }
       }
 
@@ -278,8 +278,8 @@ namespace Touchstone
         , x(x)
       {
         if (shadow.face.degree == 1)
-          bilinear = Bilinear<dim>(
-            [&x](const unsigned int m, const unsigned int d) { return x[m][d]; });
+          bilinear =
+            Bilinear<dim>([&x](const unsigned int m, const unsigned int d) { return x[m][d]; });
       }
 
       double
@@ -347,8 +347,7 @@ namespace Touchstone
     const Vector3<double>   normal = cross(plane.e1, plane.e2);
     double                  height = 0.;
     for (unsigned int m = 0; m < master.n_nodes(); ++m)
-      height = std::max(height,
-                        std::abs(dot(normal, y[m]) - dot(normal, plane.origin)));
+      height = std::max(height, std::abs(dot(normal, y[m]) - dot(normal, plane.origin)));
     // The plane may tilt, and then shadows move by the height.
     const double tilt = motion * (1. / plane.length + plane.length / plane.area);
     return !apart(Shadow<double>(slave, x, plane),

@@ -177,8 +177,7 @@ namespace Touchstone
                                               face.reference[p].distance(face.reference[last - p])});
           for (const unsigned int corner : {p, last - p})
             for (const unsigned int end : {0u, last})
-              shortest =
-                std::min(shortest, face.reference[corner].distance(face.reference[end]));
+              shortest = std::min(shortest, face.reference[corner].distance(face.reference[end]));
         }
     for (const auto &entry : found)
       nodes.push_back(entry.second);
