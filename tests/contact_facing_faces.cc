@@ -19,15 +19,6 @@ namespace
                                           "set Cells        = 4, 4, 2",
                                           slave_and_master("upper", "bottom", "lower", "top"));
 
-  const std::string overhang =
-    two_bodies("lower",
-               "set Cells = 3, 4, 2",
-               "upper",
-               "set Lower corner = 0.57, 0.61, 1\n"
-               "set Upper corner = 1.13, 1.15, 2\n"
-               "set Cells        = 4, 5, 2",
-               slave_and_master("upper", "bottom", "lower", "top, right, back"));
-
   const std::string tubes = two_bodies("outer",
                                        "set Type         = tube\n"
                                        "set Axis         = x\n"

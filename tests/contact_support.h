@@ -55,6 +55,16 @@ namespace Touchstone
                       slave_and_master("other", "bottom", "body", boundaries) + "\n" + more);
   }
 
+  /** A block that stands over the edges and a corner of another one. */
+  inline const std::string overhang =
+    two_bodies("lower",
+               "set Cells = 3, 4, 2",
+               "upper",
+               "set Lower corner = 0.57, 0.61, 1\n"
+               "set Upper corner = 1.13, 1.15, 2\n"
+               "set Cells        = 4, 5, 2",
+               slave_and_master("upper", "bottom", "lower", "top, right, back"));
+
   /** The first contact pair of a scene, without the rest of the program. */
   class PairOfScene
   {
