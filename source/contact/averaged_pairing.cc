@@ -4,6 +4,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/identity_matrix.h>
 
 #include <algorithm>
 #include <optional>
@@ -256,15 +257,12 @@ namespace Touchstone
       // The basis N~ of the continuous displacements is C^T N, and the dual one of the
       // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
       // those with N.
-      const TraceBasis *basis = input.slave->trace(slave);
-      const auto        c     = [&](const unsigned int i, const unsigned int p) {
-        return basis ? basis->weights[i][p] : (i == p ? 1. : 0.);
-      };
-      FullMatrix<double> inverse(n, n), to_basis(n, n), weights(n, n);
+      const TraceBasis  *basis = input.slave->trace(slave);
+      FullMatrix<double> to_basis{IdentityMatrix(n)}, inverse(n, n), weights(n, n);
       double             trace = 0.;
-      for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int i = 0; basis && i < n; ++i)
         for (unsigned int p = 0; p < n; ++p)
-          to_basis(p, i) = c(i, p);
+          to_basis(p, i) = basis->weights[i][p];
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int k = 0; k < n; ++k)
           weights(j, k) = mass[j][k];

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <tuple>
 
 namespace Touchstone
 {
@@ -420,10 +421,9 @@ namespace Touchstone
   {
     const FaceGeometry shape = geometry(*candidate.face);
     ContactPartner     partner;
-    partner.face   = candidate.face;
-    partner.xi     = candidate.projection.xi;
-    partner.x      = shape.evaluate(partner.xi).x;
-    partner.normal = shape.normal(partner.xi);
+    partner.face                        = candidate.face;
+    partner.xi                          = candidate.projection.xi;
+    std::tie(partner.x, partner.normal) = shape.position_and_normal(partner.xi);
     Tensor<1, dim> edge;
     if (candidate.projection.beyond_inner > 1e-6 && shape.sharp(partner.xi, edge))
       {
