@@ -41,7 +41,7 @@ namespace
   void
   check(const std::string               &what,
         const AffineConstraints<double> &constraints,
-        const std::vector<MatrixTerm>   &terms,
+        const std::vector<RankOneTerm>  &terms,
         const bool                       shifted,
         const std::vector<unsigned int> &extra_of_rank,
         const bool                       break_it = false,
@@ -130,8 +130,10 @@ namespace
       }
     for (unsigned int k = n; k < m; ++k)
       b[k] = number(k, 78);
-    for (const MatrixTerm &term : terms)
-      a(term.row, term.column) += term.value;
+    for (const RankOneTerm &term : terms)
+      for (const auto &[i, left] : term.left)
+        for (const auto &[j, right] : term.right)
+          a(i, j) += left * right;
     if (break_it)
       a(3, 4) += 1e-3;
     for (unsigned int i = 0; i < m; ++i)
@@ -160,9 +162,11 @@ namespace
       if (change.is_constrained(i))
         {
           double spring = shifted ? 1. + i : 0.;
-          for (const MatrixTerm &term : terms)
-            if (term.row == i && term.column == i)
-              spring += term.value;
+          for (const RankOneTerm &term : terms)
+            for (const auto &[k, left] : term.left)
+              for (const auto &[l, right] : term.right)
+                if (k == i && l == i)
+                  spring += left * right;
           const double scale = spring > 0. ? entry(i, i) / (entry(i, i) + spring) : 1.;
           rhs[i] *= scale;
           for (unsigned int j = 0; j < m; ++j)
@@ -281,23 +285,18 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::vector<MatrixTerm>    contact = {{1, 22, 0.5},
-                                              {22, 1, 0.5},
-                                              {5, 5, 2.},
-                                              {5, 20, -1.},
-                                              {20, 5, -1.},
-                                              {20, 20, 1.},
-                                              {18, 18, 3.},
-                                              {3, 3, 1.}};
-  std::vector<MatrixTerm>          multipliers;
-  for (const MatrixTerm &term : {MatrixTerm{n, 2, 1.},
-                                 MatrixTerm{n, 21, -1.},
-                                 MatrixTerm{n + 1, 5, 1.},
-                                 MatrixTerm{n + 1, 0, 0.5},
-                                 MatrixTerm{n + 2, 12, -1.}})
+  const std::vector<RankOneTerm>   contact = {{{{1, 0.5}}, {{22, 1.}}},
+                                              {{{22, 0.5}}, {{1, 1.}}},
+                                              {{{5, 1.}, {20, -1.}}, {{5, 1.}, {20, -1.}}},
+                                              {{{5, 1.}}, {{5, 1.}}},
+                                              {{{18, 1.}, {18, 2.}}, {{18, 1.}}},
+                                              {{{3, 1.}}, {{3, 1.}}}};
+  std::vector<RankOneTerm>         multipliers;
+  const std::vector<LinearForm>    forms = {{{2, 1.}, {21, -1.}}, {{5, 1.}, {0, 0.5}}, {{12, -1.}}};
+  for (unsigned int k = 0; k < forms.size(); ++k)
     {
-      multipliers.push_back(term);
-      multipliers.push_back({term.column, term.row, term.value});
+      multipliers.push_back({{{n + k, 1.}}, forms[k]});
+      multipliers.push_back({forms[k], {{n + k, 1.}}});
     }
   for (const unsigned int kind : {0, 1, 2})
     {
@@ -309,15 +308,8 @@ main(int argc, char **argv)
       check(name + ", multipliers", constraints, multipliers, true, {2, 1});
       check(name + ", another matrix", constraints, contact, false, {}, true);
       // Stiff springs: their stretch is the only unknown that they act on.
-      const std::vector<MatrixTerm> stiff = {{12, 12, 4e4},
-                                             {12, 13, -2e4},
-                                             {12, 22, -2e4},
-                                             {13, 12, -2e4},
-                                             {22, 12, -2e4},
-                                             {13, 13, 1e4},
-                                             {13, 22, 1e4},
-                                             {22, 13, 1e4},
-                                             {22, 22, 1e4}};
+      const LinearForm               stretch = {{12, 1.}, {13, -0.5}, {22, -0.5}};
+      const std::vector<RankOneTerm> stiff   = {{{{12, 4e4}, {13, -2e4}, {22, -2e4}}, stretch}};
       check(name + ", stiff spring", constraints, stiff, false, {}, false, true);
     }
 }

@@ -92,7 +92,7 @@ namespace
           if (rank == 0)
             for (unsigned int node = n_nodes - side * side; node < n_nodes; ++node)
               for_neighbours(node, [&](const unsigned int other, unsigned int) {
-                system.terms.push_back({3 * node, 3 * other + 2, friction});
+                system.terms.push_back({{{3 * node, friction}}, {{3 * other + 2, 1.}}});
               });
         }
       system.first_extra = n;
@@ -103,8 +103,8 @@ namespace
             {
               system.n_extra   = 1;
               system.extra_rhs = {1.};
-              system.terms.push_back({n, n - 1, 1.});
-              system.terms.push_back({n - 1, n, 1.});
+              system.terms.push_back({{{n, 1.}}, {{n - 1, 1.}}});
+              system.terms.push_back({{{n - 1, 1.}}, {{n, 1.}}});
             }
           else
             ++system.first_extra;

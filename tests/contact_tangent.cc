@@ -308,9 +308,10 @@ end
     ghosted(const Touchstone::Vector &v)
     {
       std::set<Index> columns;
-      for (const MatrixTerm &term : system->terms)
-        if (term.column < v.size())
-          columns.insert(term.column);
+      for (const RankOneTerm &term : system->terms)
+        for (const auto &[column, value] : term.right)
+          if (column < v.size())
+            columns.insert(column);
       for_each_condition(
         [&](unsigned int, const ContactRow &, unsigned int, const Condition &condition) {
           for (const auto &[node, coefficients] : condition.motion_form())
@@ -333,14 +334,19 @@ end
       Touchstone::Vector  result(made.solid.owned, MPI_COMM_WORLD);
       std::vector<Index>  unknowns;
       std::vector<double> values;
-      for (const MatrixTerm &term : system->terms)
-        if (term.row < result.size())
-          {
-            unknowns.push_back(term.row);
-            values.push_back(-term.value * (term.column < result.size()
-                                              ? v(term.column)
-                                              : extra[term.column - system->first_extra]));
-          }
+      for (const RankOneTerm &term : system->terms)
+        {
+          double stretch = 0.;
+          for (const auto &[column, value] : term.right)
+            stretch +=
+              value * (column < result.size() ? v(column) : extra[column - system->first_extra]);
+          for (const auto &[row, value] : term.left)
+            if (row < result.size())
+              {
+                unknowns.push_back(row);
+                values.push_back(-value * stretch);
+              }
+        }
       // What is eliminated still acts through its force.
       if (enforcement_name == "elimination")
         {
@@ -499,9 +505,11 @@ end
         errors[4].add(c.change(v, std::vector<double>(extra.size(), 0.)), difference);
 
         std::vector<double> rows_of_system(c.system->n_extra, 0.);
-        for (const MatrixTerm &term : c.system->terms)
-          if (term.row >= v.size())
-            rows_of_system[term.row - c.system->first_extra] += term.value * v(term.column);
+        for (const RankOneTerm &term : c.system->terms)
+          for (const auto &[row, left] : term.left)
+            if (row >= v.size())
+              for (const auto &[column, right] : term.right)
+                rows_of_system[row - c.system->first_extra] += left * right * v(column);
         c.for_each_condition([&](const unsigned int k,
                                  const ContactRow  &row,
                                  const unsigned int i,

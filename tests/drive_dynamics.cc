@@ -335,12 +335,18 @@ end
     solid.assemble(u);
     Touchstone::Vector product(committed);
     integration->stiffness().vmult(product, w);
-    std::vector<MatrixTerm> terms;
+    std::vector<RankOneTerm> terms;
     if (!conditions.follower_pressure().empty())
       conditions.follower_pressure().add_stiffness(1., u, false, terms);
     const Touchstone::Vector ghosted = solid.ghosted(w);
-    for (const MatrixTerm &term : terms)
-      product(term.row) += integration->weight() * term.value * ghosted(term.column);
+    for (const RankOneTerm &term : terms)
+      {
+        double change = 0.;
+        for (const auto &[column, value] : term.right)
+          change += value * ghosted(column);
+        for (const auto &[row, value] : term.left)
+          product(row) += integration->weight() * value * change;
+      }
     product.compress(VectorOperation::add);
     const double       step = 1e-5;
     Touchstone::Vector moved(u);

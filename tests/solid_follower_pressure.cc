@@ -74,13 +74,19 @@ end
 
 
   Touchstone::Vector
-  product(const Solid &solid, const std::vector<MatrixTerm> &terms, const Touchstone::Vector &v)
+  product(const Solid &solid, const std::vector<RankOneTerm> &terms, const Touchstone::Vector &v)
   {
     Touchstone::Vector ghosted(solid.owned, solid.relevant, solid.communicator);
     ghosted = v;
     Touchstone::Vector result(solid.owned, solid.communicator);
-    for (const MatrixTerm &term : terms)
-      result(term.row) += term.value * ghosted(term.column);
+    for (const RankOneTerm &term : terms)
+      {
+        double change = 0.;
+        for (const auto &[column, value] : term.right)
+          change += value * ghosted(column);
+        for (const auto &[row, value] : term.left)
+          result(row) += value * change;
+      }
     result.compress(VectorOperation::add);
     return result;
   }
@@ -116,7 +122,7 @@ end
     sum    = Utilities::MPI::sum(sum, MPI_COMM_WORLD);
     moment = Utilities::MPI::sum(moment, MPI_COMM_WORLD);
 
-    std::vector<MatrixTerm> terms, symmetric;
+    std::vector<RankOneTerm> terms, symmetric;
     conditions.follower_pressure().add_stiffness(1., u, false, terms);
     conditions.follower_pressure().add_stiffness(1., u, true, symmetric);
     // The force is quadratic in u but for the pressure, which is fixed to the reference.

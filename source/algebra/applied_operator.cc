@@ -1,7 +1,6 @@
 #include <touchstone/algebra/applied_operator.h>
 #include <touchstone/algebra/condensation.h>
 
-#include <Epetra_FECrsMatrix.h>
 #include <algorithm>
 
 namespace Touchstone
@@ -23,7 +22,13 @@ namespace Touchstone
     motion = expansion(system.constraints, scale, &inhomogeneity);
     if (system.test_constraints)
       test = expansion(*system.test_constraints, scale, nullptr);
-    make_terms();
+    int any = 0, here = !system.terms.empty();
+    map.Comm().MaxAll(&here, &any, 1);
+    if (any != 0)
+      {
+        left  = forms(&RankOneTerm::left);
+        right = forms(&RankOneTerm::right);
+      }
     // Of few rows: ExtractDiagonalCopy() would search all.
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
     for (int i = 0; i < stiffness.NumMyRows(); ++i)
@@ -81,31 +86,34 @@ namespace Touchstone
 
 
 
-  void
-  AppliedOperator::make_terms()
+  std::unique_ptr<Epetra_CrsMatrix>
+  AppliedOperator::forms(LinearForm RankOneTerm::*side) const
   {
-    int any = 0, here = !system.terms.empty();
-    map.Comm().MaxAll(&here, &any, 1);
-    if (any == 0)
-      return;
-    auto                matrix = std::make_unique<Epetra_FECrsMatrix>(Copy, map, 0);
-    std::vector<int>    columns;
-    std::vector<double> values;
-    for_each_row(system.terms, [&](const Index row, const std::vector<const MatrixTerm *> &of_row) {
-      columns.clear();
-      values.clear();
-      for (const MatrixTerm *term : of_row)
-        {
-          columns.push_back(static_cast<int>(term->column));
-          values.push_back(term->value);
-        }
-      matrix->InsertGlobalValues(static_cast<int>(row),
-                                 columns.size(),
-                                 values.data(),
-                                 columns.data());
-    });
-    matrix->GlobalAssemble(map, map);
-    terms = std::move(matrix);
+    LocalNumbers                  numbers(map);
+    std::vector<int>              lengths, place;
+    std::vector<double>           value;
+    std::vector<std::vector<int>> places;
+    for (const RankOneTerm &term : system.terms)
+      {
+        place.clear();
+        for (const auto &entry : term.*side)
+          place.push_back(numbers.local(entry.first));
+        lengths.push_back(static_cast<int>(place.size()));
+        places.push_back(place);
+      }
+    const Epetra_Map rows(-1, static_cast<int>(lengths.size()), 0, map.Comm());
+    const Epetra_Map columns(
+      -1, static_cast<int>(numbers.global().size()), numbers.global().data(), 0, map.Comm());
+    auto result = std::make_unique<Epetra_CrsMatrix>(Copy, rows, columns, lengths.data(), true);
+    for (std::size_t k = 0; k < system.terms.size(); ++k)
+      {
+        value.clear();
+        for (const auto &entry : system.terms[k].*side)
+          value.push_back(entry.second);
+        result->InsertMyValues(k, value.size(), value.data(), places[k].data());
+      }
+    result->FillComplete(map, rows);
+    return result;
   }
 
 
@@ -126,9 +134,11 @@ namespace Touchstone
         for (int i = 0; i < n; ++i)
           result[i] += shift[i] * x[i];
       }
-    if (terms)
+    if (right)
       {
-        terms->Multiply(false, x, part);
+        Epetra_Vector stretch(right->RangeMap());
+        right->Multiply(false, x, stretch);
+        left->Multiply(true, stretch, part);
         result.Update(1., part, 1.);
       }
   }

@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace Touchstone
@@ -21,29 +22,6 @@ namespace Touchstone
     if (found == column + n || *found != local)
       found = std::find(column, column + n, local); // of a row that is not sorted
     return found == column + n ? 0. : value[found - column];
-  }
-
-
-
-  void
-  for_each_row(const std::vector<MatrixTerm>                                             &terms,
-               const std::function<void(Index, const std::vector<const MatrixTerm *> &)> &visit)
-  {
-    std::vector<const MatrixTerm *> order;
-    for (const MatrixTerm &term : terms)
-      order.push_back(&term);
-    std::stable_sort(order.begin(), order.end(), [](const MatrixTerm *a, const MatrixTerm *b) {
-      return a->row < b->row;
-    });
-    std::vector<const MatrixTerm *> of_row;
-    for (std::size_t k = 0; k < order.size();)
-      {
-        of_row.clear();
-        const Index row = order[k]->row;
-        for (; k < order.size() && order[k]->row == row; ++k)
-          of_row.push_back(order[k]);
-        visit(row, of_row);
-      }
   }
 
 
@@ -240,12 +218,44 @@ namespace Touchstone
   void
   Condensation::add_terms()
   {
-    for_each_row(system.terms, [&](const Index row, const std::vector<const MatrixTerm *> &terms) {
-      double product = 0.;
-      for (const MatrixTerm *term : terms)
-        product += expand(columns.local(term->column), term->value);
-      add_source(row_numbers.local(row), -product);
-    });
+    for (const RankOneTerm &term : system.terms)
+      {
+        double shift = 0.;
+        for (const auto &[column, value] : term.right)
+          shift += expand(columns.local(column), value);
+        sources.push_back(take_what_is_left());
+        source_values.push_back(-shift);
+        for (const auto &[row, value] : term.left)
+          {
+            const int here = row_numbers.local(row);
+            if (const Expansion::Line *line = test.line(here))
+              for (const auto &[target, factor] : line->entries)
+                accumulator.add(target, value * factor);
+            else
+              accumulator.add(here, value);
+          }
+        const int source = static_cast<int>(sources.size()) - 1;
+        for (const auto &[target, value] : take_what_is_left())
+          parts.push_back({target, source, value});
+      }
+  }
+
+
+
+  SparseRow
+  Condensation::take_what_is_left()
+  {
+    SparseRow row     = accumulator.take();
+    double    largest = 0.;
+    for (const auto &entry : row)
+      largest = std::max(largest, std::abs(entry.second));
+    row.erase(std::remove_if(row.begin(),
+                             row.end(),
+                             [&](const auto &entry) {
+                               return std::abs(entry.second) <= 1e-14 * largest;
+                             }),
+              row.end());
+    return row;
   }
 
 

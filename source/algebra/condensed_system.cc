@@ -155,9 +155,22 @@ namespace Touchstone
     // Any number would do: what constraints add to the entry of the diagonal is left out.
     Vector springs(system.rhs.locally_owned_elements(), system.rhs.get_mpi_communicator());
     std::map<Index, double> sums;
-    for (const MatrixTerm &term : system.terms)
-      if (term.row == term.column && system.basis_change.is_constrained(term.row))
-        sums[term.row] += term.value;
+    std::map<Index, double> left, right;
+    for (const RankOneTerm &term : system.terms)
+      {
+        left.clear();
+        right.clear();
+        for (const auto &[row, value] : term.left)
+          if (system.basis_change.is_constrained(row))
+            left[row] += value;
+        if (left.empty())
+          continue;
+        for (const auto &[column, value] : term.right)
+          if (left.count(column) > 0)
+            right[column] += value;
+        for (const auto &[i, value] : right)
+          sums[i] += left[i] * value;
+      }
     for (const auto &[i, value] : sums)
       springs(i) += value;
     springs.compress(dealii::VectorOperation::add);

@@ -65,16 +65,10 @@ namespace Touchstone
             // Scaled to the size of the stiffness, so that neither block is lost
             // in the other's round-off.
             const double scale = multipliers[k].scale;
-            for (const auto &[node, coefficients] : condition.motion_form())
-              for (unsigned int d = 0; d < dim; ++d)
-                if (coefficients[d] != 0.)
-                  system.terms.push_back({extra, dim * node + d, scale * coefficients[d]});
+            system.terms.push_back({{{extra, scale}}, by_unknowns(condition.motion_form())});
+            system.terms.push_back({by_unknowns(condition.force_form()), {{extra, scale}}});
             if (!condition.symmetric())
               system.symmetric = false;
-            for (const auto &[node, coefficients] : condition.force_form())
-              for (unsigned int d = 0; d < dim; ++d)
-                if (coefficients[d] != 0.)
-                  system.terms.push_back({dim * node + d, extra, scale * coefficients[d]});
             system.extra_rhs.push_back(scale * condition.value);
           }
       }

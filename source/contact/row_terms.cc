@@ -6,6 +6,20 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  LinearForm
+  by_unknowns(const NodalForm &form)
+  {
+    LinearForm result;
+    result.reserve(dim * form.size());
+    for (const auto &[node, coefficients] : form)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (coefficients[d] != 0.)
+          result.emplace_back(dim * node + d, coefficients[d]);
+    return result;
+  }
+
+
+
   NodalForm
   gap_gradient(const ContactRow &row)
   {
@@ -146,16 +160,13 @@ namespace Touchstone
   void
   RowTerms::add_stiffness(const ContactRow &row, const NodalMatrices &change)
   {
-    const auto add = [&](const Index node, const double weight) {
-      for (const auto &[other, matrix] : change)
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int e = 0; e < dim; ++e)
-            if (weight * matrix[d][e] != 0.)
-              system.terms.push_back({dim * node + d, dim * other + e, weight * matrix[d][e]});
-    };
-    add(row.slave, 1.);
-    for (const StencilEntry &entry : row.stencil)
-      add(entry.node, -entry.weight);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        NodalForm form;
+        for (const auto &[node, matrix] : change)
+          form.emplace_back(node, matrix[d]);
+        add_stiffness(row, Point<dim>::unit_vector(d), form);
+      }
   }
 
 
@@ -163,10 +174,10 @@ namespace Touchstone
   void
   RowTerms::add_stiffness(const ContactRow &row, const Tensor<1, dim> &force, const NodalForm &form)
   {
-    NodalMatrices change;
-    for (const auto &[node, coefficients] : form)
-      change.emplace_back(node, outer_product(force, coefficients));
-    add_stiffness(row, change);
+    RankOneTerm term{by_unknowns(relative_motion(row.slave, row.stencil, force)),
+                     by_unknowns(form)};
+    if (!term.left.empty() && !term.right.empty())
+      system.terms.push_back(std::move(term));
   }
 
 
@@ -185,15 +196,13 @@ namespace Touchstone
     add_stiffness(row, change);
     // Master nodes take -w_m f.
     for (std::size_t m = 0; m < row.stencil.size(); ++m)
-      for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int e = 0; e < dim; ++e)
-            {
-              const double value = row.force[d] * derivative.weights[m][a][e];
-              if (value != 0.)
-                system.terms.push_back(
-                  {dim * row.stencil[m].node + d, dim * derivative.nodes[a] + e, value});
-            }
+      {
+        NodalForm weight;
+        for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+          weight.emplace_back(derivative.nodes[a], derivative.weights[m][a]);
+        system.terms.push_back(
+          {by_unknowns({{row.stencil[m].node, row.force}}), by_unknowns(weight)});
+      }
   }
 
 

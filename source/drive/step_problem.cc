@@ -412,7 +412,8 @@ namespace Touchstone
                                                               system->keep_symmetric,
                                                               system->terms);
         for (std::size_t k = before; k < system->terms.size(); ++k)
-          system->terms[k].value *= integration->weight();
+          for (auto &entry : system->terms[k].left)
+            entry.second *= integration->weight();
         system->symmetric = system->symmetric && system->keep_symmetric;
       }
     RowTerms terms(*system);
@@ -425,10 +426,11 @@ namespace Touchstone
     // Contact terms may refer to nodes that are far from this rank's cells, and to
     // components of them that no condition knows of.
     std::set<Index> far;
-    for (const MatrixTerm &term : system->terms)
-      for (const Index i : {term.row, term.column})
-        if (i < system->rhs.size() && !solid.relevant.is_element(i))
-          far.insert(i);
+    for (const RankOneTerm &term : system->terms)
+      for (const LinearForm *form : {&term.left, &term.right})
+        for (const auto &[i, value] : *form)
+          if (i < system->rhs.size() && !solid.relevant.is_element(i))
+            far.insert(i);
     IndexSet needed = solid.relevant;
     needed.add_indices(far.begin(), far.end());
     system->constraints = graph.constraints(solid.hanging, solid.owned, needed, solid.communicator);

@@ -81,10 +81,10 @@ namespace Touchstone
 
 
   void
-  FollowerPressure::add_stiffness(const double             t,
-                                  const Vector            &u,
-                                  const bool               symmetric,
-                                  std::vector<MatrixTerm> &terms) const
+  FollowerPressure::add_stiffness(const double              t,
+                                  const Vector             &u,
+                                  const bool                symmetric,
+                                  std::vector<RankOneTerm> &terms) const
   {
     if (loads.empty())
       return;
@@ -93,29 +93,33 @@ namespace Touchstone
       u,
       false,
       [&](const auto &values, const unsigned int q, const auto &dofs, const SurfacePoint &point) {
-        // Shapes that vanish at the point can still have a slope there.
+        // A term for each direction c of the force, p N_i da_c/du.
+        std::array<RankOneTerm, dim> of_point;
         for (unsigned int j = 0; j < dofs.size(); ++j)
           {
+            const unsigned int component = solid.fe.system_to_component_index(j).first;
+            const double       force = point.pressure * values.shape_value(j, q) * values.JxW(q);
+            if (force != 0.)
+              of_point[component].left.emplace_back(dofs[j], force);
+            // Shapes that vanish at the point can still have a slope there.
             const Tensor<1, dim> gradient = values.shape_grad(j, q);
             const double         slope[2] = {gradient * point.t[0], gradient * point.t[1]};
             if (std::abs(slope[0]) + std::abs(slope[1]) <= 1e-14 * gradient.norm())
               continue;
             Tensor<1, dim> e;
-            e[solid.fe.system_to_component_index(j).first] = 1.;
+            e[component] = 1.;
             // d ((F t_1) x (F t_2)) / du_j
             const Tensor<1, dim> change = slope[0] * cross_product_3d(e, point.moved[1]) +
                                           slope[1] * cross_product_3d(point.moved[0], e);
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              {
-                const double value = point.pressure * values.shape_value(i, q) *
-                                     change[solid.fe.system_to_component_index(i).first] *
-                                     values.JxW(q);
-                if (value == 0.)
-                  continue;
-                terms.push_back({dofs[i], dofs[j], symmetric ? 0.5 * value : value});
-                if (symmetric)
-                  terms.push_back({dofs[j], dofs[i], 0.5 * value});
-              }
+            for (unsigned int c = 0; c < dim; ++c)
+              if (change[c] != 0.)
+                of_point[c].right.emplace_back(dofs[j], symmetric ? 0.5 * change[c] : change[c]);
+          }
+        for (RankOneTerm &term : of_point)
+          {
+            terms.push_back(term);
+            if (symmetric)
+              terms.push_back({std::move(term.right), std::move(term.left)});
           }
       });
   }

@@ -42,7 +42,9 @@ namespace Touchstone
 
   private:
     const LinearSystem               &system;
-    std::unique_ptr<Epetra_CrsMatrix> motion, test, terms;
+    std::unique_ptr<Epetra_CrsMatrix> motion, test;
+    /** The contact terms C = L^T R, a row for each of this rank; null without any. */
+    std::unique_ptr<Epetra_CrsMatrix> left, right;
     /** The g of x = T y + g. */
     Epetra_Vector inhomogeneity;
     /** Diagonal entries of constrained unknowns, zero at others. */
@@ -55,8 +57,9 @@ namespace Touchstone
     expansion(const dealii::AffineConstraints<double> &constraints,
               const Epetra_Vector                     *scale,
               Epetra_Vector                           *shift) const;
-    void
-    make_terms();
+    /** @brief Forms of this rank's terms as the rows of a matrix. */
+    std::unique_ptr<Epetra_CrsMatrix>
+    forms(LinearForm RankOneTerm::*side) const;
 
     /** @brief result = (A + D + C) x, of all unknowns. */
     void

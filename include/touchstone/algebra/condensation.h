@@ -174,6 +174,10 @@ namespace Touchstone
     add_stiffness();
     void
     add_terms();
+    /** Take the present row of the accumulator for one side of a term, without what has
+     * cancelled out: where the stretch of a spring is an unknown nothing else is left. */
+    SparseRow
+    take_what_is_left();
     /** Take the present row of the accumulator for row @p row of A T. */
     void
     add_source(int row, double value);

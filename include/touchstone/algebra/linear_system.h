@@ -7,25 +7,28 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>
 
-#include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief One matrix entry given by global numbers; may lie in a row of any
-   * rank, and entries at the same place add up. */
-  struct MatrixTerm
-  {
-    Index  row, column;
-    double value;
-  };
+  /** @brief Coefficients of unknowns, by global numbers, which may be those of any rank;
+   * coefficients of equal number add up. */
+  using LinearForm = std::vector<std::pair<Index, double>>;
 
-  /** @brief Visit the terms of each row together, rows in ascending order and the terms of
-   * a row as they came: visit(row, its terms). */
-  void
-  for_each_row(const std::vector<MatrixTerm>                                             &terms,
-               const std::function<void(Index, const std::vector<const MatrixTerm *> &)> &visit);
+  /**
+   * @brief A matrix of rank one, left right^T: a force along @p left that grows with
+   * @p right of the displacement, as that of a spring does.
+   *
+   * The matrix entries of a spring between a node and a face are as many as the square of
+   * its unknowns; as a product it takes part in products with vectors, changes of
+   * basis and condensation at the cost of its unknowns.
+   */
+  struct RankOneTerm
+  {
+    LinearForm left, right;
+  };
 
   /**
    * @brief The linear system of a Newton iteration as its parts: continuum
@@ -44,7 +47,7 @@ namespace Touchstone
      * be empty. */
     Vector diagonal_shift;
     /** Contact terms, of displacement and extra unknowns. */
-    std::vector<MatrixTerm> terms;
+    std::vector<RankOneTerm> terms;
     /** Number of extra unknowns of this rank, and number of the first. */
     Index n_extra = 0, first_extra = 0;
     /** Conditions on the displacement increment; and on the test functions, where

@@ -9,6 +9,10 @@
 
 namespace Touchstone
 {
+  /** @brief The form by unknowns instead of nodes, zeros left out. */
+  LinearForm
+  by_unknowns(const NodalForm &form);
+
   /** @brief d gap / d x_a of a row with a derivative: normal and stencil change. */
   NodalForm
   gap_gradient(const ContactRow &row);

@@ -52,7 +52,7 @@ namespace Touchstone
     /** @brief Add the stiffness -df/du, or its symmetric part, of the cells of this
      * rank. Collective. */
     void
-    add_stiffness(double t, const Vector &u, bool symmetric, std::vector<MatrixTerm> &terms) const;
+    add_stiffness(double t, const Vector &u, bool symmetric, std::vector<RankOneTerm> &terms) const;
 
   private:
     struct Load
