@@ -1,5 +1,4 @@
 #include <touchstone/algebra/applied_operator.h>
-#include <touchstone/algebra/condensation.h>
 
 #include <algorithm>
 
@@ -19,15 +18,16 @@ namespace Touchstone
     , force(map)
     , part(map)
   {
-    motion = expansion(system.constraints, scale, &inhomogeneity);
+    motion = std::make_unique<Factor>(*this, system.constraints, scale, &inhomogeneity);
     if (system.test_constraints)
-      test = expansion(*system.test_constraints, scale, nullptr);
+      test = std::make_unique<Factor>(*this, *system.test_constraints, scale, nullptr);
     int any = 0, here = !system.terms.empty();
     map.Comm().MaxAll(&here, &any, 1);
     if (any != 0)
       {
-        left  = forms(&RankOneTerm::left);
-        right = forms(&RankOneTerm::right);
+        left    = forms(&RankOneTerm::left);
+        right   = forms(&RankOneTerm::right);
+        stretch = std::make_unique<Epetra_Vector>(right->RangeMap());
       }
     // Of few rows: ExtractDiagonalCopy() would search all.
     const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
@@ -41,47 +41,52 @@ namespace Touchstone
 
 
 
-  std::unique_ptr<Epetra_CrsMatrix>
-  AppliedOperator::expansion(const AffineConstraints<double> &constraints,
-                             const Epetra_Vector             *scale,
-                             Epetra_Vector                   *shift) const
+  AppliedOperator::Factor::Factor(const AppliedOperator           &owner,
+                                  const AffineConstraints<double> &constraints,
+                                  const Epetra_Vector             *scale,
+                                  Epetra_Vector                   *shift)
   {
-    LocalNumbers     numbers(map);
-    Expansion        lines(constraints, system.basis_change, system.rhs.size(), numbers);
-    const int        n = map.NumMyElements();
-    std::vector<int> lengths(n, 1);
-    for (int i = 0; i < n; ++i)
-      if (const Expansion::Line *line = lines.line(i))
+    LocalNumbers numbers(owner.map);
+    Expansion expansion(constraints, owner.system.basis_change, owner.system.rhs.size(), numbers);
+    std::vector<SparseRow> rows;
+    for (int i = 0; i < owner.map.NumMyElements(); ++i)
+      if (const Expansion::Line *line = expansion.line(i))
         {
-          lengths[i] = static_cast<int>(line->entries.size());
+          unknowns.push_back(i);
+          rows.push_back(line->entries);
           if (shift)
             (*shift)[i] = line->shift;
         }
-    const Epetra_Map columns(
-      -1, static_cast<int>(numbers.global().size()), numbers.global().data(), 0, map.Comm());
-    auto result = std::make_unique<Epetra_CrsMatrix>(Copy, map, columns, lengths.data(), true);
-    std::vector<int>    place;
-    std::vector<double> value;
-    for (int i = 0; i < n; ++i)
-      {
-        place.assign(1, i);
-        value.assign(1, 1.);
-        if (const Expansion::Line *line = lines.line(i))
-          {
-            place.clear();
-            value.clear();
-            for (const auto &[column, factor] : line->entries)
-              {
-                place.push_back(column);
-                value.push_back(factor);
-              }
-          }
-        result->InsertMyValues(i, place.size(), value.data(), place.data());
-      }
-    result->FillComplete(map, map);
+    lines    = owner.make_matrix(rows, numbers);
+    of_lines = std::make_unique<Epetra_Vector>(lines->RangeMap());
+    // Only of unknowns that have a line here: of the others it is one.
     if (scale)
-      result->RightScale(*scale);
-    return result;
+      lines->RightScale(*scale);
+  }
+
+
+
+  void
+  AppliedOperator::Factor::apply(const Epetra_Vector &x, Epetra_Vector &result) const
+  {
+    lines->Multiply(false, x, *of_lines);
+    std::copy(x.Values(), x.Values() + x.MyLength(), result.Values());
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      result[unknowns[k]] = (*of_lines)[k];
+  }
+
+
+
+  void
+  AppliedOperator::Factor::apply_transposed(Epetra_Vector &x, Epetra_Vector &result) const
+  {
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      {
+        (*of_lines)[k] = x[unknowns[k]];
+        x[unknowns[k]] = 0.;
+      }
+    lines->Multiply(true, *of_lines, result);
+    result.Update(1., x, 1.);
   }
 
 
@@ -89,30 +94,41 @@ namespace Touchstone
   std::unique_ptr<Epetra_CrsMatrix>
   AppliedOperator::forms(LinearForm RankOneTerm::*side) const
   {
-    LocalNumbers                  numbers(map);
-    std::vector<int>              lengths, place;
-    std::vector<double>           value;
-    std::vector<std::vector<int>> places;
-    for (const RankOneTerm &term : system.terms)
-      {
-        place.clear();
-        for (const auto &entry : term.*side)
-          place.push_back(numbers.local(entry.first));
-        lengths.push_back(static_cast<int>(place.size()));
-        places.push_back(place);
-      }
-    const Epetra_Map rows(-1, static_cast<int>(lengths.size()), 0, map.Comm());
+    LocalNumbers           numbers(map);
+    std::vector<SparseRow> rows(system.terms.size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      for (const auto &[unknown, value] : system.terms[k].*side)
+        rows[k].emplace_back(numbers.local(unknown), value);
+    return make_matrix(rows, numbers);
+  }
+
+
+
+  std::unique_ptr<Epetra_CrsMatrix>
+  AppliedOperator::make_matrix(const std::vector<SparseRow> &rows,
+                               const LocalNumbers           &numbers) const
+  {
+    std::vector<int> lengths;
+    for (const SparseRow &row : rows)
+      lengths.push_back(static_cast<int>(row.size()));
+    const Epetra_Map row_map(-1, static_cast<int>(rows.size()), 0, map.Comm());
     const Epetra_Map columns(
       -1, static_cast<int>(numbers.global().size()), numbers.global().data(), 0, map.Comm());
-    auto result = std::make_unique<Epetra_CrsMatrix>(Copy, rows, columns, lengths.data(), true);
-    for (std::size_t k = 0; k < system.terms.size(); ++k)
+    auto result = std::make_unique<Epetra_CrsMatrix>(Copy, row_map, columns, lengths.data(), true);
+    std::vector<int>    places;
+    std::vector<double> values;
+    for (std::size_t k = 0; k < rows.size(); ++k)
       {
-        value.clear();
-        for (const auto &entry : system.terms[k].*side)
-          value.push_back(entry.second);
-        result->InsertMyValues(k, value.size(), value.data(), places[k].data());
+        places.clear();
+        values.clear();
+        for (const auto &[place, value] : rows[k])
+          {
+            places.push_back(place);
+            values.push_back(value);
+          }
+        result->InsertMyValues(k, values.size(), values.data(), places.data());
       }
-    result->FillComplete(map, rows);
+    result->FillComplete(map, row_map);
     return result;
   }
 
@@ -136,9 +152,8 @@ namespace Touchstone
       }
     if (right)
       {
-        Epetra_Vector stretch(right->RangeMap());
-        right->Multiply(false, x, stretch);
-        left->Multiply(true, stretch, part);
+        right->Multiply(false, x, *stretch);
+        left->Multiply(true, *stretch, part);
         result.Update(1., part, 1.);
       }
   }
@@ -156,7 +171,7 @@ namespace Touchstone
       force[i] += system.rhs.begin()[i];
     for (Index k = 0; k < system.n_extra; ++k)
       force[n + k] += system.extra_rhs[k];
-    (test ? *test : *motion).Multiply(true, force, *result);
+    (test ? *test : *motion).apply_transposed(force, *result);
     return result;
   }
 
@@ -167,9 +182,9 @@ namespace Touchstone
   {
     for (int v = 0; v < x.NumVectors(); ++v)
       {
-        motion->Multiply(false, *x(v), all);
+        motion->apply(*x(v), all);
         multiply(all, force);
-        (test ? *test : *motion).Multiply(true, force, *result(v));
+        (test ? *test : *motion).apply_transposed(force, *result(v));
         result(v)->Multiply(1., diagonal, *x(v), 1.);
       }
     return 0;

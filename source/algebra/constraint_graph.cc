@@ -53,6 +53,21 @@ namespace Touchstone
       side.value *= factor;
       side.direction[pivot] = 1.;
     }
+
+    /** @p known and @p more unknowns. IndexSet takes single ones one by one into a sorted
+     * list, which takes the square of their number. */
+    IndexSet
+    with(const IndexSet &known, std::vector<Index> more)
+    {
+      const auto end = std::remove_if(more.begin(), more.end(), [&](const Index i) {
+        return known.is_element(i);
+      });
+      std::sort(more.begin(), end);
+      IndexSet result(known);
+      result.add_indices(more.begin(), std::unique(more.begin(), end));
+      result.compress();
+      return result;
+    }
   } // namespace
 
 
@@ -60,6 +75,7 @@ namespace Touchstone
   ConstraintGraph::Side::Side(const Index node, const NodalForm &form, const double value)
     : value(value)
   {
+    others.reserve(dim * form.size());
     for (const auto &[other, coefficients] : form)
       if (other == node)
         direction += coefficients;
@@ -160,7 +176,7 @@ namespace Touchstone
           substitute(earlier.force, reduced.pivot, reduced.force);
           earlier.symmetric = earlier.symmetric && reduced.symmetric;
         }
-    all.push_back(reduced);
+    all.push_back(std::move(reduced));
     conditions.push_back(condition);
     return true;
   }
@@ -214,14 +230,14 @@ namespace Touchstone
     // A rank needs the lines of the unknowns in its matrix rows, of those that
     // these lines refer to, of those that the latter refer to, and so on: until
     // no rank meets an unknown that it has not asked for.
-    IndexSet needed = relevant;
+    std::vector<Index> far;
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
         for (const auto &[unknown, coefficient] : (condition.*side).others)
-          needed.add_index(unknown);
+          far.push_back(unknown);
+    IndexSet needed = with(relevant, far);
     while (true)
       {
-        needed.compress();
         AffineConstraints<double> result(needed);
         for (const auto &line : lines)
           {
@@ -231,19 +247,17 @@ namespace Touchstone
           }
         if (Utilities::MPI::n_mpi_processes(communicator) > 1)
           result.make_consistent_in_parallel(owned, needed, communicator);
-        bool complete = true;
+        far.clear();
         for (const auto &line : result.get_lines())
           for (const auto &entry : line.entries)
             if (!needed.is_element(entry.first))
-              {
-                needed.add_index(entry.first);
-                complete = false;
-              }
-        if (Utilities::MPI::min(static_cast<int>(complete), communicator) == 1)
+              far.push_back(entry.first);
+        if (Utilities::MPI::max(static_cast<int>(!far.empty()), communicator) == 0)
           {
             result.close();
             return result;
           }
+        needed = with(needed, far);
       }
   }
 
@@ -263,15 +277,15 @@ namespace Touchstone
       return AffineConstraints<double>();
 
     // Two rounds: which unknowns are changed, then to what.
-    IndexSet needed = relevant;
+    std::vector<Index> far;
     for (const auto &line : constraints.get_lines())
       for (const auto &entry : line.entries)
-        needed.add_index(entry.first);
+        far.push_back(entry.first);
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
         for (const auto &[unknown, coefficient] : condition.motion.others)
-          needed.add_index(unknown);
-    needed.compress();
+          far.push_back(unknown);
+    const IndexSet            needed = with(relevant, far);
     AffineConstraints<double> known(needed);
     for (const bool with_entries : {false, true})
       {

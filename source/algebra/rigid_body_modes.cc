@@ -51,6 +51,7 @@ namespace Touchstone
 
     Epetra_MultiVector &modes = rigid->columns;
     std::vector<Index>  dofs(solid.fe.n_dofs_per_cell());
+    std::vector<char>   known(modes.MyLength());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
@@ -58,8 +59,9 @@ namespace Touchstone
           for (unsigned int i = 0; i < dofs.size(); ++i)
             {
               const int row = modes.Map().LID(static_cast<int>(dofs[i]));
-              if (row < 0)
+              if (row < 0 || known[row])
                 continue;
+              known[row] = 1;
               const Tensor<1, dim> x =
                 solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i)) -
                 centres[0];

@@ -10,17 +10,16 @@ namespace Touchstone
   VolumeOutput::VolumeOutput(const Solid &solid, const OutputFolder &folder)
     : solid(solid)
     , node_fe(solid.fe.degree)
-    , node_dofs(solid.dof_handler.get_triangulation())
     , pictures(folder, "solution")
   {
-    reinit();
   }
 
 
 
   void
-  VolumeOutput::reinit()
+  VolumeOutput::number_nodes()
   {
+    node_dofs.reinit(solid.dof_handler.get_triangulation());
     node_dofs.distribute_dofs(node_fe);
     node_volume = make_node_field();
 
@@ -106,6 +105,8 @@ namespace Touchstone
                                          "von_mises",
                                          "hydrostatic_pressure"};
 
+    if (!node_dofs.has_active_dofs())
+      number_nodes();
     const auto             fields        = node_stress(displacement);
     const auto            &triangulation = node_dofs.get_triangulation();
     dealii::Vector<double> body(triangulation.n_active_cells());

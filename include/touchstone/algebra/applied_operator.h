@@ -1,7 +1,7 @@
 #ifndef touchstone_algebra_applied_operator_h
 #define touchstone_algebra_applied_operator_h
 
-#include <touchstone/algebra/linear_system.h>
+#include <touchstone/algebra/condensation.h>
 #include <touchstone/algebra/square_operator.h>
 
 #include <Epetra_CrsMatrix.h>
@@ -41,25 +41,49 @@ namespace Touchstone
     Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const override;
 
   private:
-    const LinearSystem               &system;
-    std::unique_ptr<Epetra_CrsMatrix> motion, test;
+    /** A factor of the product, as T: the identity but for few lines. */
+    class Factor
+    {
+    public:
+      /** @param constraints Lines of the factor, together with the system's change of basis.
+       *  @param shift       Takes their inhomogeneities, unless null. */
+      Factor(const AppliedOperator                   &owner,
+             const dealii::AffineConstraints<double> &constraints,
+             const Epetra_Vector                     *scale,
+             Epetra_Vector                           *shift);
+
+      /** @brief result = T x. Collective. */
+      void
+      apply(const Epetra_Vector &x, Epetra_Vector &result) const;
+
+      /** @brief result = T^T x; changes @p x. Collective. */
+      void
+      apply_transposed(Epetra_Vector &x, Epetra_Vector &result) const;
+
+    private:
+      std::vector<int>                  unknowns;
+      std::unique_ptr<Epetra_CrsMatrix> lines;
+      std::unique_ptr<Epetra_Vector>    of_lines;
+    };
+
+    const LinearSystem     &system;
+    std::unique_ptr<Factor> motion, test;
     /** The contact terms C = L^T R, a row for each of this rank; null without any. */
     std::unique_ptr<Epetra_CrsMatrix> left, right;
+    std::unique_ptr<Epetra_Vector>    stretch;
     /** The g of x = T y + g. */
     Epetra_Vector inhomogeneity;
     /** Diagonal entries of constrained unknowns, zero at others. */
     Epetra_Vector         diagonal;
     mutable Epetra_Vector all, force, part;
 
-    /** @brief The T of @p constraints with the change of basis; its inhomogeneities go to
-     * @p shift unless null. */
-    std::unique_ptr<Epetra_CrsMatrix>
-    expansion(const dealii::AffineConstraints<double> &constraints,
-              const Epetra_Vector                     *scale,
-              Epetra_Vector                           *shift) const;
     /** @brief Forms of this rank's terms as the rows of a matrix. */
     std::unique_ptr<Epetra_CrsMatrix>
     forms(LinearForm RankOneTerm::*side) const;
+
+    /** @brief A matrix of any number of rows on each rank, for vectors of unknowns. */
+    std::unique_ptr<Epetra_CrsMatrix>
+    make_matrix(const std::vector<SparseRow> &rows, const LocalNumbers &numbers) const;
 
     /** @brief result = (A + D + C) x, of all unknowns. */
     void

@@ -9,6 +9,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
+#include <boost/container/flat_map.hpp>
 #include <map>
 #include <vector>
 
@@ -173,9 +174,9 @@ namespace Touchstone
     /** Coefficients of the node, of other unknowns, and the right-hand side. */
     struct Side
     {
-      dealii::Tensor<1, dim>  direction;
-      std::map<Index, double> others;
-      double                  value = 0.;
+      dealii::Tensor<1, dim>                    direction;
+      boost::container::flat_map<Index, double> others;
+      double                                    value = 0.;
 
       Side() = default;
       Side(Index node, const NodalForm &form, double value);

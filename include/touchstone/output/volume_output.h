@@ -21,12 +21,15 @@ namespace Touchstone
   class VolumeOutput
   {
   public:
-    /** @param solid, folder Must outlive this object. Collective. */
+    /** @param solid, folder Must outlive this object. */
     VolumeOutput(const Solid &solid, const OutputFolder &folder);
 
-    /** @brief Begin anew after the mesh has changed. Collective. */
+    /** @brief The mesh has changed. */
     void
-    reinit();
+    reinit()
+    {
+      node_dofs.clear();
+    }
 
     /** @brief Write the picture of one step.
      * @param displacement With ghosts.
@@ -51,6 +54,11 @@ namespace Touchstone
     /** Sum of the volumes of the cells around each node. */
     NodeField     node_volume;
     PictureSeries pictures;
+
+    /** @brief Number the nodes; not before there is a picture to write, for many runs
+     * write none. */
+    void
+    number_nodes();
 
     NodeField
     make_node_field() const;
