@@ -78,8 +78,8 @@ namespace
       {
         kernel.reinit(cell);
         cell->get_dof_indices(dofs);
-        const FullMatrix<double> &k = kernel.stiffness();
-        const unsigned int        n = kernel.n_dofs();
+        const ElementStiffness<1> &k = kernel.stiffness();
+        const unsigned int         n = kernel.n_dofs();
 
         std::vector<double> u(n);
         for (unsigned int a = 0; a < kernel.nodes_per_cell(); ++a)

@@ -97,8 +97,11 @@ namespace Touchstone
     std::vector<unsigned int> order;
     start.reserve(rows.n_nodes() + 1);
     start.push_back(0);
-    // Almost all blocks are full.
-    const std::size_t n_blocks = matrix.NumMyNonzeros() / block * 11 / 10;
+    // Almost all blocks are full. A matrix that is not complete does not know its nonzeros.
+    std::size_t n_nonzeros = 0;
+    for (int i = 0; i < matrix.NumMyRows(); ++i)
+      n_nonzeros += matrix.NumMyEntries(i);
+    const std::size_t n_blocks = n_nonzeros / block * 11 / 10;
     column.reserve(n_blocks);
     entries.reserve(block * n_blocks + 1);
     for (unsigned int node = 0; node < rows.n_nodes(); ++node)

@@ -215,6 +215,10 @@ namespace Touchstone
     const double              omega = 4. / 3. / largest;
     RowOfBlocks<OctetsOfNode> row;
     start.push_back(0);
+    // Seldom more; what is not used is address space and no memory.
+    constexpr std::size_t enough = 8;
+    column.reserve(enough * n_nodes);
+    entries.reserve(block * enough * n_nodes + 2);
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
         std::array<double, dim> damping;

@@ -109,11 +109,14 @@ namespace Touchstone
     bool   solved = true;
     for (std::size_t c = 0; c < cells.size(); ++c)
       {
-        CellKernel &kernel = go_to(c, u, determinant);
+        CellKernel   &kernel    = go_to(c, u, determinant);
+        const double *stiffness = kernel.stiffness(symmetric_part).data();
         writer.add(n_nodes,
                    &rows[c * n_nodes],
                    &columns[c * dim * n_nodes],
-                   kernel.stiffness(symmetric_part).data());
+                   [&](const unsigned int i, const unsigned int j) {
+                     return stiffness[dim * n_nodes * i + j];
+                   });
         solved = solved && kernel.solved();
       }
     return solved;

@@ -50,37 +50,6 @@ namespace Touchstone
 
 
 
-  void
-  RowWriter::add(const unsigned int n_nodes,
-                 const int         *node_rows,
-                 const int         *node_columns,
-                 const double      *stiffness)
-  {
-    const unsigned int n = dim * n_nodes;
-    int                places[dim];
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      if (const int row = node_rows[a]; row >= 0)
-        for (unsigned int b = 0; b < n_nodes; ++b)
-          {
-            // The columns of a node mostly follow each other, but the order in
-            // which Epetra numbers those that belong to several other ranks is its own.
-            const int *columns_b = node_columns + dim * b;
-            places[0]            = position(row, columns_b[0]);
-            for (unsigned int j = 1; j < dim; ++j)
-              places[j] = columns_b[j] == columns_b[j - 1] + 1 ? places[j - 1] + 1
-                                                               : position(row, columns_b[j]);
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                double       *entries = values + begin[row + i];
-                const double *k       = stiffness + (dim * a + i) * n + dim * b;
-                for (unsigned int j = 0; j < dim; ++j)
-                  entries[places[j]] += k[j];
-              }
-          }
-  }
-
-
-
   double
   RowWriter::absolute_sum(const int row) const
   {

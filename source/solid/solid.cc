@@ -1,5 +1,5 @@
 #include <touchstone/algebra/non_convergence.h>
-#include <touchstone/solid/element_kernel.h>
+#include <touchstone/solid/linear_cells.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -126,37 +126,17 @@ namespace Touchstone
   Solid::assemble()
   {
     matrix = 0.;
-    RowWriter                                   writer(matrix);
-    std::vector<std::unique_ptr<ElementKernel>> kernels;
+    RowWriter                                 writer(matrix);
+    std::vector<std::unique_ptr<LinearCells>> linear_cells;
     for (const BodyParameters &body : scene.bodies)
-      kernels.push_back(
-        body.material.linear()
-          ? std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material)
-          : nullptr);
-
-    std::vector<Index> dofs(fe.n_dofs_per_cell());
-    std::vector<int>   rows, columns;
+      linear_cells.push_back(
+        body.material.linear() ? std::make_unique<LinearCells>(mapping, fe, body) : nullptr);
     for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial() && kernels[cell->material_id()])
-        {
-          ElementKernel     &kernel = *kernels[cell->material_id()];
-          const unsigned int n      = kernel.nodes_per_cell();
-          cell->get_dof_indices(dofs);
-          rows.assign(n, -1);
-          columns.assign(dim * n, -1);
-          bool any = false;
-          for (unsigned int a = 0; a < n; ++a)
-            {
-              rows[a] = writer.row(dofs[kernel.local_dof(a, 0)]);
-              any     = any || rows[a] >= 0;
-              for (unsigned int d = 0; d < dim; ++d)
-                columns[dim * a + d] = writer.column(dofs[kernel.local_dof(a, d)]);
-            }
-          if (!any)
-            continue;
-          kernel.reinit(cell);
-          writer.add(n, rows.data(), columns.data(), &kernel.stiffness()(0, 0));
-        }
+      if (!cell->is_artificial() && linear_cells[cell->material_id()])
+        linear_cells[cell->material_id()]->add(cell, writer);
+    for (const auto &cells : linear_cells)
+      if (cells)
+        cells->finish(writer);
     assemble(Vector(owned, communicator));
   }
 

@@ -2,15 +2,14 @@
 #define touchstone_solid_element_kernel_h
 
 #include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/element_stiffness.h>
 #include <touchstone/types.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/full_matrix.h>
 
-#include <memory>
 #include <vector>
 
 namespace Touchstone
@@ -47,13 +46,23 @@ namespace Touchstone
       return dim * n_nodes;
     }
 
-    /** @brief Stiffness over the cell's unknowns, in the order node-component
-     * (see cell_nodes()), force per length. */
-    const dealii::FullMatrix<double> &
+    /** @brief Stiffness over the cell's unknowns, in the order node-component. */
+    const ElementStiffness<1> &
     stiffness();
 
-    /** @brief Stress at quadrature point @p q of the displacement @p u (in the
-     * order of stiffness()); call set_displacement() first. */
+    /** @brief What makes the stiffnesses of eight cells at once. */
+    ElementStiffness<8>
+    stiffness_of_cells() const
+    {
+      return {type, material, n_nodes, n_modes, n_points};
+    }
+
+    /** @brief Let this cell be number @p k of eight; as the first it stands for all until
+     * others come. */
+    void
+    become(unsigned int k, ElementStiffness<8> &cells) const;
+
+    /** @brief Go to a displacement, in the order node-component: for stress(). */
     void
     set_displacement(const std::vector<double> &u);
 
@@ -93,9 +102,9 @@ namespace Touchstone
     }
 
   private:
-    const ElementType   type;
-    const double        lambda, mu;
-    dealii::QGauss<dim> quadrature;
+    const ElementType         type;
+    const MaterialParameters &material;
+    dealii::QGauss<dim>       quadrature;
     /** A scalar copy of the element: all components have the same shapes. */
     const dealii::FE_Q<dim>   scalar_fe;
     dealii::FEValues<dim>     values;
@@ -105,16 +114,15 @@ namespace Touchstone
     /** Gradients of shapes and incompatible modes, [point][shape]. */
     std::vector<std::vector<dealii::Tensor<1, dim>>> gradients;
     std::vector<dealii::Tensor<1, dim>>              mean_gradients;
-    /** Gradients times the root of their weight, and the sums over all points of products of
-     * two. */
-    std::vector<double>        weighted, products;
-    double                     cell_volume = 0.;
-    dealii::FullMatrix<double> full, condensed, recovery;
-    std::vector<double>        displacement;
-    double                     mean_dilatation = 0.;
+    double                                           cell_volume = 0.;
+    std::vector<double>                              displacement;
+    double                                           mean_dilatation = 0.;
+    ElementStiffness<1>                              own;
 
+    /** Set the gradients of cells number @p begin to @p end - 1. */
+    template <unsigned int n_cells>
     void
-    integrate();
+    set_gradients(ElementStiffness<n_cells> &stiffness, unsigned int begin, unsigned int end) const;
   };
 } // namespace Touchstone
 

@@ -31,10 +31,11 @@ namespace Touchstone
      * @brief Add a stiffness of @p n_nodes nodes to the rows that this rank owns.
      * @param rows    First row of each node, or -1.
      * @param columns The three columns of each node.
-     * @param values  Row by row, 3 n_nodes times 3 n_nodes, force per length.
+     * @param value   Value(i, j) of 3 n_nodes times 3 n_nodes, force per length.
      */
+    template <class Value>
     void
-    add(unsigned int n_nodes, const int *rows, const int *columns, const double *values);
+    add(unsigned int n_nodes, const int *rows, const int *columns, const Value &value);
 
     /** @brief Sum of the absolute values of a row. */
     double
@@ -49,6 +50,33 @@ namespace Touchstone
     int
     position(int row, int column) const;
   };
+
+  template <class Value>
+  void
+  RowWriter::add(const unsigned int n_nodes,
+                 const int         *node_rows,
+                 const int         *node_columns,
+                 const Value       &value)
+  {
+    int places[dim];
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      if (const int row = node_rows[a]; row >= 0)
+        for (unsigned int b = 0; b < n_nodes; ++b)
+          {
+            // The columns of a node mostly follow each other, but the order in
+            // which Epetra numbers those that belong to several other ranks is its own.
+            const int *columns_b = node_columns + dim * b;
+            places[0]            = position(row, columns_b[0]);
+            for (unsigned int j = 1; j < dim; ++j)
+              places[j] = columns_b[j] == columns_b[j - 1] + 1 ? places[j - 1] + 1
+                                                               : position(row, columns_b[j]);
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                values[begin[row + i] + places[j]] += value(dim * a + i, dim * b + j);
+          }
+  }
+
+
 
   /** @brief Add the rows of @p added, each multiplied by one of the @p factors, to those of
    * @p sum, which has the same pattern. */

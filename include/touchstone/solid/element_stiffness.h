@@ -1,0 +1,84 @@
+#ifndef touchstone_solid_element_stiffness_h
+#define touchstone_solid_element_stiffness_h
+
+#include <touchstone/scene/body_parameters.h>
+#include <touchstone/types.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Stiffness of an element of isotropic linear elasticity from the gradients of its
+   * shape functions, with its incompatible modes condensed.
+   *
+   * With G_ab = sum_q w_q grad N_a (x) grad N_b the stiffness between two nodes is lambda
+   * G_ab + mu (G_ab^T + tr G_ab I). With B-bar the volumetric part is that of the mean
+   * gradients, with the bulk modulus, and the rest is deviatoric.
+   *
+   * @tparam n_cells 1, or 8 for as many cells at once.
+   */
+  template <unsigned int n_cells>
+  class ElementStiffness
+  {
+  public:
+    ElementStiffness(ElementType               type,
+                     const MaterialParameters &material,
+                     unsigned int              n_nodes,
+                     unsigned int              n_modes,
+                     unsigned int              n_points);
+
+    /** @brief Component of the gradient of shape @p a, nodes before modes, at quadrature
+     * point @p q of cell @p k, times the root of the point's weight; per length, times the root
+     * of a volume. To be set before compute(). */
+    double &
+    gradient(const unsigned int q,
+             const unsigned int a,
+             const unsigned int i,
+             const unsigned int k = 0)
+    {
+      return weighted[(n * q + dim * a + i) * n_cells + k];
+    }
+
+    /** @brief The same of the mean over the cell and its volume; of B-bar only. */
+    double &
+    mean_gradient(const unsigned int a, const unsigned int i, const unsigned int k = 0)
+    {
+      return mean[(dim * a + i) * n_cells + k];
+    }
+
+    /** @brief Make the stiffness. */
+    void
+    compute();
+
+    /** @brief Entry of the stiffness of cell @p k over the unknowns of the nodes, force per
+     * length. */
+    double
+    operator()(const unsigned int i, const unsigned int j, const unsigned int k = 0) const
+    {
+      return matrix[(n * i + j) * n_cells + k];
+    }
+
+    /** @brief Append to the displacements of the nodes of a single cell those of the modes
+     * that belong to them. */
+    void
+    recover_modes(std::vector<double> &displacement) const;
+
+  private:
+    const bool         b_bar;
+    const double       bulk, mu;
+    const unsigned int n_points;
+    /** Unknowns of the nodes, and of all. */
+    const unsigned int n_kept, n;
+    /** Numbers of all cells stand beside each other. */
+    std::vector<double> weighted, mean;
+    /** Entries of a mode are those of what is left by the modes after it. */
+    std::vector<double> matrix;
+
+    /** To be called from functions with versions for several processors. */
+    void
+    compute_here();
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,43 @@
+#ifndef touchstone_solid_linear_cells_h
+#define touchstone_solid_linear_cells_h
+
+#include <touchstone/solid/element_kernel.h>
+#include <touchstone/solid/row_writer.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Assembles cells of a linear elastic body, eight at a time. */
+  class LinearCells
+  {
+  public:
+    LinearCells(const dealii::Mapping<dim>       &mapping,
+                const dealii::FiniteElement<dim> &fe,
+                const BodyParameters             &body)
+      : kernel(mapping, fe, body.element(), body.material)
+      , stiffness(kernel.stiffness_of_cells())
+      , dofs(fe.n_dofs_per_cell())
+    {
+    }
+
+    /** @brief Take a cell, if it has rows of this rank; its stiffness is written with those
+     * of seven others. */
+    void
+    add(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, RowWriter &writer);
+
+    /** @brief Write what has not been written yet. */
+    void
+    finish(RowWriter &writer);
+
+  private:
+    ElementKernel       kernel;
+    ElementStiffness<8> stiffness;
+    unsigned int        n_waiting = 0;
+    std::vector<Index>  dofs;
+    /** Of the cells that wait, as RowWriter takes them. */
+    std::vector<int> rows, columns;
+  };
+} // namespace Touchstone
+
+#endif
