@@ -84,6 +84,7 @@ namespace Touchstone
             own.insert(*found);
         facing.remember(own);
         searched.clear();
+        known = false;
       }
 
       SearchWork
@@ -149,9 +150,10 @@ namespace Touchstone
       /** Of the faces that the search knows, made when one is first asked for. */
       std::vector<std::optional<FaceGeometry>> geometries;
 
-      /** Displacements of the faces of this rank, slaves and then masters, when all
-       * facing faces were looked for last. */
-      std::vector<Tensor<1, dim>> searched;
+      /** Displacements of the faces of this rank, slaves and then masters: of the last
+       * update, if any, and when all facing faces were looked for last. */
+      std::vector<Tensor<1, dim>> present, searched;
+      bool                        known = false;
 
       const FaceGeometry &
       geometry(const Face &master);
@@ -159,6 +161,12 @@ namespace Touchstone
        * Collective. */
       void
       watch_motion();
+      /** Whether any face is not where it was at the last update: a step begins where the
+       * one before has ended. Collective. */
+      bool
+      has_moved();
+      void
+      integrate();
       void
       add_face(Covered &covered);
     };
@@ -178,6 +186,8 @@ namespace Touchstone
       search.commit(&u);
       start = u;
       searched.clear();
+      for (Covered &covered : slave_faces)
+        covered.slave.committed = covered.slave.displacement;
     }
 
 
@@ -196,20 +206,31 @@ namespace Touchstone
     void
     AveragedPairing::watch_motion()
     {
+      const double square = facing.motion() * facing.motion();
+      bool         close  = searched.size() == present.size();
+      for (std::size_t i = 0; close && i < present.size(); ++i)
+        close = (present[i] - searched[i]).norm_square() <= square;
+      if (Utilities::MPI::min(close ? 1 : 0, input.solid->communicator) == 1)
+        return;
+      facing.look_anew();
+      searched = present;
+    }
+
+
+
+    bool
+    AveragedPairing::has_moved()
+    {
       std::vector<Tensor<1, dim>> now;
       for (const Surface *surface : {input.slave, input.master})
         for (const Face &face : surface->owned_faces())
           now.insert(now.end(),
                      face.displacement.begin(),
                      face.displacement.begin() + face.n_nodes());
-      const double square = facing.motion() * facing.motion();
-      bool         close  = searched.size() == now.size();
-      for (std::size_t i = 0; close && i < now.size(); ++i)
-        close = (now[i] - searched[i]).norm_square() <= square;
-      if (Utilities::MPI::min(close ? 1 : 0, input.solid->communicator) == 1)
-        return;
-      facing.look_anew();
-      searched.swap(now);
+      const bool same = known && now == present;
+      present.swap(now);
+      known = true;
+      return Utilities::MPI::min(same ? 1 : 0, input.solid->communicator) == 0;
     }
 
 
@@ -307,10 +328,9 @@ namespace Touchstone
 
 
     void
-    AveragedPairing::update(const Vector &, const double, std::vector<ContactRow> &rows)
+    AveragedPairing::integrate()
     {
-      const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
-      sums.assign(nodes.size(), {});
+      sums.assign(input.slave->owned_nodes().size(), {});
 
       // Faces of owned and of ghost cells that touch an owned node: their sums are
       // complete here without another rank.
@@ -357,7 +377,16 @@ namespace Touchstone
       watch_motion();
       for (Covered &covered : slave_faces)
         add_face(covered);
+    }
 
+
+
+    void
+    AveragedPairing::update(const Vector &, const double, std::vector<ContactRow> &rows)
+    {
+      if (has_moved())
+        integrate();
+      const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow &row = rows[k];

@@ -233,38 +233,62 @@ namespace Touchstone
       return false;
     }
 
+    /** Visit points of a polygon, with weights that integrate shape functions of degree one
+     * and their squares exactly: of quadrilaterals with a common corner, and of a triangle if
+     * the number of corners is odd. */
+    template <typename Number, typename Visitor>
+    void
+    for_each_point(const Polygon<Number> &corners, const Visitor &visit)
+    {
+      static const QGauss<2>        of_square(3);
+      static const QGaussSimplex<2> of_triangle(3);
+      const Point2<Number>         &origin = corners[0];
+      for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
+        {
+          const Point2<Number> a = corners[i] - origin, b = corners[i + 1] - origin;
+          if (i + 2 == corners.size())
+            {
+              const Number double_area = cross(a, b);
+              for (unsigned int q = 0; q < of_triangle.size(); ++q)
+                {
+                  const double r = of_triangle.point(q)[0], s = of_triangle.point(q)[1];
+                  visit(Point2<Number>{origin.x + r * a.x + s * b.x, origin.y + r * a.y + s * b.y},
+                        Number(of_triangle.weight(q) * double_area));
+                }
+              continue;
+            }
+          // origin + r a + s c + r s (b - a - c)
+          const Point2<Number> c = corners[i + 2] - origin;
+          const Point2<Number> mixed{b.x - a.x - c.x, b.y - a.y - c.y};
+          for (unsigned int q = 0; q < of_square.size(); ++q)
+            {
+              const double         r = of_square.point(q)[0], s = of_square.point(q)[1];
+              const Point2<Number> by_r{a.x + s * mixed.x, a.y + s * mixed.y};
+              const Point2<Number> by_s{c.x + r * mixed.x, c.y + r * mixed.y};
+              visit(Point2<Number>{origin.x + r * by_r.x + s * c.x,
+                                   origin.y + r * by_r.y + s * c.y},
+                    Number(of_square.weight(q) * cross(by_r, by_s)));
+            }
+        }
+    }
+
     /** Visit the quadrature points on the common parts of two shadows, with place
      * and weight in the plane. */
     template <typename Number, typename Visitor>
     void
     for_each_point(const Shadow<Number> &slave, const Shadow<Number> &master, const Visitor &visit)
     {
-      static const QGaussSimplex<2> rule(3);
-      const auto                    master_pieces = master.pieces();
+      const auto master_pieces = master.pieces();
       for (const Polygon<Number> &window : slave.pieces())
         {
           const double whole = value(area(window));
           for (const Polygon<Number> &piece : master_pieces)
             {
-              const Polygon<Number> common = clip(piece, window);
+              Polygon<Number> common = clip(piece, window);
               if (common.size() < 3 || area(common) < 1e-12 * whole)
                 continue;
-              const Point2<Number> middle = centroid(common);
-              for (std::size_t i = 0; i < common.size(); ++i)
-                {
-                  const Point2<Number> a           = common[i] - middle;
-                  const Point2<Number> b           = common[(i + 1) % common.size()] - middle;
-                  const Number         double_area = cross(a, b);
-                  if (double_area < 1e-12 * whole)
-                    continue;
-                  for (unsigned int q = 0; q < rule.size(); ++q)
-                    {
-                      const double r = rule.point(q)[0], s = rule.point(q)[1];
-                      visit(Point2<Number>{middle.x + r * a.x + s * b.x,
-                                           middle.y + r * a.y + s * b.y},
-                            Number(rule.weight(q) * double_area));
-                    }
-                }
+              remove_flat_corners(common, 1e-9 * whole);
+              for_each_point(common, visit);
             }
         }
     }

@@ -47,23 +47,23 @@ namespace Touchstone
     return sum;
   }
 
-  /** @brief Centre of area: unlike any of the corners it moves by round-off only when
-   * round-off adds or removes a corner. */
+  /** @brief Take out corners at which the polygon goes on straight or hardly goes on: those
+   * whose triangle with their neighbours is smaller than @p smallest. Round-off adds such
+   * corners and takes them away again where two quadrilaterals have an edge in common. */
   template <typename Number>
-  Point2<Number>
-  centroid(const Polygon<Number> &polygon)
+  void
+  remove_flat_corners(Polygon<Number> &polygon, const double smallest)
   {
-    Point2<Number> sum{0., 0.};
-    for (std::size_t i = 2; i < polygon.size(); ++i)
+    for (std::size_t i = 0; i < polygon.size() && polygon.size() > 3;)
       {
-        const Point2<Number> a = polygon[i - 1] - polygon[0];
-        const Point2<Number> b = polygon[i] - polygon[0];
-        const Number         c = 0.5 * cross(a, b) / 3.;
-        sum.x += c * (a.x + b.x);
-        sum.y += c * (a.y + b.y);
+        const std::size_t     n      = polygon.size();
+        const Point2<Number> &before = polygon[(i + n - 1) % n], &after = polygon[(i + 1) % n];
+        const Number          triangle = 0.5 * cross(polygon[i] - before, after - polygon[i]);
+        if (triangle < smallest && triangle > -smallest)
+          polygon.erase(polygon.begin() + i);
+        else
+          ++i;
       }
-    const Number whole = area(polygon);
-    return {polygon[0].x + sum.x / whole, polygon[0].y + sum.y / whole};
   }
 
   /** @brief The part of a quadrilateral @p subject within the convex, counterclockwise
