@@ -97,8 +97,8 @@ namespace Touchstone
     }
 
     /** Numbers for faces, the same for those that hang together over common nodes. */
-    std::map<const Face *, std::size_t>
-    layers(const std::vector<const Face *> &faces)
+    std::vector<std::size_t>
+    numbers_of_layers(const std::vector<const Face *> &faces)
     {
       std::vector<std::size_t> parent(faces.size());
       std::iota(parent.begin(), parent.end(), 0);
@@ -107,13 +107,39 @@ namespace Touchstone
           i = parent[i] = parent[parent[i]];
         return i;
       };
-      std::unordered_map<Index, std::size_t> first;
+      std::vector<std::pair<Index, std::size_t>> nodes;
       for (std::size_t i = 0; i < faces.size(); ++i)
         for (unsigned int m = 0; m < faces[i]->n_nodes(); ++m)
-          parent[root(i)] = root(first.emplace(faces[i]->nodes[m], i).first->second);
+          nodes.emplace_back(faces[i]->nodes[m], i);
+      std::sort(nodes.begin(), nodes.end());
+      for (std::size_t k = 1; k < nodes.size(); ++k)
+        if (nodes[k].first == nodes[k - 1].first)
+          parent[root(nodes[k].second)] = root(nodes[k - 1].second);
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        parent[i] = root(i);
+      return parent;
+    }
+
+    std::map<const Face *, std::size_t>
+    layers(const std::vector<const Face *> &faces)
+    {
+      const std::vector<std::size_t>      numbers = numbers_of_layers(faces);
       std::map<const Face *, std::size_t> result;
       for (std::size_t i = 0; i < faces.size(); ++i)
-        result[faces[i]] = root(i);
+        result[faces[i]] = numbers[i];
+      return result;
+    }
+
+    /** The box around the way that @p slave has come, seen from what covers it. */
+    BoundingBox<dim>
+    way(const Face &slave, const std::vector<FacingFace> &covering)
+    {
+      Tensor<1, dim> motion = mean_motion(slave);
+      for (const FacingFace &facing : covering)
+        motion -= mean_motion(*facing.master) / covering.size();
+      BoundingBox<dim> result = box(slave);
+      const auto      &ends   = result.get_boundary_points();
+      result.merge_with(BoundingBox<dim>({ends.first - motion, ends.second - motion}));
       return result;
     }
 
@@ -186,10 +212,19 @@ namespace Touchstone
     // Those that cover the face mostly hang together without the help of others.
     const bool   layered = !one_layer(all, masters_of(all)) && !one_layer(all, near);
     const double far     = small_motion * std::sqrt(area(slave));
-    bool         moved   = all.empty();
+    bool         moved   = false;
     for (const FacingFace &facing : all)
       moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
-    if (moved || layered)
+    // Where there is but one layer on its way it cannot have come to another.
+    if (moved && !layered)
+      {
+        const std::vector<std::size_t> numbers =
+          numbers_of_layers(search.near(way(slave, all), normal));
+        moved = std::any_of(numbers.begin(), numbers.end(), [&](const std::size_t number) {
+          return number != numbers[0];
+        });
+      }
+    if (moved || layered || all.empty())
       {
         const Entries in    = entries(slave, normal);
         const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {

@@ -1,5 +1,6 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/solid/linear_cells.h>
+#include <touchstone/solid/node_pattern.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -51,7 +52,6 @@ namespace Touchstone
         }
 
     // Rows are built from owned and ghost cells, so no rank waits for another.
-    // Of nodes first, which are a ninth of the entries.
     const Index n_nodes = dof_handler.n_dofs() / dim;
     IndexSet    owned_nodes(n_nodes);
     if (!owned.is_empty())
@@ -70,18 +70,7 @@ namespace Touchstone
             if (owned_nodes.is_element(row))
               couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
-    DynamicSparsityPattern pattern(dof_handler.n_dofs(), dof_handler.n_dofs(), owned);
-    std::vector<Index>     columns;
-    for (const Index node : owned_nodes)
-      {
-        columns.clear();
-        for (auto entry = couplings.begin(node); entry != couplings.end(node); ++entry)
-          for (unsigned int d = 0; d < dim; ++d)
-            columns.push_back(dim * entry->column() + d);
-        for (unsigned int d = 0; d < dim; ++d)
-          pattern.add_entries(dim * node + d, columns.begin(), columns.end(), true);
-      }
-    matrix.reinit(owned, owned, pattern, communicator);
+    reinit_by_nodes(matrix, owned, couplings, communicator);
     nonlinear = std::make_unique<NonlinearCells>(scene, fe, mapping, dof_handler, matrix);
   }
 
