@@ -136,7 +136,7 @@ namespace Touchstone
     {
       Tensor<1, dim> motion = mean_motion(slave);
       for (const FacingFace &facing : covering)
-        motion -= mean_motion(*facing.master) / covering.size();
+        motion -= mean_motion(*facing.master) / static_cast<double>(covering.size());
       BoundingBox<dim> result = box(slave);
       const auto      &ends   = result.get_boundary_points();
       result.merge_with(BoundingBox<dim>({ends.first - motion, ends.second - motion}));

@@ -2,6 +2,7 @@
 #define touchstone_solid_node_pattern_h
 
 #include <touchstone/algebra/vector.h>
+#include <touchstone/types.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
