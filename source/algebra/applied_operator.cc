@@ -177,6 +177,15 @@ namespace Touchstone
 
 
 
+  void
+  AppliedOperator::expand(const Epetra_Vector &y, Epetra_Vector &result) const
+  {
+    motion->apply(y, result);
+    result.Update(1., inhomogeneity, 1.);
+  }
+
+
+
   int
   AppliedOperator::Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const
   {

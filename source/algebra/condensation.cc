@@ -305,7 +305,8 @@ namespace Touchstone
           rank = r;
       return rank;
     };
-    // Row, its value, its length, columns and entries one after the other.
+    // Row, its value, and the number of numbers to come: of columns that follow each other
+    // the first, how many, and entries.
     std::map<unsigned int, std::vector<double>> packages;
     for (std::size_t begin = 0; begin < parts.size();)
       {
@@ -314,20 +315,35 @@ namespace Touchstone
         begin               = sum(begin, value);
         const SparseRow row = accumulator.take();
         auto           &to  = packages[owner(target)];
-        to.insert(to.end(), {static_cast<double>(target), value, static_cast<double>(row.size())});
-        for (const auto &[column, entry] : row)
-          to.insert(to.end(), {static_cast<double>(columns.global()[column]), entry});
+        to.insert(to.end(), {static_cast<double>(target), value, 0.});
+        const std::size_t begin_of_row = to.size();
+        for (std::size_t k = 0, end = 0; k < row.size(); k = end)
+          {
+            const int first_column = columns.global()[row[k].first];
+            to.insert(to.end(), {static_cast<double>(first_column), 0.});
+            for (end = k; end < row.size() && columns.global()[row[end].first] ==
+                                                first_column + static_cast<int>(end - k);
+                 ++end)
+              to.push_back(row[end].second);
+            to[to.size() - (end - k) - 1] = static_cast<double>(end - k);
+          }
+        to[begin_of_row - 1] = static_cast<double>(to.size() - begin_of_row);
       }
     parts.swap(away);
     for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
       for (std::size_t k = 0; k < package.size();)
         {
-          const Index       target = static_cast<Index>(package[k]);
-          const double      value  = package[k + 1];
-          const std::size_t n      = static_cast<std::size_t>(package[k + 2]);
+          const Index  target = static_cast<Index>(package[k]);
+          const double value  = package[k + 1];
           k += 3;
-          for (std::size_t e = 0; e < n; ++e, k += 2)
-            accumulator.add(columns.local(static_cast<Index>(package[k])), package[k + 1]);
+          for (const std::size_t end = k + static_cast<std::size_t>(package[k - 1]); k < end;)
+            {
+              const Index       column = static_cast<Index>(package[k]);
+              const std::size_t n      = static_cast<std::size_t>(package[k + 1]);
+              k += 2;
+              for (std::size_t e = 0; e < n; ++e, ++k)
+                accumulator.add(columns.local(column + e), package[k]);
+            }
           // Summed up for this row by the sender: not expanded again.
           parts.push_back({row_numbers.local(target), static_cast<int>(sources.size()), 1.});
           sources.push_back(accumulator.take());

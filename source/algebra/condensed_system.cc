@@ -49,8 +49,7 @@ namespace Touchstone
     make_scale();
     if (applied)
       {
-        const auto factors =
-          std::make_shared<AppliedOperator>(system, row_map, constrained, scale.get());
+        factors   = std::make_shared<AppliedOperator>(system, row_map, constrained, scale.get());
         rhs       = factors->right_hand_side();
         operation = factors;
         return;
@@ -61,6 +60,24 @@ namespace Touchstone
     rhs       = std::make_unique<Epetra_Vector>(Copy, row_map, values.data());
     if (scale)
       rhs->Multiply(1., *scale, *rhs, 0.);
+  }
+
+
+
+  void
+  CondensedSystem::expand(const Epetra_Vector &solution, Vector &displacement) const
+  {
+    Epetra_Vector all(solution);
+    if (factors)
+      {
+        Epetra_Vector scaled(solution);
+        if (scale)
+          scaled.ReciprocalMultiply(1., *scale, solution, 0.);
+        factors->expand(scaled, all);
+      }
+    std::copy(all.Values(), all.Values() + displacement.locally_owned_size(), displacement.begin());
+    if (!factors)
+      system.expand(displacement);
   }
 
 

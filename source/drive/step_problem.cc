@@ -520,9 +520,8 @@ namespace Touchstone
     Epetra_Vector      solution(condensed->rows());
     solver->solve(*condensed, modes->motions(), solution);
     const Index n = solid.owned.n_elements();
-    std::copy(solution.Values(), solution.Values() + n, increment.begin());
+    condensed->expand(solution, increment);
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
-    system->expand(increment);
     condensed.reset();
     const unsigned int iterations = solver->counts().iterations - before;
     return iterations == 0 ? -1 : static_cast<int>(iterations);

@@ -37,6 +37,10 @@ namespace Touchstone
     std::unique_ptr<Epetra_Vector>
     right_hand_side() const;
 
+    /** @brief result = T y + g. Collective. */
+    void
+    expand(const Epetra_Vector &y, Epetra_Vector &result) const;
+
     int
     Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const override;
 

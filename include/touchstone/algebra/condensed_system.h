@@ -10,6 +10,8 @@
 
 namespace Touchstone
 {
+  class AppliedOperator;
+
   /**
    * @brief A linear system with its constraints condensed out, S^T A T y = S^T
    * (b - A g) for x = T y + g and test functions S z, as plain distributed rows
@@ -52,6 +54,11 @@ namespace Touchstone
     std::shared_ptr<Epetra_CrsMatrix>
     matrix(bool complete = true) const;
 
+    /** @brief The displacement part of x = T y + g. Collective.
+     * @param solution y, of unknowns that are not divided by scale. */
+    void
+    expand(const Epetra_Vector &solution, Vector &displacement) const;
+
     std::unique_ptr<Epetra_Vector> rhs;
     /** Marks rows of constrained unknowns, in the order of the local rows. */
     std::vector<char> constrained;
@@ -69,6 +76,7 @@ namespace Touchstone
     const LinearSystem               &system;
     const Epetra_Map                  row_map;
     std::shared_ptr<Epetra_CrsMatrix> assembled;
+    std::shared_ptr<AppliedOperator>  factors; // unless assembled
     std::shared_ptr<Epetra_Operator>  operation;
 
     void
