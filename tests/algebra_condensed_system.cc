@@ -232,6 +232,17 @@ namespace
     for (int row = 0; row < column.MyLength(); ++row)
       worst_product =
         std::max(worst_product, std::abs((*applied.rhs)[row] - (*condensed.rhs)[row]));
+    // And what both make of a solution, of the unknowns that are not determined by others.
+    for (int row = 0; row < unit.MyLength(); ++row)
+      {
+        const unsigned int i = applied.rows().GID(row);
+        unit[row]            = i < n && constraints.is_constrained(i) ? 0. : number(i, 79);
+      }
+    Touchstone::Vector x(owned, communicator), y(owned, communicator);
+    condensed.expand(unit, x);
+    applied.expand(unit, y);
+    x -= y;
+    worst_product     = std::max(worst_product, x.linfty_norm());
     const auto all    = [&](const double x) { return Utilities::MPI::max(x, communicator); };
     worst             = all(worst);
     worst_rhs         = all(worst_rhs);

@@ -23,8 +23,8 @@ namespace Touchstone
    *
    * Both faces are projected onto the tangent plane at the centre of the slave
    * face; the polygons are clipped there exactly, and each piece is divided into
-   * triangles with a rule of degree 5. Biquadratic faces are divided into four
-   * bilinear ones first. Puso (2004), Int. J. Numer. Meth. Engng 59.
+   * quadrilaterals and at most one triangle, with rules of degree 5. Biquadratic faces are
+   * divided into four bilinear ones first. Puso (2004), Int. J. Numer. Meth. Engng 59.
    */
   std::vector<OverlapPoint>
   overlap(const Face &slave, const Face &master);
