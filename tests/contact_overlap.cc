@@ -1,0 +1,136 @@
+// Points on the common parts of faces: the pieces of a face that a turned grid covers add up to
+// its mass matrix, whatever their number of corners; coincident edges; corners cut off.
+
+#include <touchstone/contact/overlap.h>
+
+#include "mesh_common.h"
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  /** A face with the corners a, b, c, d in the order of its nodes. */
+  Face
+  make_face(const std::array<Point<dim>, 4> &corners)
+  {
+    Face face;
+    face.degree = 1;
+    for (unsigned int m = 0; m < 4; ++m)
+      {
+        face.nodes[m]        = m;
+        face.reference[m]    = corners[m];
+        face.displacement[m] = Tensor<1, dim>();
+      }
+    return face;
+  }
+
+  /** A parallelogram seen from above, or from below. */
+  Face
+  parallelogram(const Point<dim>     &middle,
+                const Tensor<1, dim> &along,
+                const Tensor<1, dim> &across,
+                const bool            from_below)
+  {
+    const Tensor<1, dim> a = from_below ? across : along, b = from_below ? along : across;
+    return make_face({{middle - a - b, middle + a - b, middle - a + b, middle + a + b}});
+  }
+
+
+
+  /** Integrals over what masters cover of a slave face: of products of shapes, and how far the
+   * points of both lie apart across the normal. */
+  void
+  cover(const std::string       &name,
+        const Face              &slave,
+        const std::vector<Face> &masters,
+        const double             expected_area,
+        const bool               whole)
+  {
+    double       mass[4][4] = {}, area = 0., apart = 0.;
+    std::size_t  points = 0;
+    unsigned int pieces = 0;
+    for (const Face &master : masters)
+      {
+        const auto common = overlap(slave, master);
+        points += common.size();
+        pieces += !common.empty();
+        for (const OverlapPoint &p : common)
+          {
+            const FaceShapes     shapes(1, p.slave);
+            const Tensor<1, dim> way =
+              evaluate(slave, nullptr, p.slave).x - evaluate(master, nullptr, p.master).x;
+            const Tensor<1, dim> normal = evaluate(slave, nullptr, p.slave).normal();
+            apart                       = std::max(apart, (way - (way * normal) * normal).norm());
+            area += p.weight;
+            for (unsigned int j = 0; j < 4; ++j)
+              for (unsigned int k = 0; k < 4; ++k)
+                mass[j][k] += p.weight * shapes.value[j] * shapes.value[k];
+          }
+      }
+    double error = 0.;
+    for (unsigned int j = 0; whole && j < 4; ++j)
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const unsigned int shared = (j % 2 == k % 2) + (j / 2 == k / 2);
+          const double       exact  = (shared == 2 ? 4. : shared == 1 ? 2. : 1.) / 36.;
+          error                     = std::max(error, std::abs(mass[j][k] / expected_area - exact));
+        }
+    std::cout << name << ": " << pieces << " pieces, " << points << " points, area "
+              << small(std::abs(area - expected_area), 1e-11) << ", apart "
+              << small(apart, 1e-7);
+    if (whole)
+      std::cout << ", products of shapes " << small(error, 1e-11);
+    std::cout << std::endl;
+  }
+} // namespace
+
+int
+main()
+{
+  const Tensor<1, dim> x({1., 0., 0.}), y({0., 1., 0.});
+  const Point<dim>     origin;
+  const Face           square = parallelogram(origin, x, y, false);
+  const Face           slanted =
+    parallelogram(origin, Tensor<1, dim>({1., 0.2, 0.}), Tensor<1, dim>({0.4, 0.9, 0.}), false);
+
+  for (const double angle : {0., 0.3, numbers::PI_4})
+    for (const double size : {0.15, 0.35, 2.})
+      {
+        const Tensor<1, dim> along({std::cos(angle), std::sin(angle), 0.}),
+          across({-std::sin(angle), std::cos(angle), 0.});
+        std::vector<Face> grid;
+        const int         n = static_cast<int>(1.6 / size) + 2;
+        for (int i = -n; i <= n; ++i)
+          for (int j = -n; j <= n; ++j)
+            grid.push_back(
+              parallelogram(Point<dim>(0.013, -0.021, 0.1) + 2. * size * (i * along + j * across),
+                            size * along,
+                            size * across,
+                            true));
+        const std::string name =
+          "turned by " + std::to_string(angle) + ", size " + std::to_string(size);
+        cover("square, " + name, square, grid, 4., true);
+        cover("slanted, " + name, slanted, grid, 4. * (1. * 0.9 - 0.2 * 0.4), true);
+      }
+
+  // The same face but for round-off, in which edges cross anywhere along them.
+  for (const double angle : {0., 1e-15, -1e-14, 1e-12})
+    {
+      const Tensor<1, dim> along({std::cos(angle), std::sin(angle), 0.}),
+        across({-std::sin(angle), std::cos(angle), 0.});
+      cover("same face turned by " + std::to_string(angle * 1e15) + "e-15",
+            square,
+            {parallelogram(origin, along, across, true)},
+            4.,
+            true);
+    }
+
+  // Corners that are left: a triangle, and five corners.
+  const auto diamond = [&](const double shift) {
+    return parallelogram(Point<dim>(shift, shift, 0.), x + y, y - x, true);
+  };
+  cover("corner cut off", square, {diamond(1.75)}, 0.5 * 0.5 * 0.5, false);
+  cover("corner left out", square, {diamond(-0.25)}, 4. - 0.5 * 0.5 * 0.5, false);
+  cover("beside", square, {parallelogram(Point<dim>(2., 0., 0.), x, y, true)}, 0., false);
+}
