@@ -30,6 +30,7 @@ namespace Touchstone
   class ElementKernel
   {
   public:
+    /** @param mapping, material Must outlive this object. */
     ElementKernel(const dealii::Mapping<dim>       &mapping,
                   const dealii::FiniteElement<dim> &fe,
                   ElementType                       type,
