@@ -49,17 +49,23 @@ namespace Touchstone
     make_scale();
     if (applied)
       {
-        factors   = std::make_shared<AppliedOperator>(system, row_map, constrained, scale.get());
-        rhs       = factors->right_hand_side();
-        operation = factors;
+        factors = std::make_shared<AppliedOperator>(system, row_map, constrained, scale.get());
+        rhs     = factors->right_hand_side();
         return;
       }
     std::vector<double> values;
     assembled = assemble(&values, true);
-    operation = assembled;
     rhs       = std::make_unique<Epetra_Vector>(Copy, row_map, values.data());
     if (scale)
       rhs->Multiply(1., *scale, *rhs, 0.);
+  }
+
+
+
+  Epetra_Operator &
+  CondensedSystem::product() const
+  {
+    return factors ? static_cast<Epetra_Operator &>(*factors) : *assembled;
   }
 
 

@@ -84,7 +84,7 @@ namespace Touchstone
             own.insert(*found);
         facing.remember(own);
         searched.clear();
-        known = false;
+        present.clear();
       }
 
       SearchWork
@@ -153,7 +153,6 @@ namespace Touchstone
       /** Displacements of the faces of this rank, slaves and then masters: of the last
        * update, if any, and when all facing faces were looked for last. */
       std::vector<Tensor<1, dim>> present, searched;
-      bool                        known = false;
 
       const FaceGeometry &
       geometry(const Face &master);
@@ -227,9 +226,8 @@ namespace Touchstone
           now.insert(now.end(),
                      face.displacement.begin(),
                      face.displacement.begin() + face.n_nodes());
-      const bool same = known && now == present;
+      const bool same = now == present;
       present.swap(now);
-      known = true;
       return Utilities::MPI::min(same ? 1 : 0, input.solid->communicator) == 0;
     }
 

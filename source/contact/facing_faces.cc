@@ -120,6 +120,7 @@ namespace Touchstone
       return parent;
     }
 
+    /** The same by face. */
     std::map<const Face *, std::size_t>
     layers(const std::vector<const Face *> &faces)
     {
@@ -150,6 +151,15 @@ namespace Touchstone
       for (const FacingFace &face : facing)
         result.push_back(face.master);
       return result;
+    }
+
+    /** Whether @p faces hang together. */
+    bool
+    one_layer(const std::vector<const Face *> &faces)
+    {
+      const std::vector<std::size_t> numbers = numbers_of_layers(faces);
+      return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
+             numbers.end();
     }
 
     /** Whether @p facing hang together over the nodes of @p faces. */
@@ -210,21 +220,13 @@ namespace Touchstone
     near                        = search.near(box(slave), normal);
     std::vector<FacingFace> all = cover(slave, near);
     // Those that cover the face mostly hang together without the help of others.
-    const bool   layered = !one_layer(all, masters_of(all)) && !one_layer(all, near);
+    const bool   layered = !one_layer(masters_of(all)) && !one_layer(all, near);
     const double far     = small_motion * std::sqrt(area(slave));
     bool         moved   = false;
     for (const FacingFace &facing : all)
       moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
     // Where there is but one layer on its way it cannot have come to another.
-    if (moved && !layered)
-      {
-        const std::vector<std::size_t> numbers =
-          numbers_of_layers(search.near(way(slave, all), normal));
-        moved = std::any_of(numbers.begin(), numbers.end(), [&](const std::size_t number) {
-          return number != numbers[0];
-        });
-      }
-    if (moved || layered || all.empty())
+    if (layered || all.empty() || (moved && !one_layer(search.near(way(slave, all), normal))))
       {
         const Entries in    = entries(slave, normal);
         const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {

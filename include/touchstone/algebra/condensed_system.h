@@ -42,10 +42,7 @@ namespace Touchstone
 
     /** @brief What multiplies a solution. */
     Epetra_Operator &
-    product() const
-    {
-      return *operation;
-    }
+    product() const;
 
     /** @brief The matrix, assembled anew in each call if products are applied: keep it no
      * longer than needed. Collective.
@@ -77,7 +74,6 @@ namespace Touchstone
     const Epetra_Map                  row_map;
     std::shared_ptr<Epetra_CrsMatrix> assembled;
     std::shared_ptr<AppliedOperator>  factors; // unless assembled
-    std::shared_ptr<Epetra_Operator>  operation;
 
     void
     make_scale();
