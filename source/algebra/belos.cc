@@ -7,6 +7,7 @@
 #include <BelosBlockGmresSolMgr.hpp>
 #include <BelosEpetraAdapter.hpp>
 #include <BelosLinearProblem.hpp>
+#include <Ifpack_PointRelaxation.h>
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_RCP.hpp>
 #include <memory>
@@ -18,10 +19,32 @@ namespace Touchstone
     using Problem = Belos::LinearProblem<double, Epetra_MultiVector, Epetra_Operator>;
     using Manager = Belos::SolverManager<double, Epetra_MultiVector, Epetra_Operator>;
 
+    /** One symmetric sweep, of each rank for itself. */
+    class GaussSeidel : public Ifpack_PointRelaxation
+    {
+    public:
+      explicit GaussSeidel(const std::shared_ptr<Epetra_CrsMatrix> &system)
+        : Ifpack_PointRelaxation(system.get())
+        , matrix(system)
+      {
+        // Its rows may be those of the stiffness, which stay where they are.
+        if (!matrix->Filled())
+          matrix->FillComplete(false);
+        Teuchos::ParameterList list;
+        list.set("relaxation: type", "symmetric Gauss-Seidel");
+        list.set("relaxation: sweeps", 1);
+        SetParameters(list);
+        Initialize();
+        Compute();
+      }
+
+    private:
+      const std::shared_ptr<Epetra_CrsMatrix> matrix;
+    };
+
     /**
-     * A Krylov method from Belos with smoothed aggregation from ML. The
-     * near-null space are the rigid-body modes of the bodies, set to zero at
-     * constrained unknowns.
+     * A Krylov method from Belos with smoothed aggregation. The near-null space are the
+     * rigid-body modes of the bodies, set to zero at constrained unknowns.
      * Vanek, Mandel and Brezina (1996), Computing 56.
      */
     class BelosSolver : public LinearSolver
@@ -51,7 +74,7 @@ namespace Touchstone
       }
 
     private:
-      std::unique_ptr<Multigrid> preconditioner;
+      std::unique_ptr<Epetra_Operator> preconditioner;
       /** Constrained unknowns of its matrix, and those of changed basis. */
       std::vector<char> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
@@ -183,8 +206,10 @@ namespace Touchstone
       const std::shared_ptr<Epetra_CrsMatrix> matrix = system.matrix(false);
       // With much inertia it alone bounds the condition number: coarse spaces have nothing
       // to do, and the aggregates that weak couplings leave would hardly be fewer.
-      preconditioner = std::make_unique<Multigrid>(
-        matrix, near_kernel, motions.body, stiffness_of_motions(system, *matrix, motions) < 0.15);
+      if (stiffness_of_motions(system, *matrix, motions) < 0.15)
+        preconditioner = std::make_unique<Multigrid>(*matrix, near_kernel, motions.body);
+      else
+        preconditioner = std::make_unique<GaussSeidel>(matrix);
       ++count.preconditioner_setups;
       fresh_iterations = 0;
     }

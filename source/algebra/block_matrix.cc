@@ -4,6 +4,7 @@
 #include <Epetra_MpiComm.h>
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace Touchstone
 {
@@ -16,44 +17,55 @@ namespace Touchstone
     /** Four numbers in a register, from any address. (VectorizedArray of a deal.II that
      * was built for all processors has but one.) */
     using Lane __attribute__((vector_size(16), aligned(4), may_alias)) = float;
+
+    /** The unknowns of this rank, and those of other ranks whose nodes the columns refer to. */
+    std::shared_ptr<const Utilities::MPI::Partitioner>
+    make_partitioner(const Epetra_CrsMatrix &matrix)
+    {
+      const Epetra_Map &rows = matrix.RowMap(), &columns = matrix.ColMap();
+      const Index       size = matrix.NumGlobalRows();
+      IndexSet          owned(size), ghosts(size);
+      if (rows.NumMyElements() > 0)
+        owned.add_range(rows.MinMyGID(), rows.MaxMyGID() + 1);
+      std::vector<Index> far;
+      for (int j = 0; j < columns.NumMyElements(); ++j)
+        if (!owned.is_element(columns.GID(j)))
+          for (unsigned int d = 0; d < dim; ++d)
+            far.push_back(columns.GID(j) / dim * dim + d);
+      std::sort(far.begin(), far.end());
+      ghosts.add_indices(far.begin(), far.end());
+      return std::make_shared<Utilities::MPI::Partitioner>(
+        owned, ghosts, dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+    }
   } // namespace
 
 
 
-  std::shared_ptr<const Utilities::MPI::Partitioner>
-  BlockRows::make_partitioner(const Epetra_CrsMatrix &matrix)
+  MatrixRows::MatrixRows(const Epetra_CrsMatrix &matrix)
+    : BlockRows(make_partitioner(matrix))
+    , matrix(matrix)
+    , number(matrix.NumMyCols())
   {
-    const Epetra_Map &rows = matrix.RowMap(), &columns = matrix.ColMap();
-    const Index       size = matrix.NumGlobalRows();
-    IndexSet          owned(size), ghosts(size);
-    if (rows.NumMyElements() > 0)
-      owned.add_range(rows.MinMyGID(), rows.MaxMyGID() + 1);
-    std::vector<Index> far;
-    for (int j = 0; j < columns.NumMyElements(); ++j)
-      if (!owned.is_element(columns.GID(j)))
-        for (unsigned int d = 0; d < dim; ++d)
-          far.push_back(columns.GID(j) / dim * dim + d);
-    std::sort(far.begin(), far.end());
-    ghosts.add_indices(far.begin(), far.end());
-    return std::make_shared<Utilities::MPI::Partitioner>(
-      owned, ghosts, dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+    for (unsigned int j = 0; j < number.size(); ++j)
+      number[j] = partitioner->global_to_local(matrix.GCID(j));
   }
 
 
 
-  BlockRows::BlockRows(const Epetra_CrsMatrix            &matrix,
-                       const Utilities::MPI::Partitioner &partitioner)
-    : matrix(matrix)
-    , number(matrix.NumMyCols())
+  std::size_t
+  MatrixRows::n_blocks() const
   {
-    for (unsigned int j = 0; j < number.size(); ++j)
-      number[j] = partitioner.global_to_local(matrix.GCID(j));
+    // Almost all blocks are full. A matrix that is not complete does not know its nonzeros.
+    std::size_t n_nonzeros = 0;
+    for (int i = 0; i < matrix.NumMyRows(); ++i)
+      n_nonzeros += matrix.NumMyEntries(i);
+    return n_nonzeros / block * 11 / 10;
   }
 
 
 
   const RowOfBlocks<BlockRows::Block> &
-  BlockRows::read(const unsigned int node)
+  MatrixRows::read(const unsigned int node)
   {
     present.clear();
     int     n[dim] = {};
@@ -90,18 +102,13 @@ namespace Touchstone
 
 
 
-  BlockMatrix::BlockMatrix(const Epetra_CrsMatrix &matrix)
-    : partitioner(BlockRows::make_partitioner(matrix))
+  BlockMatrix::BlockMatrix(BlockRows &rows)
+    : partitioner(rows.numbers())
   {
-    BlockRows                 rows(matrix, *partitioner);
     std::vector<unsigned int> order;
     start.reserve(rows.n_nodes() + 1);
     start.push_back(0);
-    // Almost all blocks are full. A matrix that is not complete does not know its nonzeros.
-    std::size_t n_nonzeros = 0;
-    for (int i = 0; i < matrix.NumMyRows(); ++i)
-      n_nonzeros += matrix.NumMyEntries(i);
-    const std::size_t n_blocks = n_nonzeros / block * 11 / 10;
+    const std::size_t n_blocks = rows.n_blocks();
     column.reserve(n_blocks);
     entries.reserve(block * n_blocks + 1);
     for (unsigned int node = 0; node < rows.n_nodes(); ++node)

@@ -46,6 +46,80 @@ namespace Touchstone
         to[i] +=
           double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 + double(p[2 * n_modes + i]) * ap2;
     }
+
+    /** The rows of aggregates as those of their nodes. */
+    class AggregateRows : public BlockRows
+    {
+    public:
+      /** @param rows By global numbers of aggregates.
+       *  @param coarse Has the unknowns of this rank. */
+      AggregateRows(std::vector<Prolongation::AggregateRow> &&rows, const Partitioner &coarse)
+        : BlockRows(make_partitioner(rows, coarse))
+        , rows(std::move(rows))
+      {
+        const int first = static_cast<int>(partitioner->local_range().first / n_modes);
+        for (unsigned int row = 0; row < this->rows.size(); ++row)
+          {
+            // A motion that the aggregate does not have stands alone.
+            Prolongation::AggregateBlock &own = this->rows[row].at(first + static_cast<int>(row));
+            for (unsigned int i = 0; i < n_modes; ++i)
+              if (own[i][i] == 0.)
+                own[i][i] = 1.;
+            for (auto &[aggregate, place] : this->rows[row].places)
+              aggregate = static_cast<int>(
+                partitioner->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
+          }
+      }
+
+      const RowOfBlocks<Block> &
+      read(const unsigned int node) override
+      {
+        present.clear();
+        const Prolongation::AggregateRow &row = rows[node / n_parts];
+        for (const auto &[aggregate, place] : row.places)
+          for (unsigned int part = 0; part < n_parts; ++part)
+            {
+              const Prolongation::AggregateBlock &from = row.blocks[place];
+              Block &to = present.at(static_cast<int>(n_parts * aggregate + part));
+              for (unsigned int r = 0; r < dim; ++r)
+                for (unsigned int c = 0; c < dim; ++c)
+                  to[dim * r + c] = from[dim * (node % n_parts) + r][dim * part + c];
+            }
+        return present;
+      }
+
+      std::size_t
+      n_blocks() const override
+      {
+        std::size_t n = 0;
+        for (const auto &row : rows)
+          n += row.places.size();
+        return n_parts * n_parts * n;
+      }
+
+    private:
+      static constexpr unsigned int           n_parts = Prolongation::n_nodes_of_aggregate;
+      std::vector<Prolongation::AggregateRow> rows;
+
+      static std::shared_ptr<const Partitioner>
+      make_partitioner(const std::vector<Prolongation::AggregateRow> &rows,
+                       const Partitioner                             &coarse)
+      {
+        std::vector<Index> far;
+        for (const auto &row : rows)
+          for (const auto &[aggregate, place] : row.places)
+            for (unsigned int m = 0; m < n_modes; ++m)
+              if (const Index i = n_modes * static_cast<Index>(aggregate) + m;
+                  !coarse.in_local_range(i))
+                far.push_back(i);
+        std::sort(far.begin(), far.end());
+        IndexSet ghosts(coarse.size());
+        ghosts.add_indices(far.begin(), std::unique(far.begin(), far.end()));
+        return std::make_shared<Partitioner>(coarse.locally_owned_range(),
+                                             ghosts,
+                                             coarse.get_mpi_communicator());
+      }
+    };
   } // namespace
 
 
@@ -98,7 +172,7 @@ namespace Touchstone
 
 
   std::vector<Prolongation::AggregateRow>
-  Prolongation::part_of_galerkin(const Epetra_CrsMatrix &matrix, LocalNumbers &numbers) const
+  Prolongation::part_of_galerkin(BlockRows &matrix, LocalNumbers &numbers) const
   {
     const unsigned int                     n_nodes = start.size() - 1;
     const std::vector<FarRow>              far     = far_rows();
@@ -117,12 +191,11 @@ namespace Touchstone
     // Row by row of A P, added to the rows of the aggregates to which the node belongs.
     std::vector<AggregateRow> sums((coarse->locally_owned_size() + coarse->n_ghost_indices()) /
                                    n_modes);
-    BlockRows                 rows(matrix, *fine);
     RowOfBlocks<OctetsOfNode> product;
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
         product.clear();
-        add_product(rows.read(node), p, product);
+        add_product(matrix.read(node), p, product);
         for (std::size_t b = start[node]; b < start[node + 1]; ++b)
           for (unsigned int k = 0; k < product.columns.size(); ++k)
             add_transposed_product(entries.data() + block * b,
@@ -185,8 +258,8 @@ namespace Touchstone
 
 
 
-  std::unique_ptr<Epetra_CrsMatrix>
-  Prolongation::galerkin(const Epetra_CrsMatrix &matrix) const
+  std::unique_ptr<BlockRows>
+  Prolongation::galerkin(BlockRows &matrix) const
   {
     // Aggregates by local numbers: those of the rows of this rank first, then what their
     // neighbours' rows refer to.
@@ -194,36 +267,10 @@ namespace Touchstone
     for (unsigned int i = 0; i < coarse->locally_owned_size() + coarse->n_ghost_indices();
          i += n_modes)
       known.push_back(static_cast<int>(coarse->local_to_global(i) / n_modes));
-    const Epetra_Map known_map(-1, known.size(), known.data(), 0, matrix.Comm());
+    const Epetra_Map known_map(-1, known.size(), known.data(), 0, coarse_kernel->Comm());
     LocalNumbers     numbers(known_map);
     auto             rows = part_of_galerkin(matrix, numbers);
     sum_up(rows, numbers.global());
-
-    const Epetra_Map map(-1, coarse_kernel->MyLength(), 0, matrix.Comm());
-    std::vector<int> lengths;
-    for (const auto &row : rows)
-      lengths.insert(lengths.end(), n_modes, static_cast<int>(n_modes * row.places.size()));
-    auto             result = std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
-    std::vector<int> columns;
-    std::vector<double> values;
-    for (unsigned int row = 0; row < rows.size(); ++row)
-      for (unsigned int i = 0; i < n_modes; ++i)
-        {
-          columns.clear();
-          values.clear();
-          const int here = map.GID(n_modes * row + i);
-          for (const auto &[aggregate, place] : rows[row].places)
-            for (unsigned int m = 0; m < n_modes; ++m)
-              {
-                columns.push_back(static_cast<int>(n_modes) * aggregate + static_cast<int>(m));
-                values.push_back(rows[row].blocks[place][i][m]);
-                // A motion that the aggregate does not have stands alone.
-                if (columns.back() == here && values.back() == 0.)
-                  values.back() = 1.;
-              }
-          result->InsertGlobalValues(here, columns.size(), values.data(), columns.data());
-        }
-    result->FillComplete();
-    return result;
+    return std::make_unique<AggregateRows>(std::move(rows), *coarse);
   }
 } // namespace Touchstone

@@ -1,13 +1,13 @@
-#include <touchstone/algebra/aggregation.h>
 #include <touchstone/algebra/multigrid.h>
 
-#include <Teuchos_ParameterList.hpp>
+#include <Amesos.h>
 #include <algorithm>
-#include <ml_agg_user.h>
-#include <ml_utils.h>
+#include <stdexcept>
 
 namespace Touchstone
 {
+  using namespace dealii;
+
   namespace
   {
     /** Degree of the polynomials, and largest over smallest eigenvalue that they smooth. */
@@ -20,163 +20,107 @@ namespace Touchstone
     constexpr double       margin              = 1.2;
 
     /** Unknowns of a system that is solved directly. */
-    constexpr int few = 1000;
+    constexpr Index few = 1000;
 
-    /** What ML is to do with a matrix that has @p n_components unknowns a node. */
-    Teuchos::ParameterList
-    ml_parameters(const Epetra_MultiVector &near_kernel, const unsigned int n_components)
+    void
+    check(const int error)
     {
-      Teuchos::ParameterList list;
-      ML_Epetra::SetDefaults("SA", list);
-      list.set("ML output", 0);
-      list.set("low memory usage", true);
-      list.set("PDE equations", static_cast<int>(n_components));
-      // Aggregates of the user need levels counted from the coarsest one.
-      list.set("increasing or decreasing", "decreasing");
-      list.set("aggregation: type", "user");
-      list.set("aggregation: threshold", weak_coupling);
-      list.set("smoother: type", "Chebyshev");
-      list.set("smoother: sweeps", degree);
-      list.set("smoother: Chebyshev alpha", range);
-      list.set("coarse: type", "Amesos-KLU");
-      list.set("coarse: max size", few);
-      list.set("null space: type", "pre-computed");
-      list.set("null space: dimension", near_kernel.NumVectors());
-      list.set("null space: vectors", near_kernel.Values());
-      list.set("null space: add default vectors", false);
-      return list;
-    }
-
-    /** Of the nodes of the level that ML coarsens next: it asks for aggregates by a
-     * function without context. */
-    std::vector<unsigned int> body_of_node;
-
-    char *
-    aggregation_label()
-    {
-      static char label[] = "aggregates within bodies";
-      return label;
-    }
-
-    /** The signature is that of ML. @return the number of aggregates */
-    int
-    aggregation(ML_Operator *matrix,
-                char        *constrained,
-                double,
-                double *,
-                double *,
-                double *,
-                int *place,
-                int *n_entries)
-    {
-      const int                     n_nodes = static_cast<int>(body_of_node.size());
-      std::vector<std::vector<int>> graph(n_nodes);
-      int                           space = 128, n = 0;
-      int                          *column = static_cast<int *>(ML_allocate(space * sizeof(int)));
-      double *value = static_cast<double *>(ML_allocate(space * sizeof(double)));
-      *n_entries    = 0;
-      for (int i = 0; i < n_nodes; ++i)
-        {
-          ML_get_matrix_row(matrix, 1, &i, &space, &column, &value, &n, 0);
-          *n_entries += n;
-          // Nodes of other ranks have numbers beyond those of this one.
-          for (int k = 0; k < n; ++k)
-            if (column[k] != i && column[k] < n_nodes)
-              graph[i].push_back(column[k]);
-        }
-      ML_free(column);
-      ML_free(value);
-
-      const Aggregates          aggregates = aggregate(std::move(graph), body_of_node);
-      std::vector<unsigned int> body(aggregates.n);
-      for (int i = 0; i < n_nodes; ++i)
-        {
-          place[i]       = aggregates.of_node[i];
-          constrained[i] = 'F';
-          if (place[i] >= 0)
-            body[place[i]] = body_of_node[i];
-        }
-      body_of_node = body;
-      return aggregates.n;
+      if (error != 0)
+        throw std::runtime_error("the coarsest level of multigrid cannot be solved (Amesos: " +
+                                 std::to_string(error) + ")");
     }
   } // namespace
 
 
 
-  Multigrid::Multigrid(std::shared_ptr<Epetra_CrsMatrix> system,
-                       const Epetra_MultiVector         &near_kernel,
-                       const std::vector<unsigned int>  &body,
-                       const bool                        coarse_levels)
-    : SquareOperator(system->RowMap(), "smoothed aggregation")
-    , matrix(std::move(system))
+  Multigrid::Level::Level(BlockRows &rows)
+    : matrix(rows)
   {
-    std::vector<unsigned int> body_of_nodes(map.NumMyElements() / dim);
-    for (unsigned int node = 0; node < body_of_nodes.size(); ++node)
-      body_of_nodes[node] = body[dim * node];
-    if (coarse_levels && map.NumGlobalElements() > few)
-      {
-        make_finest_level(near_kernel, body_of_nodes);
-        if (prolongation)
-          make_hierarchy(ml_parameters(prolongation->coarse_near_kernel(), Prolongation::n_modes),
-                         prolongation->coarse_body());
-        return;
-      }
-    // Its rows may be those of the stiffness, which stay where they are.
-    if (!matrix->Filled())
-      matrix->FillComplete(false);
-    Teuchos::ParameterList list = ml_parameters(near_kernel, dim);
-    if (!coarse_levels)
-      {
-        list.set("max levels", 1);
-        list.set("coarse: type", "symmetric Gauss-Seidel");
-        list.set("coarse: sweeps", 1);
-      }
-    make_hierarchy(list, body_of_nodes);
-  }
-
-
-
-  void
-  Multigrid::make_finest_level(const Epetra_MultiVector        &near_kernel,
-                               const std::vector<unsigned int> &body_of_nodes)
-  {
-    fine_matrix = std::make_unique<BlockMatrix>(*matrix);
     Chebyshev::AdditionalData data(degree, range, estimate_iterations);
     data.preconditioner =
-      std::make_shared<dealii::DiagonalMatrix<VectorType>>(fine_matrix->inverse_diagonal());
-    smoother = std::make_unique<Chebyshev>();
-    smoother->initialize(*fine_matrix, data);
-    for (VectorType *vector : {&fine_rhs, &fine_solution, &fine_residual})
-      fine_matrix->initialize_vector(*vector);
-    const double largest = smoother->estimate_eigenvalues(fine_rhs).max_eigenvalue_estimate;
+      std::make_shared<DiagonalMatrix<VectorType>>(matrix.inverse_diagonal());
+    smoother.initialize(matrix, data);
+    for (VectorType *vector : {&rhs, &solution, &residual})
+      matrix.initialize_vector(*vector);
+  }
 
-    prolongation =
-      std::make_unique<Prolongation>(*fine_matrix, near_kernel, body_of_nodes, largest / margin);
-    // Where nothing is coupled, smoothing is all.
-    if (prolongation->coarse_near_kernel().GlobalLength() == 0)
+
+
+  Multigrid::Multigrid(const Epetra_CrsMatrix          &matrix,
+                       const Epetra_MultiVector        &near_kernel,
+                       const std::vector<unsigned int> &body)
+    : SquareOperator(matrix.RowMap(), "smoothed aggregation")
+  {
+    std::unique_ptr<BlockRows> rows  = std::make_unique<MatrixRows>(matrix);
+    const Epetra_MultiVector  *modes = &near_kernel;
+    std::vector<unsigned int>  bodies(map.NumMyElements() / dim);
+    for (unsigned int node = 0; node < bodies.size(); ++node)
+      bodies[node] = body[dim * node];
+    for (unsigned int group = 1; rows && rows->numbers()->size() > few;
+         group              = Prolongation::n_nodes_of_aggregate)
       {
-        prolongation.reset();
-        return;
+        levels.push_back(std::make_unique<Level>(*rows));
+        Level       &level = *levels.back();
+        const double largest =
+          level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
+        auto prolongation =
+          std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
+        const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
+        if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
+          {
+            // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
+            // that are many is sparse and goes to the direct solver.
+            if (levels.size() == 1)
+              return;
+            levels.pop_back();
+            break;
+          }
+        rows   = prolongation->galerkin(*rows);
+        modes  = &prolongation->coarse_near_kernel();
+        bodies = prolongation->coarse_body();
+        prolongation->initialize_coarse_vector(level.coarse_values);
+        level.prolongation = std::move(prolongation);
       }
-    matrix = prolongation->galerkin(*matrix);
-    prolongation->initialize_coarse_vector(coarse_values);
-    coarse_rhs      = std::make_unique<Epetra_Vector>(matrix->RowMap());
-    coarse_solution = std::make_unique<Epetra_Vector>(matrix->RowMap());
+    make_coarsest(*rows);
   }
 
 
 
   void
-  Multigrid::make_hierarchy(const Teuchos::ParameterList    &list,
-                            const std::vector<unsigned int> &body)
+  Multigrid::make_coarsest(BlockRows &rows)
   {
-    body_of_node = body;
-    ML_SetUserLabel(aggregation_label);
-    ML_SetUserPartitions(aggregation);
-    // Largest eigenvalues are estimated from a random vector: the same one each time, or
-    // a run would depend on how many set-ups were before.
-    ML_random_init();
-    hierarchy = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*matrix, list, true);
+    const auto      &numbers = *rows.numbers();
+    const Epetra_Map own(-1, static_cast<int>(numbers.locally_owned_size()), 0, map.Comm());
+    coarsest_matrix = std::make_unique<Epetra_CrsMatrix>(Copy, own, 0);
+    std::vector<int>    columns;
+    std::vector<double> values;
+    for (unsigned int node = 0; node < rows.n_nodes(); ++node)
+      {
+        const auto &row = rows.read(node);
+        columns.clear();
+        for (const int other : row.columns)
+          for (unsigned int c = 0; c < dim; ++c)
+            columns.push_back(static_cast<int>(numbers.local_to_global(dim * other + c)));
+        for (unsigned int r = 0; r < dim; ++r)
+          {
+            values.clear();
+            for (const auto &block : row.blocks)
+              values.insert(values.end(), &block[dim * r], &block[dim * r] + dim);
+            coarsest_matrix->InsertGlobalValues(own.GID(dim * node + r),
+                                                columns.size(),
+                                                values.data(),
+                                                columns.data());
+          }
+      }
+    coarsest_matrix->FillComplete();
+    coarsest_rhs      = std::make_unique<Epetra_Vector>(own);
+    coarsest_solution = std::make_unique<Epetra_Vector>(own);
+    coarsest_problem.SetOperator(coarsest_matrix.get());
+    coarsest_problem.SetLHS(coarsest_solution.get());
+    coarsest_problem.SetRHS(coarsest_rhs.get());
+    coarsest.reset(Amesos().Create("Amesos_Klu", coarsest_problem));
+    check(coarsest->SymbolicFactorization());
+    check(coarsest->NumericFactorization());
   }
 
 
@@ -184,34 +128,41 @@ namespace Touchstone
   int
   Multigrid::ApplyInverse(const Epetra_MultiVector &rhs, Epetra_MultiVector &result) const
   {
-    if (!smoother)
-      return hierarchy->ApplyInverse(rhs, result);
     // Krylov methods may pass the same vector for both.
     for (int v = 0; v < rhs.NumVectors(); ++v)
-      cycle(rhs[v], result[v]);
+      cycle(0, rhs[v], result[v]);
     return 0;
   }
 
 
 
+  template <typename Number>
   void
-  Multigrid::cycle(const double *rhs, double *result) const
+  Multigrid::cycle(const unsigned int k, const Number *rhs, Number *solution) const
   {
-    const int n = map.NumMyElements();
-    std::copy(rhs, rhs + n, fine_rhs.begin());
-    smoother->vmult(fine_solution, fine_rhs);
-    if (prolongation)
+    if (k == levels.size())
       {
-        fine_matrix->vmult(fine_residual, fine_solution);
-        fine_residual.sadd(-1.f, 1.f, fine_rhs);
-        prolongation->restrict_to(coarse_values, fine_residual);
-        const int m = coarse_rhs->MyLength();
-        std::copy(coarse_values.begin(), coarse_values.begin() + m, coarse_rhs->Values());
-        hierarchy->ApplyInverse(*coarse_rhs, *coarse_solution);
-        std::copy(coarse_solution->Values(), coarse_solution->Values() + m, coarse_values.begin());
-        prolongation->prolongate_and_add(fine_solution, coarse_values);
+        std::copy(rhs, rhs + coarsest_rhs->MyLength(), coarsest_rhs->Values());
+        check(coarsest->Solve());
+        std::copy(coarsest_solution->Values(),
+                  coarsest_solution->Values() + coarsest_solution->MyLength(),
+                  solution);
+        return;
       }
-    smoother->step(fine_solution, fine_rhs);
-    std::copy(fine_solution.begin(), fine_solution.begin() + n, result);
+    Level &level = *levels[k];
+    std::copy(rhs, rhs + level.rhs.locally_owned_size(), level.rhs.begin());
+    level.smoother.vmult(level.solution, level.rhs);
+    if (level.prolongation)
+      {
+        level.matrix.vmult(level.residual, level.solution);
+        level.residual.sadd(-1.f, 1.f, level.rhs);
+        level.prolongation->restrict_to(level.coarse_values, level.residual);
+        cycle(k + 1, level.coarse_values.begin(), level.coarse_values.begin());
+        level.prolongation->prolongate_and_add(level.solution, level.coarse_values);
+      }
+    level.smoother.step(level.solution, level.rhs);
+    std::copy(level.solution.begin(),
+              level.solution.begin() + level.solution.locally_owned_size(),
+              solution);
   }
 } // namespace Touchstone

@@ -17,19 +17,21 @@ namespace Touchstone
     /** Square, by rows. */
     using Factor = std::array<double, Prolongation::n_modes * Prolongation::n_modes>;
 
-    /** The nodes of this rank to which each of them is coupled. */
+    /** The groups of nodes of this rank to which each of them is coupled. */
     std::vector<std::vector<int>>
-    couplings(const BlockMatrix &matrix, const std::vector<float> &diagonal)
+    couplings(const BlockMatrix        &matrix,
+              const std::vector<float> &diagonal,
+              const unsigned int        group)
     {
       const unsigned int            n_nodes = matrix.n_nodes();
-      std::vector<std::vector<int>> graph(n_nodes);
+      std::vector<std::vector<int>> graph(n_nodes / group);
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
           const BlockMatrix::Row row = matrix.row(node);
           for (unsigned int k = 0; k < row.size; ++k)
             {
               const unsigned int other = row.columns[k];
-              if (other == node || other >= n_nodes)
+              if (other / group == node / group || other >= n_nodes)
                 continue;
               bool strong = false;
               for (unsigned int r = 0; r < dim; ++r)
@@ -42,9 +44,15 @@ namespace Touchstone
                                                          diagonal[dim * other + c];
                   }
               if (strong)
-                graph[node].push_back(static_cast<int>(other));
+                graph[node / group].push_back(static_cast<int>(other / group));
             }
         }
+      if (group > 1)
+        for (auto &neighbours : graph)
+          {
+            std::sort(neighbours.begin(), neighbours.end());
+            neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+          }
       return graph;
     }
 
@@ -132,6 +140,7 @@ namespace Touchstone
   Prolongation::Prolongation(const BlockMatrix               &matrix,
                              const Epetra_MultiVector        &near_kernel,
                              const std::vector<unsigned int> &body,
+                             const unsigned int               group,
                              const double                     largest)
     : fine(matrix.vector_partitioner())
   {
@@ -142,13 +151,13 @@ namespace Touchstone
       for (unsigned int i = 0; i < diagonal.size(); ++i)
         diagonal[i] = 1.f / inverse.local_element(i);
     }
-    const Aggregates aggregates = aggregate(couplings(matrix, diagonal), body);
+    const Aggregates aggregates = aggregate(couplings(matrix, diagonal, group), body);
 
     // Motions of each aggregate, orthonormal.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);
     for (unsigned int node = 0; node < n_nodes; ++node)
-      if (aggregates.of_node[node] >= 0)
-        nodes[aggregates.of_node[node]].push_back(node);
+      if (aggregates.of_node[node / group] >= 0)
+        nodes[aggregates.of_node[node / group]].push_back(node);
     const int        n_mine = aggregates.n * static_cast<int>(n_modes);
     const Epetra_Map coarse_map(-1, n_mine, 0, near_kernel.Comm());
     const Index      first = static_cast<Index>(coarse_map.MinMyGID()) / n_modes;
@@ -160,7 +169,7 @@ namespace Touchstone
     std::vector<Modes>               q;
     for (int a = 0; a < aggregates.n; ++a)
       {
-        body_of_aggregate[a] = body[nodes[a].front()];
+        body_of_aggregate[a] = body[nodes[a].front() / group];
         q.assign(dim * nodes[a].size(), Modes());
         for (unsigned int k = 0; k < q.size(); ++k)
           for (unsigned int m = 0; m < n_given; ++m)

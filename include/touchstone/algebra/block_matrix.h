@@ -17,46 +17,74 @@
 namespace Touchstone
 {
   /**
-   * @brief The rows of a matrix over the displacements, node by node as 3 x 3 blocks.
+   * @brief The rows of a square matrix, node by node as 3 x 3 blocks in double precision.
+   *
+   * Unknown 3 k + d is that of node k along d; each rank has whole nodes.
    */
   class BlockRows
   {
   public:
     /** @brief Entries (row, column) of a block are at 3 row + column. */
-    using Block = std::array<double, dim * dim>;
+    using Block       = std::array<double, dim * dim>;
+    using Partitioner = dealii::Utilities::MPI::Partitioner;
 
-    /** @param matrix     Rows and columns are displacements, unknown 3 k + d of node k
-     *                    along d; each rank has whole nodes. Must live as long.
-     *  @param partitioner Local numbers: of make_partitioner(). */
-    BlockRows(const Epetra_CrsMatrix                    &matrix,
-              const dealii::Utilities::MPI::Partitioner &partitioner);
+    virtual ~BlockRows() = default;
 
     /** @brief The rows of a node of this rank: nodes to which it is coupled, itself
      * included, by local number, and blocks. Valid until the next call. */
-    const RowOfBlocks<Block> &
-    read(unsigned int node);
+    virtual const RowOfBlocks<Block> &
+    read(unsigned int node) = 0;
+
+    /** @brief About as many blocks as all rows of this rank have. */
+    virtual std::size_t
+    n_blocks() const = 0;
+
+    /** @brief Unknowns of this rank, and those of other ranks whose nodes its rows refer
+     * to. */
+    const std::shared_ptr<const Partitioner> &
+    numbers() const
+    {
+      return partitioner;
+    }
 
     unsigned int
     n_nodes() const
     {
-      return matrix.NumMyRows() / dim;
+      return partitioner->locally_owned_size() / dim;
     }
 
-    /** @brief Unknowns of this rank, and those of other ranks whose nodes the rows of a
-     * matrix refer to. Collective. */
-    static std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
-    make_partitioner(const Epetra_CrsMatrix &matrix);
+  protected:
+    explicit BlockRows(std::shared_ptr<const Partitioner> partitioner)
+      : partitioner(std::move(partitioner))
+    {
+    }
+
+    const std::shared_ptr<const Partitioner> partitioner;
+    /** The row that was read last. */
+    RowOfBlocks<Block> present;
+  };
+
+  /** @brief The rows of a matrix over the displacements. */
+  class MatrixRows : public BlockRows
+  {
+  public:
+    /** @param matrix Must live as long; needs no FillComplete(). Collective. */
+    explicit MatrixRows(const Epetra_CrsMatrix &matrix);
+
+    const RowOfBlocks<Block> &
+    read(unsigned int node) override;
+
+    std::size_t
+    n_blocks() const override;
 
   private:
     const Epetra_CrsMatrix &matrix;
     /** Local number of each column of the matrix. */
     std::vector<unsigned int> number;
-    RowOfBlocks<Block>        present;
   };
 
   /**
-   * @brief A matrix over the displacements in single precision, stored as 3 x 3 blocks of
-   * nodes: good enough for a preconditioner, whose speed is that of the memory.
+   * @brief A matrix in single precision, stored as 3 x 3 blocks of nodes: good enough for a preconditioner, whose speed is that of the memory.
    *
    * An entry takes 4.4 bytes instead of the 12 of a sparse matrix of double.
    */
@@ -66,8 +94,7 @@ namespace Touchstone
     using VectorType = dealii::LinearAlgebra::distributed::Vector<float>;
     using size_type  = dealii::types::global_dof_index;
 
-    /** @param matrix As BlockRows takes it. */
-    explicit BlockMatrix(const Epetra_CrsMatrix &matrix);
+    explicit BlockMatrix(BlockRows &rows);
 
     /** @brief Of vectors that fit. */
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &

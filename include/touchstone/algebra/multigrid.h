@@ -8,17 +8,19 @@
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/precondition.h>
 
+#include <Amesos_BaseSolver.h>
+#include <Epetra_LinearProblem.h>
 #include <Epetra_Vector.h>
 #include <memory>
-#include <ml_MultiLevelPreconditioner.h>
 #include <vector>
 
 namespace Touchstone
 {
   /**
-   * @brief Multigrid by smoothed aggregation, for systems of displacements. The finest level,
-   * where most of the time and of the memory goes, works in single precision on 3 x 3
-   * blocks; ML has the levels below.
+   * @brief Multigrid by smoothed aggregation, for systems of displacements.
+   *
+   * All levels work in single precision on 3 x 3 blocks, for their speed is that of the
+   * memory; what is left of a few unknowns is solved directly (KLU, by Amesos).
    *
    * Vanek, Mandel and Brezina (1996), Computing 56; smoothing by Chebyshev polynomials:
    * Adams, Brezina, Hu and Tuminaro (2003), J. Comput. Phys. 188.
@@ -27,18 +29,14 @@ namespace Touchstone
   {
   public:
     /**
-     * @param matrix        Kept where ML has all levels, for which it is completed if it is
-     *                      not.
-     * @param near_kernel   Motions with little or no energy that the coarse levels must be
-     *                      able to represent, zero at constrained unknowns.
-     * @param body          Body of each row of this rank: aggregates() are within one.
-     * @param coarse_levels Whether to make any; without them a sweep of symmetric
-     *                      Gauss-Seidel is all.
+     * @param matrix      Read here and not kept; needs no FillComplete().
+     * @param near_kernel Motions with little or no energy that the coarse levels must be
+     *                    able to represent, zero at constrained unknowns.
+     * @param body        Body of each row of this rank: aggregates() are within one.
      */
-    Multigrid(std::shared_ptr<Epetra_CrsMatrix> matrix,
-              const Epetra_MultiVector         &near_kernel,
-              const std::vector<unsigned int>  &body,
-              bool                              coarse_levels);
+    Multigrid(const Epetra_CrsMatrix          &matrix,
+              const Epetra_MultiVector        &near_kernel,
+              const std::vector<unsigned int> &body);
 
     /** @brief One V-cycle from zero, for each vector. Collective. */
     int
@@ -49,26 +47,34 @@ namespace Touchstone
     using Chebyshev =
       dealii::PreconditionChebyshev<BlockMatrix, VectorType, dealii::DiagonalMatrix<VectorType>>;
 
-    /** The finest level, unless ML has all of them. */
-    std::unique_ptr<BlockMatrix>  fine_matrix;
-    std::unique_ptr<Chebyshev>    smoother;
-    std::unique_ptr<Prolongation> prolongation;
-    /** What ML works on: the first of the coarse levels, or the matrix itself. */
-    std::shared_ptr<Epetra_CrsMatrix>                    matrix;
-    std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> hierarchy;
-    /** Work space of a cycle. */
-    mutable VectorType             fine_rhs, fine_solution, fine_residual, coarse_values;
-    std::unique_ptr<Epetra_Vector> coarse_rhs, coarse_solution;
+    struct Level
+    {
+      explicit Level(BlockRows &rows);
 
-    /** @brief The finest level and the matrix of the next. */
+      BlockMatrix matrix;
+      Chebyshev   smoother;
+      /** To the next level, if there is one. */
+      std::unique_ptr<Prolongation> prolongation;
+      /** Work space of a cycle. */
+      VectorType rhs, solution, residual, coarse_values;
+    };
+
+    std::vector<std::unique_ptr<Level>> levels;
+
+    /** What is solved directly. */
+    std::unique_ptr<Epetra_CrsMatrix>  coarsest_matrix;
+    std::unique_ptr<Epetra_Vector>     coarsest_rhs, coarsest_solution;
+    Epetra_LinearProblem               coarsest_problem;
+    std::unique_ptr<Amesos_BaseSolver> coarsest;
+
     void
-    make_finest_level(const Epetra_MultiVector        &near_kernel,
-                      const std::vector<unsigned int> &body_of_nodes);
+    make_coarsest(BlockRows &rows);
+
+    /** @brief One cycle from level @p k on. @param values Those of this rank: right-hand
+     * side, and solution afterwards. */
+    template <typename Number>
     void
-    make_hierarchy(const Teuchos::ParameterList    &list,
-                   const std::vector<unsigned int> &body_of_nodes);
-    void
-    cycle(const double *rhs, double *result) const;
+    cycle(unsigned int k, const Number *rhs, Number *solution) const;
   };
 } // namespace Touchstone
 

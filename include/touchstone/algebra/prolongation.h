@@ -15,10 +15,11 @@
 namespace Touchstone
 {
   /**
-   * @brief Takes corrections from the first coarse level of multigrid to the displacements,
-   * and forces back: smoothed aggregation.
+   * @brief Takes corrections from a level of multigrid to the next finer one, and forces
+   * back: smoothed aggregation.
    *
-   * A node of the coarse level is an aggregate() with its rigid motions, six unknowns. They
+   * Three unknowns make a node, on all levels. An aggregate() of the finer level has six
+   * on the coarser one, its rigid motions: a pair of nodes there, which stay together. They
    * are smoothed by one step of Jacobi's method. Entries are kept in single precision, those
    * of galerkin() are exact for them. The product A P is never stored: for linear cells it
    * is three times as large as A.
@@ -33,27 +34,54 @@ namespace Touchstone
     /** @brief Rigid motions of an aggregate. */
     static constexpr unsigned int n_modes = 6;
 
+    /** @brief Nodes that an aggregate is on the coarser level. */
+    static constexpr unsigned int n_nodes_of_aggregate = n_modes / dim;
+
     /** @brief Block of the rows of an aggregate over the unknowns of another. */
     using AggregateBlock = Octets<n_modes>;
+
+    /** @brief A row over aggregates that stays open while others are worked on; they go by
+     * local or by global numbers. */
+    class AggregateRow
+    {
+    public:
+      AggregateBlock &
+      at(const int aggregate)
+      {
+        const auto found =
+          std::lower_bound(places.begin(), places.end(), std::make_pair(aggregate, 0U));
+        if (found != places.end() && found->first == aggregate)
+          return blocks[found->second];
+        places.emplace(found, aggregate, blocks.size());
+        blocks.push_back({});
+        return blocks.back();
+      }
+
+      /** @brief In ascending order of the aggregates: where their block is. */
+      std::vector<std::pair<int, unsigned int>> places;
+      std::vector<AggregateBlock>               blocks;
+    };
 
     /**
      * @param matrix      Symmetric pattern.
      * @param near_kernel Rigid motions, zero at constrained unknowns; at most n_modes.
-     * @param body        Body of each node of this rank.
+     * @param body        Of this rank's nodes, or of its groups of nodes.
+     * @param group       Nodes that follow each other and stay together: one on the finest
+     *                    level, the nodes of an aggregate on the others.
      * @param largest     Largest eigenvalue of the matrix over its diagonal.
      */
     Prolongation(const BlockMatrix               &matrix,
                  const Epetra_MultiVector        &near_kernel,
                  const std::vector<unsigned int> &body,
+                 unsigned int                     group,
                  double                           largest);
 
-    /** @brief The matrix of the coarse level, P^T A P. @param matrix That of which the
-     * constructor got the blocks, in double precision; needs no FillComplete().
-     * Collective. */
-    std::unique_ptr<Epetra_CrsMatrix>
-    galerkin(const Epetra_CrsMatrix &matrix) const;
+    /** @brief The matrix of the coarser level, P^T A P. @param matrix That of which the
+     * constructor got the blocks, in double precision. Collective. */
+    std::unique_ptr<BlockRows>
+    galerkin(BlockRows &matrix) const;
 
-    /** @brief Rigid motions over the coarse level. */
+    /** @brief Rigid motions over the coarser level. */
     const Epetra_MultiVector &
     coarse_near_kernel() const
     {
@@ -67,7 +95,7 @@ namespace Touchstone
       return body_of_aggregate;
     }
 
-    /** @brief Make @p vector fit the coarse level, with ghosts. */
+    /** @brief Make @p vector fit the coarser level, with ghosts. */
     void
     initialize_coarse_vector(VectorType &vector) const
     {
@@ -84,28 +112,6 @@ namespace Touchstone
 
   private:
     static constexpr unsigned int block = dim * n_modes;
-
-    /** A row over aggregates that stays open while others are worked on; they go by local or
-     * by global numbers. */
-    class AggregateRow
-    {
-    public:
-      AggregateBlock &
-      at(const int aggregate)
-      {
-        const auto found =
-          std::lower_bound(places.begin(), places.end(), std::make_pair(aggregate, 0U));
-        if (found != places.end() && found->first == aggregate)
-          return blocks[found->second];
-        places.emplace(found, aggregate, blocks.size());
-        blocks.push_back({});
-        return blocks.back();
-      }
-
-      /** In ascending order of the aggregates: where their block is. */
-      std::vector<std::pair<int, unsigned int>> places;
-      std::vector<AggregateBlock>               blocks;
-    };
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> fine, coarse;
     /** Where the blocks of a node of this rank begin; their column, a local number of an
@@ -131,7 +137,7 @@ namespace Touchstone
     /** @brief This rank's part of P^T A P, rows by local numbers of aggregates, columns by
      * @p numbers. */
     std::vector<AggregateRow>
-    part_of_galerkin(const Epetra_CrsMatrix &matrix, LocalNumbers &numbers) const;
+    part_of_galerkin(BlockRows &matrix, LocalNumbers &numbers) const;
 
     /** @brief Make of @p parts the rows of this rank's aggregates, with the parts of all
      * ranks, by the global numbers of aggregates. */
