@@ -33,8 +33,8 @@ namespace Touchstone
 
 
 
-  Multigrid::Level::Level(BlockRows &rows)
-    : matrix(rows)
+  Multigrid::Level::Level(BlockRows &rows, const bool symmetric)
+    : matrix(rows, symmetric)
   {
     Chebyshev::AdditionalData data(degree, range, estimate_iterations);
     data.preconditioner =
@@ -48,7 +48,8 @@ namespace Touchstone
 
   Multigrid::Multigrid(const Epetra_CrsMatrix          &matrix,
                        const Epetra_MultiVector        &near_kernel,
-                       const std::vector<unsigned int> &body)
+                       const std::vector<unsigned int> &body,
+                       const bool                       symmetric)
     : SquareOperator(matrix.RowMap(), "smoothed aggregation")
   {
     std::unique_ptr<BlockRows> rows  = std::make_unique<MatrixRows>(matrix);
@@ -59,7 +60,7 @@ namespace Touchstone
     for (unsigned int group = 1; rows && rows->numbers()->size() > few;
          group              = Prolongation::n_nodes_of_aggregate)
       {
-        levels.push_back(std::make_unique<Level>(*rows));
+        levels.push_back(std::make_unique<Level>(*rows, symmetric));
         Level       &level = *levels.back();
         const double largest =
           level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;

@@ -19,16 +19,16 @@ namespace Touchstone
 
     /** The groups of nodes of this rank to which each of them is coupled. */
     std::vector<std::vector<int>>
-    couplings(const BlockMatrix        &matrix,
+    couplings(BlockMatrix::Rows        &matrix,
               const std::vector<float> &diagonal,
               const unsigned int        group)
     {
-      const unsigned int            n_nodes = matrix.n_nodes();
+      const unsigned int            n_nodes = diagonal.size() / dim;
       std::vector<std::vector<int>> graph(n_nodes / group);
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
-          const BlockMatrix::Row row = matrix.row(node);
-          for (unsigned int k = 0; k < row.size; ++k)
+          const BlockMatrix::Rows::Row &row = matrix.read(node);
+          for (unsigned int k = 0; k < row.columns.size(); ++k)
             {
               const unsigned int other = row.columns[k];
               if (other / group == node / group || other >= n_nodes)
@@ -38,7 +38,7 @@ namespace Touchstone
                 for (unsigned int c = 0; c < dim; ++c)
                   {
                     // Stiffness squared leaves the range of single precision.
-                    const double entry = row(k, r, c);
+                    const double entry = row.blocks[k][dim * c + r];
                     strong             = strong || entry * entry > weak_coupling * weak_coupling *
                                                          double(diagonal[dim * node + r]) *
                                                          diagonal[dim * other + c];
@@ -107,7 +107,7 @@ namespace Touchstone
     /** row += (1 - damping A) P_0, of a node: a motion of its own, if it has a place, less
      * those that its neighbours take. */
     TOUCHSTONE_VECTORISED void
-    add_smoothed(const BlockMatrix::Row        &of_matrix,
+    add_smoothed(const BlockMatrix::Rows::Row  &of_matrix,
                  const unsigned int             node,
                  const std::array<double, dim> &damping,
                  const std::vector<int>        &place,
@@ -120,13 +120,13 @@ namespace Touchstone
           const BlockRows::Block one = {{1., 0., 0., 0., 1., 0., 0., 0., 1.}};
           add_product(one, tentative.data() + block * node, row.at(place[node]));
         }
-      for (std::size_t k = 0; k < of_matrix.size; ++k)
+      for (std::size_t k = 0; k < of_matrix.columns.size(); ++k)
         if (const unsigned int other = of_matrix.columns[k]; place[other] >= 0)
           {
             BlockRows::Block a;
             for (unsigned int r = 0; r < dim; ++r)
               for (unsigned int c = 0; c < dim; ++c)
-                a[dim * r + c] = -damping[r] * of_matrix(k, r, c);
+                a[dim * r + c] = -damping[r] * of_matrix.blocks[k][dim * c + r];
             add_product(a, tentative.data() + block * other, row.at(place[other]));
           }
     }
@@ -151,7 +151,8 @@ namespace Touchstone
       for (unsigned int i = 0; i < diagonal.size(); ++i)
         diagonal[i] = 1.f / inverse.local_element(i);
     }
-    const Aggregates aggregates = aggregate(couplings(matrix, diagonal, group), body);
+    BlockMatrix::Rows rows(matrix);
+    const Aggregates  aggregates = aggregate(couplings(rows, diagonal, group), body);
 
     // Motions of each aggregate, orthonormal.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);
@@ -234,7 +235,7 @@ namespace Touchstone
         for (unsigned int r = 0; r < dim; ++r)
           damping[r] = omega / diagonal[dim * node + r];
         row.clear();
-        add_smoothed(matrix.row(node), node, damping, place, tentative_blocks, row);
+        add_smoothed(rows.read(node), node, damping, place, tentative_blocks, row);
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           {
             column.push_back(row.columns[k]);

@@ -12,6 +12,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -84,9 +85,12 @@ namespace Touchstone
   };
 
   /**
-   * @brief A matrix in single precision, stored as 3 x 3 blocks of nodes: good enough for a preconditioner, whose speed is that of the memory.
+   * @brief A matrix in single precision, stored as 3 x 3 blocks of nodes: good enough for a
+   * preconditioner, whose speed is that of the memory.
    *
-   * An entry takes 4.4 bytes instead of the 12 of a sparse matrix of double.
+   * Of a symmetric matrix each block between two nodes of a rank is stored once: an entry
+   * takes 2.3 bytes, 4.4 if it is not symmetric, instead of the 12 of a sparse matrix of
+   * double.
    */
   class BlockMatrix : public dealii::Subscriptor
   {
@@ -94,7 +98,8 @@ namespace Touchstone
     using VectorType = dealii::LinearAlgebra::distributed::Vector<float>;
     using size_type  = dealii::types::global_dof_index;
 
-    explicit BlockMatrix(BlockRows &rows);
+    /** @param symmetric Of each two blocks that are transposes of each other one counts. */
+    BlockMatrix(BlockRows &rows, bool symmetric);
 
     /** @brief Of vectors that fit. */
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
@@ -116,34 +121,10 @@ namespace Touchstone
       return partitioner->size();
     }
 
-    /** @brief The rows of a node of this rank: nodes to which it is coupled in ascending
-     * order, by local number, and blocks, column by column. */
-    struct Row
-    {
-      const unsigned int *columns;
-      std::size_t         size;
-      const float        *entries;
-
-      /** @brief Entry (r, c) of block @p k. */
-      float
-      operator()(const std::size_t k, const unsigned int r, const unsigned int c) const
-      {
-        return entries[dim * dim * k + dim * c + r];
-      }
-    };
-
-    Row
-    row(const unsigned int node) const
-    {
-      return {column.data() + start[node],
-              start[node + 1] - start[node],
-              entries.data() + dim * dim * start[node]};
-    }
-
     unsigned int
     n_nodes() const
     {
-      return start.size() - 1;
+      return mirrored.size();
     }
 
     /** @brief result = A x. Collective. */
@@ -158,13 +139,44 @@ namespace Touchstone
     VectorType
     inverse_diagonal() const;
 
+    /** @brief The whole rows of a matrix, those blocks included that it has as others'
+     * transposes. */
+    class Rows
+    {
+    public:
+      /** @brief Nodes to which a node is coupled, itself included, by local number, and
+       * blocks, column by column. */
+      struct Row
+      {
+        std::vector<unsigned int>                 columns;
+        std::vector<std::array<float, dim * dim>> blocks;
+      };
+
+      /** @param matrix Must live as long. */
+      explicit Rows(const BlockMatrix &matrix);
+
+      /** @brief Of a node of this rank; valid until the next call. */
+      const Row &
+      read(unsigned int node);
+
+    private:
+      const BlockMatrix &matrix;
+      /** Where the blocks that mirror others begin, of each node; node and place of these. */
+      std::vector<std::size_t>                               start;
+      std::vector<std::pair<unsigned int, std::size_t>> mirrors;
+      Row                                                    present;
+    };
+
   private:
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    /** Where the blocks of a node begin; their column, a local node; their entries,
-     * column by column. */
-    std::vector<std::size_t>     start;
+    /** Where the blocks of a node begin, first those whose transposes are blocks as well;
+     * where these end; the columns of blocks, local nodes; entries, column by column. */
+    std::vector<std::size_t>     start, mirrored;
     std::vector<unsigned int>    column;
     dealii::AlignedVector<float> entries;
+    /** Vectors of a product, four numbers a node: of three, one node's would overlap in the
+     * registers with the next one's, which is being written. */
+    mutable dealii::AlignedVector<float> padded_in, padded_out;
   };
 } // namespace Touchstone
 

@@ -33,10 +33,12 @@ namespace Touchstone
      * @param near_kernel Motions with little or no energy that the coarse levels must be
      *                    able to represent, zero at constrained unknowns.
      * @param body        Body of each row of this rank: aggregates() are within one.
+     * @param symmetric   The matrix is, and half of it is enough.
      */
     Multigrid(const Epetra_CrsMatrix          &matrix,
               const Epetra_MultiVector        &near_kernel,
-              const std::vector<unsigned int> &body);
+              const std::vector<unsigned int> &body,
+              bool                             symmetric);
 
     /** @brief One V-cycle from zero, for each vector. Collective. */
     int
@@ -49,7 +51,7 @@ namespace Touchstone
 
     struct Level
     {
-      explicit Level(BlockRows &rows);
+      Level(BlockRows &rows, bool symmetric);
 
       BlockMatrix matrix;
       Chebyshev   smoother;
@@ -70,8 +72,8 @@ namespace Touchstone
     void
     make_coarsest(BlockRows &rows);
 
-    /** @brief One cycle from level @p k on. @param values Those of this rank: right-hand
-     * side, and solution afterwards. */
+    /** @brief One cycle from level @p k on, over the unknowns of this rank; @p rhs and @p
+     * solution may be the same. */
     template <typename Number>
     void
     cycle(unsigned int k, const Number *rhs, Number *solution) const;
