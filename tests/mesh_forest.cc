@@ -114,4 +114,7 @@ main(int argc, char **argv)
   print_counts("round bodies", round, {"1", "2"});
   print_counts("two tubes", tubes, {"0.5", "1", "1.25", "2", "4"});
   print_counts("two tubes by METIS", tubes, {"1", "2"}, "METIS");
+  // Coarse cells are handed out of the tubes, which have many, and refined ones of the others.
+  print_counts("two tubes by coordinates", tubes, {"1", "2"}, "coordinates");
+  print_counts("round bodies by coordinates", round, {"1", "2"}, "coordinates");
 }

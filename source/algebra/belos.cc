@@ -207,7 +207,8 @@ namespace Touchstone
       // With much inertia it alone bounds the condition number: coarse spaces have nothing
       // to do, and the aggregates that weak couplings leave would hardly be fewer.
       if (stiffness_of_motions(system, *matrix, motions) < 0.15)
-        preconditioner = std::make_unique<Multigrid>(*matrix, near_kernel, motions.body, system.symmetric);
+        preconditioner =
+          std::make_unique<Multigrid>(*matrix, near_kernel, motions.body, system.symmetric);
       else
         preconditioner = std::make_unique<GaussSeidel>(matrix);
       ++count.preconditioner_setups;

@@ -37,8 +37,7 @@ namespace Touchstone
     : matrix(rows, symmetric)
   {
     Chebyshev::AdditionalData data(degree, range, estimate_iterations);
-    data.preconditioner =
-      std::make_shared<DiagonalMatrix<VectorType>>(matrix.inverse_diagonal());
+    data.preconditioner = std::make_shared<DiagonalMatrix<VectorType>>(matrix.inverse_diagonal());
     smoother.initialize(matrix, data);
     for (VectorType *vector : {&rhs, &solution, &residual})
       matrix.initialize_vector(*vector);
@@ -60,27 +59,27 @@ namespace Touchstone
     for (unsigned int group = 1; rows && rows->numbers()->size() > few;
          group              = Prolongation::n_nodes_of_aggregate)
       {
-        levels.push_back(std::make_unique<Level>(*rows, symmetric));
-        Level       &level = *levels.back();
-        const double largest =
-          level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
-        auto prolongation =
-          std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
-        const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
-        if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
+                     levels.push_back(std::make_unique<Level>(*rows, symmetric));
+                     Level       &level = *levels.back();
+                     const double largest =
+                       level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
+                     auto prolongation =
+                       std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
+                     const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
+                     if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
           {
-            // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
+                         // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
             // that are many is sparse and goes to the direct solver.
             if (levels.size() == 1)
               return;
             levels.pop_back();
             break;
           }
-        rows   = prolongation->galerkin(*rows);
-        modes  = &prolongation->coarse_near_kernel();
-        bodies = prolongation->coarse_body();
-        prolongation->initialize_coarse_vector(level.coarse_values);
-        level.prolongation = std::move(prolongation);
+                     rows   = prolongation->galerkin(*rows);
+                     modes  = &prolongation->coarse_near_kernel();
+                     bodies = prolongation->coarse_body();
+                     prolongation->initialize_coarse_vector(level.coarse_values);
+                     level.prolongation = std::move(prolongation);
       }
     make_coarsest(*rows);
   }

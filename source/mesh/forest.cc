@@ -148,9 +148,14 @@ namespace Touchstone
       return work_of_body[cell->material_id()];
     };
     const DiscretisationParameters &parameters = scene.discretisation;
-    if (parameters.partitioner != "p4est")
-      return partition_by_graph(
-        all, level, cell_work, work, parameters.partitioner == "METIS", communicator);
+    const std::string partitioner = parameters.partitioner != "automatic" ? parameters.partitioner
+                                    : scene.refinement.active()           ? "p4est"
+                                                                          : "coordinates";
+    if (partitioner == "coordinates")
+      return partition_by_coordinates(
+        all, level, cell_work, work, parameters.contact_weight, communicator);
+    if (partitioner != "p4est")
+      return partition_by_graph(all, level, cell_work, work, partitioner == "METIS", communicator);
     has_weights = parameters.contact_weight > 0. || !alike;
     return partition_by_curve(
       all, level, cell_work, work, has_weights, parameters.contact_weight, communicator);

@@ -51,12 +51,13 @@ namespace Touchstone
       check_pair(pair);
     contact.check("Contact");
     refinement.check("Refinement");
-    if (refinement.active() && discretisation.partitioner != "p4est")
+    if (refinement.active() && discretisation.partitioner != "p4est" &&
+        discretisation.partitioner != "automatic")
       throw InputError("Discretisation",
                        "Partitioner",
                        discretisation.partitioner,
                        "its mesh cannot be refined during the run",
-                       "set it to 'p4est', or 'Estimator' in section 'Refinement' to 'none'.");
+                       "set it to 'automatic', or 'Estimator' in section 'Refinement' to 'none'.");
     load_stepping.check("Load stepping");
     check_time_integration();
     newton.check("Newton");

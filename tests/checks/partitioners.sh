@@ -15,10 +15,11 @@ both() {
   run "$name-metis-1" 1 "$scene" --set "$metis" "$@"
   same "$name" "$name-metis-1" 1e-8
   for ranks in 2 3; do
-    run "$name-p4est-$ranks" $ranks "$scene" "$@"
-    same "$name" "$name-p4est-$ranks" 1e-8
-    run "$name-metis-$ranks" $ranks "$scene" --set "$metis" "$@"
-    same "$name" "$name-metis-$ranks" 1e-8
+    for partitioner in p4est coordinates METIS; do
+      run "$name-$partitioner-$ranks" $ranks "$scene" \
+        --set "Discretisation/Partitioner=$partitioner" "$@"
+      same "$name" "$name-$partitioner-$ranks" 1e-8
+    done
   done
 }
 
@@ -61,4 +62,8 @@ fewer_rows curve curve-4
 # master faces together, so that rows have more room.
 below "METIS on 4 ranks" "cells" "$(imbalance metis cells)" 1.05
 below "METIS on 4 ranks" "search" "$(imbalance metis search_candidates)" 1.5
+# Across both tubes: all ranks have their share of what is searched.
+spread coordinates coordinates 0
+below "coordinates on 4 ranks" "cells" "$(imbalance coordinates cells)" 1.05
+fewer_rows curve coordinates
 finish

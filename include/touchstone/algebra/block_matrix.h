@@ -162,9 +162,9 @@ namespace Touchstone
     private:
       const BlockMatrix &matrix;
       /** Where the blocks that mirror others begin, of each node; node and place of these. */
-      std::vector<std::size_t>                               start;
+      std::vector<std::size_t>                          start;
       std::vector<std::pair<unsigned int, std::size_t>> mirrors;
-      Row                                                    present;
+      Row                                               present;
     };
 
   private:

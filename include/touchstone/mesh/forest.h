@@ -34,7 +34,7 @@ namespace Touchstone
     /** @throws InputError for bad meshes and boundaries that do not exist. */
     Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
 
-    /** @brief With 'Partitioner = p4est' it can be refined, with METIS it cannot. */
+    /** @brief From p4est it can be refined, from other partitioners it cannot. */
     dealii::parallel::DistributedTriangulationBase<dim> &triangulation;
 
     /** @brief Level of the cells that the scene asks for; cells are not coarsened

@@ -56,6 +56,25 @@ namespace Touchstone
                      const CellWork &contact_work,
                      bool            balance_contact,
                      MPI_Comm        communicator);
+
+  /**
+   * @brief The same mesh cut across its longest side into two pieces of about the same work,
+   * these again, and so on: bodies that lie in each other share ranks where they touch, so
+   * that contact stays at home.
+   *
+   * Work as for partition_by_curve(). Coarse cells are handed out where there are many of
+   * them, and each rank makes and refines only its own and those around; refined ones where
+   * there are few, and each rank makes all. The result cannot be refined later. Needs no
+   * messages; collective.
+   * Berger and Bokhari (1987), IEEE Trans. Comput. C-36.
+   */
+  std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
+  partition_by_coordinates(const BodyMesh &mesh,
+                           unsigned int    refinements,
+                           const CellWork &cell_work,
+                           const CellWork &contact_work,
+                           double          contact_weight,
+                           MPI_Comm        communicator);
 } // namespace Touchstone
 
 #endif

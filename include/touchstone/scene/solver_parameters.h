@@ -18,8 +18,8 @@ namespace Touchstone
      * whole powers of two refine the mesh with its manifolds. Meshes from
      * files accept powers of two only. */
     double refinement_factor = 1.;
-    /** "p4est", "METIS" or "METIS, cells only". */
-    std::string partitioner = "p4est";
+    /** "automatic", "coordinates", "p4est", "METIS" or "METIS, cells only". */
+    std::string partitioner = "automatic";
     /** For p4est, contact work of a slave face over the work of a cell; no unit. */
     double contact_weight = 0.;
 

@@ -1,0 +1,216 @@
+#include <touchstone/mesh/body_mesh.h>
+#include <touchstone/mesh/contact_work.h>
+#include <touchstone/mesh/partition.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/grid/tria_description.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** With fewer coarse cells than this on each rank the refined ones are counted. */
+    constexpr unsigned int enough = 64;
+
+    struct Item
+    {
+      Point<dim>   center;
+      double       work;
+      unsigned int number;
+    };
+
+    /** Give the items from @p begin to @p end to @p n_ranks ranks from @p first on: cut across
+     * the longest side of what they fill, and go on with the halves. */
+    void
+    bisect(const std::vector<Item>::iterator begin,
+           const std::vector<Item>::iterator end,
+           const unsigned int                first,
+           const unsigned int                n_ranks,
+           std::vector<unsigned int>        &rank)
+    {
+      if (n_ranks == 1 || begin == end)
+        {
+          for (auto item = begin; item != end; ++item)
+            rank[item->number] = first;
+          return;
+        }
+      std::vector<Point<dim>> centers;
+      for (auto item = begin; item != end; ++item)
+        centers.push_back(item->center);
+      const BoundingBox<dim> box(centers);
+      unsigned int           axis = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (box.side_length(d) > (1. + 1e-6) * box.side_length(axis))
+          axis = d;
+      // Layers stay whole but for one, whatever round-off does to their places.
+      const double unit  = std::max(1e-6 * box.side_length(axis), 1e-300);
+      const auto   place = [&](const Item &item) {
+        return std::make_pair(std::round((item.center[axis] - box.lower_bound(axis)) / unit),
+                              item.number);
+      };
+      std::sort(begin, end, [&](const Item &a, const Item &b) { return place(a) < place(b); });
+      double total = 0.;
+      for (auto item = begin; item != end; ++item)
+        total += item->work;
+      const unsigned int n_lower = n_ranks / 2;
+      double             sum     = 0.;
+      auto               middle  = begin;
+      for (; middle != end && sum + 0.5 * middle->work < total * n_lower / n_ranks; ++middle)
+        sum += middle->work;
+      bisect(begin, middle, first, n_lower, rank);
+      bisect(middle, end, first + n_lower, n_ranks - n_lower, rank);
+    }
+
+
+
+    /** Which of the coarse cells share a vertex with those that are marked, or are marked. */
+    void
+    add_neighbours(const BodyMesh &mesh, std::vector<char> &marked)
+    {
+      std::vector<char> vertices(mesh.vertices.size());
+      for (unsigned int c = 0; c < marked.size(); ++c)
+        if (marked[c])
+          for (const unsigned int v : mesh.cells[c].vertices)
+            vertices[v] = 1;
+      for (unsigned int c = 0; c < marked.size(); ++c)
+        for (const unsigned int v : mesh.cells[c].vertices)
+          if (vertices[v])
+            marked[c] = 1;
+    }
+
+
+
+    /** The part of a mesh that consists of @p cells. */
+    BodyMesh
+    part_of(const BodyMesh &mesh, const std::vector<unsigned int> &cells)
+    {
+      using Face = std::array<unsigned int, 4>;
+      BodyMesh                  part;
+      std::vector<unsigned int> number(mesh.vertices.size(), numbers::invalid_unsigned_int);
+      std::set<Face>            faces;
+      for (const unsigned int c : cells)
+        {
+          const dealii::CellData<dim> &cell = mesh.cells[c];
+          for (const unsigned int f : GeometryInfo<dim>::face_indices())
+            {
+              Face face;
+              for (unsigned int v = 0; v < face.size(); ++v)
+                face[v] = cell.vertices[GeometryInfo<dim>::face_to_cell_vertices(f, v)];
+              std::sort(face.begin(), face.end());
+              faces.insert(face);
+            }
+          part.cells.push_back(cell);
+          for (unsigned int &v : part.cells.back().vertices)
+            {
+              if (number[v] == numbers::invalid_unsigned_int)
+                {
+                  number[v] = part.vertices.size();
+                  part.vertices.push_back(mesh.vertices[v]);
+                }
+              v = number[v];
+            }
+        }
+      for (const dealii::CellData<2> &quad : mesh.subcells.boundary_quads)
+        {
+          Face face;
+          std::copy(quad.vertices.begin(), quad.vertices.end(), face.begin());
+          std::sort(face.begin(), face.end());
+          if (faces.count(face) == 0)
+            continue;
+          part.subcells.boundary_quads.push_back(quad);
+          for (unsigned int &v : part.subcells.boundary_quads.back().vertices)
+            v = number[v];
+        }
+      part.manifolds = mesh.manifolds;
+      return part;
+    }
+  } // namespace
+
+
+
+  std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
+  partition_by_coordinates(const BodyMesh    &mesh,
+                           const unsigned int refinements,
+                           const CellWork    &cell_work,
+                           const CellWork    &contact_work,
+                           const double       contact_weight,
+                           const MPI_Comm     communicator)
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator),
+                       here    = Utilities::MPI::this_mpi_process(communicator);
+    constexpr auto smoothing   = Triangulation<dim>::limit_level_difference_at_vertices;
+    // All ranks find the same ranks for all items, without a message.
+    Triangulation<dim> whole(smoothing);
+    create_triangulation(mesh, whole);
+    const bool coarse_cells = whole.n_active_cells() >= enough * n_ranks;
+    if (!coarse_cells)
+      whole.refine_global(refinements);
+    const double      faces_of_cell = coarse_cells ? std::pow(0.5, refinements) : 1.;
+    std::vector<Item> items;
+    for (const auto &cell : whole.active_cell_iterators())
+      items.push_back({cell->center(),
+                       cell_work(cell) + faces_of_cell * contact_weight * contact_work(cell) /
+                                           ContactWork::slave_face,
+                       cell->active_cell_index()});
+    std::vector<unsigned int> rank(items.size());
+    bisect(items.begin(), items.end(), 0, n_ranks, rank);
+
+    TriangulationDescription::Description<dim, dim> description;
+    const auto describe = [&](Triangulation<dim> &triangulation, const auto &rank_of) {
+      for (const auto &cell : triangulation.active_cell_iterators())
+        cell->set_subdomain_id(rank_of(cell));
+      description = TriangulationDescription::Utilities::create_description_from_triangulation(
+        triangulation, communicator, TriangulationDescription::Settings::default_setting, here);
+    };
+    if (!coarse_cells)
+      describe(whole, [&](const auto &cell) { return rank[cell->active_cell_index()]; });
+    else
+      {
+        // What lies behind the neighbours tells that their outer faces are no boundary.
+        std::vector<char> marked(mesh.cells.size());
+        for (unsigned int c = 0; c < marked.size(); ++c)
+          marked[c] = rank[c] == here;
+        for (unsigned int layer = 0; layer < 2; ++layer)
+          add_neighbours(mesh, marked);
+        std::vector<unsigned int> cells;
+        for (unsigned int c = 0; c < marked.size(); ++c)
+          if (marked[c])
+            cells.push_back(c);
+        Triangulation<dim> part(smoothing);
+        create_triangulation(part_of(mesh, cells), part);
+        part.refine_global(refinements);
+        describe(part, [&](auto cell) {
+          while (cell->level() > 0)
+            cell = cell->parent();
+          return rank[cells[cell->index()]];
+        });
+        // Coarse cells by their numbers in the whole mesh.
+        for (auto &id : description.coarse_cell_index_to_coarse_cell_id)
+          id = cells[id];
+        for (auto &level : description.cell_infos)
+          for (auto &cell : level)
+            {
+              const CellId own(cell.id);
+              const auto   children = own.get_child_indices();
+              cell.id = CellId(cells[own.get_coarse_cell_id()], children.size(), children.data())
+                          .template to_binary<dim>();
+            }
+      }
+    auto triangulation =
+      std::make_unique<parallel::fullydistributed::Triangulation<dim>>(communicator);
+    for (const auto &[id, manifold] : mesh.manifolds)
+      triangulation->set_manifold(id, *manifold);
+    triangulation->create_triangulation(description);
+    return triangulation;
+  }
+} // namespace Touchstone
