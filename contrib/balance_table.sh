@@ -1,5 +1,5 @@
 #!/bin/sh
-# balance_table.sh [PROGRAM] [SCENE] [RANKS ...]: how evenly both partitioners spread the
+# balance_table.sh [PROGRAM] [SCENE] [RANKS ...]: how evenly the partitioners spread the
 # work of a scene, as a Markdown table. Work and messages are counted, not timed: more
 # ranks than cores are welcome. Figures are largest over mean of the ranks; messages are
 # those of one search, the most that a rank sends.
@@ -24,7 +24,7 @@ figure() {
 
 echo "| partitioner, contact weight | ranks | cells | unknowns | slave rows | master faces | search | neighbours | messages |"
 echo "|---|---|---|---|---|---|---|---|---|"
-for partition in "p4est:0" "p4est:1" "p4est:4" "METIS, cells only:0" "METIS:0"; do
+for partition in "coordinates:0" "p4est:0" "p4est:1" "p4est:4" "METIS, cells only:0" "METIS:0"; do
   partitioner=${partition%:*}
   weight=${partition#*:}
   for ranks in "$@"; do

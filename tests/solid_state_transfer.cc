@@ -53,7 +53,9 @@ end
     Bodies(const std::string &law, const std::string &degree)
       : scene(text,
               "scene.prm",
-              {"Body plastic/Material/Law=" + law, "Discretisation/Degree=" + degree})
+              {"Discretisation/Partitioner=p4est",
+               "Body plastic/Material/Law=" + law,
+               "Discretisation/Degree=" + degree})
       , forest(scene, "", MPI_COMM_WORLD)
       , solid(scene, forest, MPI_COMM_WORLD)
       , n_state(solid.history_law(1)->n_state())

@@ -1,6 +1,7 @@
 #include <touchstone/algebra/constraint_graph.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/partitioner.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,48 @@ namespace Touchstone
       result.add_indices(more.begin(), std::unique(more.begin(), end));
       result.compress();
       return result;
+    }
+
+    /** Add the lines that the owners of @p needed unknowns have. (deal.II's
+     * make_consistent_in_parallel() looks for each one among all that there are, which takes
+     * the square of their number.) Collective. */
+    void
+    add_lines_of_others(AffineConstraints<double> &constraints,
+                        const IndexSet            &owned,
+                        const IndexSet            &needed,
+                        const MPI_Comm             communicator)
+    {
+      const Utilities::MPI::Partitioner partitioner(owned, needed, communicator);
+      std::vector<Index>                asked;
+      for (const auto &[begin, end] : partitioner.import_indices())
+        for (unsigned int i = begin; i < end; ++i)
+          asked.push_back(partitioner.local_to_global(i));
+      // Unknown, value, and number of entries to come: unknowns and coefficients.
+      std::map<unsigned int, std::vector<double>> packages;
+      auto                                        next = asked.begin();
+      for (const auto &[rank, n] : partitioner.import_targets())
+        for (const auto end = next + n; next != end; ++next)
+          if (constraints.is_constrained(*next))
+            {
+              const auto &entries = *constraints.get_constraint_entries(*next);
+              auto       &to      = packages[rank];
+              to.insert(to.end(),
+                        {static_cast<double>(*next),
+                         constraints.get_inhomogeneity(*next),
+                         static_cast<double>(entries.size())});
+              for (const auto &[unknown, coefficient] : entries)
+                to.insert(to.end(), {static_cast<double>(unknown), coefficient});
+            }
+      for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
+        for (std::size_t k = 0; k < package.size();)
+          {
+            const Index index = static_cast<Index>(package[k]);
+            constraints.add_line(index);
+            constraints.set_inhomogeneity(index, package[k + 1]);
+            const std::size_t end = k + 3 + 2 * static_cast<std::size_t>(package[k + 2]);
+            for (k += 3; k < end; k += 2)
+              constraints.add_entry(index, static_cast<Index>(package[k]), package[k + 1]);
+          }
     }
   } // namespace
 
@@ -246,7 +289,7 @@ namespace Touchstone
             result.set_inhomogeneity(line.index, line.inhomogeneity);
           }
         if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-          result.make_consistent_in_parallel(owned, needed, communicator);
+          add_lines_of_others(result, owned, needed, communicator);
         far.clear();
         for (const auto &line : result.get_lines())
           for (const auto &entry : line.entries)
@@ -323,7 +366,7 @@ namespace Touchstone
               result.add_entries(index, {entries.begin(), entries.end()});
             }
         if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-          result.make_consistent_in_parallel(owned, needed, communicator);
+          add_lines_of_others(result, owned, needed, communicator);
         known.clear();
         known.reinit(needed);
         known.copy_from(result);

@@ -227,7 +227,7 @@ namespace Touchstone
   {
     prm.add_parameter("Type",
                       type,
-                      "'MUMPS' factorises; 'Belos CG' and 'Belos GMRES' iterate with ML "
+                      "'MUMPS' factorises; 'Belos CG' and 'Belos GMRES' iterate with "
                       "multigrid, for large models without multipliers: CG takes "
                       "symmetric systems, GMRES also unsymmetric ones. 'automatic' takes "
                       "CG from 10,000 unknowns on if the system is symmetric and positive "
