@@ -1,8 +1,10 @@
 #include <touchstone/algebra/multigrid.h>
+#include <touchstone/algebra/non_convergence.h>
 
 #include <Amesos.h>
 #include <algorithm>
-#include <stdexcept>
+#include <cstdlib>
+#include <string>
 
 namespace Touchstone
 {
@@ -22,12 +24,16 @@ namespace Touchstone
     /** Unknowns of a system that is solved directly. */
     constexpr Index few = 1000;
 
+    /** Whatever one rank meets, all leave. */
     void
-    check(const int error)
+    check(int error, const Epetra_Comm &communicator)
     {
-      if (error != 0)
-        throw std::runtime_error("the coarsest level of multigrid cannot be solved (Amesos: " +
-                                 std::to_string(error) + ")");
+      error       = std::abs(error);
+      int largest = 0;
+      communicator.MaxAll(&error, &largest, 1);
+      if (largest != 0)
+        throw LinearSolverFailure("the coarsest level of multigrid cannot be solved (Amesos: " +
+                                  std::to_string(largest) + ")");
     }
   } // namespace
 
@@ -56,30 +62,31 @@ namespace Touchstone
     std::vector<unsigned int>  bodies(map.NumMyElements() / dim);
     for (unsigned int node = 0; node < bodies.size(); ++node)
       bodies[node] = body[dim * node];
-    for (unsigned int group = 1; rows && rows->numbers()->size() > few;
-         group              = Prolongation::n_nodes_of_aggregate)
+    unsigned int group = 1;
+    while (rows->numbers()->size() > few)
       {
-                     levels.push_back(std::make_unique<Level>(*rows, symmetric));
-                     Level       &level = *levels.back();
-                     const double largest =
-                       level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
-                     auto prolongation =
-                       std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
-                     const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
-                     if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
+        levels.push_back(std::make_unique<Level>(*rows, symmetric));
+        Level       &level = *levels.back();
+        const double largest =
+          level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
+        auto prolongation =
+          std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
+        const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
+        if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
           {
-                         // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
+            // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
             // that are many is sparse and goes to the direct solver.
             if (levels.size() == 1)
               return;
             levels.pop_back();
             break;
           }
-                     rows   = prolongation->galerkin(*rows);
-                     modes  = &prolongation->coarse_near_kernel();
-                     bodies = prolongation->coarse_body();
-                     prolongation->initialize_coarse_vector(level.coarse_values);
-                     level.prolongation = std::move(prolongation);
+        rows   = prolongation->galerkin(*rows);
+        modes  = &prolongation->coarse_near_kernel();
+        bodies = prolongation->coarse_body();
+        group  = Prolongation::n_nodes_of_aggregate;
+        prolongation->initialize_coarse_vector(level.coarse_values);
+        level.prolongation = std::move(prolongation);
       }
     make_coarsest(*rows);
   }
@@ -119,8 +126,8 @@ namespace Touchstone
     coarsest_problem.SetLHS(coarsest_solution.get());
     coarsest_problem.SetRHS(coarsest_rhs.get());
     coarsest.reset(Amesos().Create("Amesos_Klu", coarsest_problem));
-    check(coarsest->SymbolicFactorization());
-    check(coarsest->NumericFactorization());
+    check(coarsest->SymbolicFactorization(), map.Comm());
+    check(coarsest->NumericFactorization(), map.Comm());
   }
 
 
@@ -143,7 +150,7 @@ namespace Touchstone
     if (k == levels.size())
       {
         std::copy(rhs, rhs + coarsest_rhs->MyLength(), coarsest_rhs->Values());
-        check(coarsest->Solve());
+        check(coarsest->Solve(), map.Comm());
         std::copy(coarsest_solution->Values(),
                   coarsest_solution->Values() + coarsest_solution->MyLength(),
                   solution);

@@ -34,6 +34,7 @@ namespace Touchstone
      *                    able to represent, zero at constrained unknowns.
      * @param body        Body of each row of this rank: aggregates() are within one.
      * @param symmetric   The matrix is, and half of it is enough.
+     * @throws LinearSolverFailure if the coarsest level is singular, on all ranks.
      */
     Multigrid(const Epetra_CrsMatrix          &matrix,
               const Epetra_MultiVector        &near_kernel,
