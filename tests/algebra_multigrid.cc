@@ -165,6 +165,7 @@ namespace
   void
   test_prolongation(BlockRows                       &rows,
                     const Epetra_MultiVector        &motions,
+                    const unsigned int               n_given,
                     const std::vector<unsigned int> &body,
                     const unsigned int               group)
   {
@@ -219,9 +220,9 @@ namespace
       px(fine.begin(), fine.begin() + fine.locally_owned_size());
     const double energy   = dot(product_of(*product, x.data()), x.data(), communicator);
     double energy_of_fine = dot(product_of(rows, px.data()), px.data(), communicator), alone = 0.;
-    // Three motions of six are not given: their unknowns stand alone, with one.
+    // The unknowns of motions that are not given stand alone, with one.
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (i % Prolongation::n_modes >= 3)
+      if (i % Prolongation::n_modes >= n_given)
         alone += x[i] * x[i];
     energy_of_fine += Utilities::MPI::sum(alone, communicator);
     if (root)
@@ -235,6 +236,7 @@ namespace
     if (group == 1)
       test_prolongation(*product,
                         smooth.coarse_near_kernel(),
+                        n_given,
                         smooth.coarse_body(),
                         Prolongation::n_nodes_of_aggregate);
   }
@@ -303,19 +305,31 @@ main(int argc, char **argv)
   test_blocks(*make_matrix(map, false), false, x);
   test_blocks(*matrix, true, x);
 
-  Epetra_MultiVector        motions(map, 3);
+  Epetra_MultiVector        motions(map, 6);
   std::vector<unsigned int> body(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
     {
       body[i] = body_of(rows[i] / 3);
-      if (rows[i] / 3 >= layer)
-        motions[rows[i] % 3][i] = 1.;
+      if (rows[i] / 3 < layer)
+        continue;
+      // Translations, and rotations about each axis.
+      const int    node = rows[i] / 3, d = rows[i] % 3;
+      const double place[]        = {double(node % side),
+                                     double(node / side % side),
+                                     double(node / layer)};
+      motions[d][i]               = 1.;
+      motions[3 + (d + 1) % 3][i] = place[(d + 2) % 3] - side / 2.;
+      motions[3 + (d + 2) % 3][i] = side / 2. - place[(d + 1) % 3];
     }
   std::vector<unsigned int> body_of_nodes;
   for (std::size_t i = 0; i < rows.size(); i += 3)
     body_of_nodes.push_back(body[i]);
   MatrixRows rows_of_matrix(*matrix);
-  test_prolongation(rows_of_matrix, motions, body_of_nodes, 1);
+  for (const int n_given : {3, 6})
+    {
+      const Epetra_MultiVector some(Copy, motions, 0, n_given);
+      test_prolongation(rows_of_matrix, some, n_given, body_of_nodes, 1);
+    }
 
   const Multigrid multigrid(*matrix, motions, body, true);
   Epetra_Vector   of_x(map), of_y(map), rest(x), product(map);
