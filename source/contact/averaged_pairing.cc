@@ -49,6 +49,22 @@ namespace Touchstone
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           places.emplace(node.node, places.size());
+        // Of owned and of ghost cells: with all faces around an owned node its sums are
+        // complete here without another rank.
+        for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
+          for (const Face &face : *list)
+            {
+              const TraceBasis *basis = input.slave->trace(face);
+              for (unsigned int m = 0; m < face.n_nodes(); ++m)
+                if (places.count(basis ? basis->nodes[m] : face.nodes[m]) > 0)
+                  {
+                    faces.push_back(&face);
+                    break;
+                  }
+            }
+        std::sort(faces.begin(), faces.end(), [](const Face *a, const Face *b) {
+          return a->key < b->key;
+        });
         search.commit(nullptr);
         // Both sides of the gap are smooth or none, or it would be measured from
         // facets that stray from their surface to one that does not. The normals of
@@ -78,7 +94,7 @@ namespace Touchstone
       {
         // Of all ranks; those of this one are enough.
         FacingFaces::Touched own;
-        for (const Covered &covered : slave_faces)
+        for (const CoveredFace &covered : slave_faces)
           if (const auto found = memory.of_faces.find(covered.slave.key);
               found != memory.of_faces.end())
             own.insert(*found);
@@ -132,20 +148,15 @@ namespace Touchstone
       /** Displacement with ghosts at the start of the step; empty: none. */
       Vector start;
 
-      /** A slave face around an owned node, and the master faces that cover it. */
-      struct Covered
-      {
-        Face                      slave;
-        std::vector<const Face *> masters;
-      };
-
       /** Of the last update: sums in the order of the owned nodes, and the slave faces
        * around them. */
-      std::vector<Sums>    sums;
-      std::vector<Covered> slave_faces;
+      std::vector<Sums>        sums;
+      std::vector<CoveredFace> slave_faces;
 
-      /** Places of the owned nodes. */
+      /** Places of the owned nodes, and the slave faces around them in the order of their
+       * keys. */
       std::unordered_map<Index, std::size_t> places;
+      std::vector<const Face *>              faces;
 
       /** Of the faces that the search knows, made when one is first asked for. */
       std::vector<std::optional<FaceGeometry>> geometries;
@@ -167,7 +178,7 @@ namespace Touchstone
       void
       integrate();
       void
-      add_face(Covered &covered);
+      add_face(CoveredFace &covered);
     };
 
     const PairingRegistry::Entry<AveragedPairing>
@@ -178,14 +189,11 @@ namespace Touchstone
     void
     AveragedPairing::commit_positions(const Vector &u)
     {
-      std::vector<const Face *> faces;
-      for (const Covered &covered : slave_faces)
-        faces.push_back(&covered.slave);
-      facing.commit(faces);
+      facing.commit(slave_faces);
       search.commit(&u);
       start = u;
       searched.clear();
-      for (Covered &covered : slave_faces)
+      for (CoveredFace &covered : slave_faces)
         covered.slave.committed = covered.slave.displacement;
     }
 
@@ -234,12 +242,12 @@ namespace Touchstone
 
 
     void
-    AveragedPairing::add_face(Covered &covered)
+    AveragedPairing::add_face(CoveredFace &covered)
     {
-      const Face                   &slave   = covered.slave;
-      const std::vector<FacingFace> masters = facing.find(slave);
-      const unsigned int            n       = slave.n_nodes();
-      const FaceGeometry            on_slave(slave, input.slave->exact_surface(slave), kind);
+      const Face                    &slave   = covered.slave;
+      const std::vector<FacingFace> &masters = covered.masters = facing.find(slave);
+      const unsigned int             n                         = slave.n_nodes();
+      const FaceGeometry             on_slave(slave, input.slave->exact_surface(slave), kind);
 
       // Integrals of the slave shapes times themselves, 1, gap, normal, and master shapes.
       using Values = std::array<double, Face::max_nodes>;
@@ -248,8 +256,7 @@ namespace Touchstone
       std::vector<std::array<Values, Face::max_nodes>> mixed(masters.size());
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
-          const Face &face = *masters[f].master;
-          covered.masters.push_back(&face);
+          const Face         &face      = *masters[f].master;
           const FaceGeometry &on_master = geometry(face);
           for (const OverlapPoint &point : masters[f].points)
             {
@@ -330,50 +337,40 @@ namespace Touchstone
     {
       sums.assign(input.slave->owned_nodes().size(), {});
 
-      // Faces of owned and of ghost cells that touch an owned node: their sums are
-      // complete here without another rank.
       slave_faces.clear();
+      slave_faces.reserve(faces.size());
       std::vector<Point<dim>> positions;
-      for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
-        for (const Face &face : *list)
-          {
-            bool              touches = false;
-            const TraceBasis *basis   = input.slave->trace(face);
-            for (unsigned int m = 0; m < face.n_nodes(); ++m)
-              touches = touches || places.count(basis ? basis->nodes[m] : face.nodes[m]) > 0;
-            if (!touches)
-              continue;
-            slave_faces.push_back({face, {}});
-            Face &slave = slave_faces.back().slave;
-            for (unsigned int m = 0; m < face.n_nodes(); ++m)
-              {
-                slave.committed[m] = Tensor<1, dim>();
-                if (start.size() > 0)
-                  for (unsigned int d = 0; d < dim; ++d)
-                    slave.committed[m][d] = start(dim * face.nodes[m] + d);
-                positions.push_back(face.reference[m] + face.displacement[m]);
-                positions.push_back(face.reference[m] + slave.committed[m]);
-              }
-          }
-      std::sort(slave_faces.begin(), slave_faces.end(), [](const Covered &a, const Covered &b) {
-        return a.slave.key < b.slave.key;
-      });
+      for (const Face *face : faces)
+        {
+          slave_faces.push_back({*face, {}});
+          Face &slave = slave_faces.back().slave;
+          for (unsigned int m = 0; m < slave.n_nodes(); ++m)
+            {
+              slave.committed[m] = Tensor<1, dim>();
+              if (start.size() > 0)
+                for (unsigned int d = 0; d < dim; ++d)
+                  slave.committed[m][d] = start(dim * slave.nodes[m] + d);
+              positions.push_back(slave.reference[m] + slave.displacement[m]);
+              positions.push_back(slave.reference[m] + slave.committed[m]);
+            }
+        }
       search.update(positions);
       if (slave_search)
         {
           slave_search->update(positions);
-          for (Covered &covered : slave_faces)
+          for (CoveredFace &covered : slave_faces)
             {
               const Face &complete       = *slave_search->face(covered.slave.key);
               covered.slave.normals      = complete.normals;
               covered.slave.edge_normals = complete.edge_normals;
+              covered.slave.own_normals  = complete.own_normals;
               covered.slave.outer_edges  = complete.outer_edges;
             }
         }
       geometries.clear();
       geometries.resize(search.known_faces().size());
       watch_motion();
-      for (Covered &covered : slave_faces)
+      for (CoveredFace &covered : slave_faces)
         add_face(covered);
     }
 
@@ -425,9 +422,14 @@ namespace Touchstone
           }
       for (const auto &[slave, masters] : slave_faces)
         if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
-          derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
-                              basis,
-                              masters);
+          {
+            std::vector<const Face *> near;
+            for (const FacingFace &facing : masters)
+              near.push_back(facing.master);
+            derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
+                                basis,
+                                near);
+          }
       derivative.finish();
       for (ContactRow &row : rows)
         row.derivative = row.active() ? derivative.result(row.slave) : nullptr;

@@ -115,12 +115,7 @@ namespace Touchstone
           result.tangents[a] += shapes.gradient[m][a] * face.reference[m];
       }
     if (exact)
-      {
-        const Tensor<2, dim> gradient = exact->projection_gradient(reference);
-        for (unsigned int a = 0; a < 2; ++a)
-          result.tangents[a] = gradient * result.tangents[a];
-        reference = exact->project(reference);
-      }
+      reference = exact->project_with(reference, result.tangents);
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       for (unsigned int a = 0; a < 2; ++a)
         result.tangents[a] += shapes.gradient[m][a] * face.displacement[m];

@@ -122,15 +122,9 @@ namespace Touchstone
         result += shapes.value[m] * data.normals[m];
     else
       {
-        if (!deviations)
-          {
-            deviations.emplace();
-            for (unsigned int m = 0; m < data.n_nodes(); ++m)
-              (*deviations)[m] = data.normals[m] - evaluate(node_coordinates(data, m)).normal();
-          }
         result = point.normal();
         for (unsigned int m = 0; m < data.n_nodes(); ++m)
-          result += shapes.value[m] * (*deviations)[m];
+          result += shapes.value[m] * (data.normals[m] - data.own_normals[m]);
       }
     return result / result.norm();
   }

@@ -216,12 +216,14 @@ namespace Touchstone
             near.push_back(face);
         return cover(slave, near);
       }
-    const Tensor<1, dim> normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
+    const FacePoint      centre = evaluate(slave, nullptr, {{0., 0.}});
+    const Tensor<1, dim> normal = centre.normal();
     near                        = search.near(box(slave), normal);
     std::vector<FacingFace> all = cover(slave, near);
     // Those that cover the face mostly hang together without the help of others.
     const bool   layered = !one_layer(masters_of(all)) && !one_layer(all, near);
-    const double far     = small_motion * std::sqrt(area(slave));
+    const double size    = cross_product_3d(centre.tangents[0], centre.tangents[1]).norm();
+    const double far     = small_motion * std::sqrt(4. * size);
     bool         moved   = false;
     for (const FacingFace &facing : all)
       moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
@@ -310,27 +312,27 @@ namespace Touchstone
 
 
   void
-  FacingFaces::commit(const std::vector<const Face *> &faces)
+  FacingFaces::commit(const std::vector<CoveredFace> &faces)
   {
     std::unordered_map<std::uint64_t, std::uint64_t> now;
-    for (const Face *slave : faces)
+    for (const auto &[slave, masters] : faces)
       {
-        const Tensor<1, dim>          normal = evaluate(*slave, nullptr, {{0., 0.}}).normal();
-        const std::vector<FacingFace> facing = find(*slave);
-        double                        sum = 0., largest = 0., whole = 0.;
-        const Face                   *master = nullptr;
-        for (const FacingFace &f : facing)
+        const Tensor<1, dim> normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
+        double               sum = 0., largest = 0., whole = 0.;
+        const Face          *master = nullptr;
+        for (const FacingFace &f : masters)
           {
-            sum += gap(*slave, normal, f);
-            whole += area(f.points);
-            if (area(f.points) > (1. + 1e-9) * largest)
+            const double covered = area(f.points);
+            sum += gap(slave, normal, f);
+            whole += covered;
+            if (covered > (1. + 1e-9) * largest)
               {
-                largest = area(f.points);
+                largest = covered;
                 master  = f.master;
               }
           }
         if (master && sum < touching * std::sqrt(whole) * whole)
-          now[slave->key] = master->key;
+          now[slave.key] = master->key;
       }
     touched.swap(now);
   }

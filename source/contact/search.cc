@@ -161,23 +161,30 @@ namespace Touchstone
             std::memcpy(static_cast<void *>(faces.data() + first), package.data(), package.size());
           }
       }
+    located_now.reset();
+  }
 
+
+
+  const Search::Located &
+  Search::located() const
+  {
+    if (located_now)
+      return *located_now;
+    Located                                 &result = located_now.emplace();
     std::vector<std::pair<Box, std::size_t>> boxes, swept_boxes;
     for (std::size_t i = 0; i < faces.size(); ++i)
       {
         boxes.emplace_back(bounding_box(faces[i], faces[i].displacement), i);
         if (swept)
           swept_boxes.emplace_back(swept_box(faces[i]), i);
-      }
-    tree       = pack_rtree(boxes);
-    swept_tree = pack_rtree(swept_boxes);
-    outlines.clear();
-    for (std::size_t i = 0; i < faces.size(); ++i)
-      {
         const FacePoint middle = evaluate(faces[i], master.exact_surface(faces[i]), {{0., 0.}});
-        const Box      &box    = boxes[i].first;
-        outlines.push_back({middle.normal(), box.center(), half_diagonal(box)});
+        const Box      &box    = boxes.back().first;
+        result.outlines.push_back({middle.normal(), box.center(), half_diagonal(box)});
       }
+    result.tree       = pack_rtree(boxes);
+    result.swept_tree = pack_rtree(swept_boxes);
+    return result;
   }
 
 
@@ -227,10 +234,11 @@ namespace Touchstone
     const double radius = half_diagonal(box);
     // In the order of their keys, so that sums do not depend on the partition.
     std::vector<const Face *> result;
-    for (auto it = tree.qbegin(bgi::intersects(capture)); it != tree.qend(); ++it)
+    for (auto it = located().tree.qbegin(bgi::intersects(capture)); it != located().tree.qend();
+         ++it)
       {
         const Face    &face    = faces[it->second];
-        const Outline &outline = outlines[it->second];
+        const Outline &outline = located().outlines[it->second];
         ++counted.candidates;
         // Only those over the box or under it, seen along the normal, cover any of it.
         const Tensor<1, dim> way = outline.centre - box.center();
@@ -289,7 +297,7 @@ namespace Touchstone
     for (unsigned int n = first_try; !complete; n *= 4)
       {
         std::vector<std::pair<double, std::size_t>> boxes;
-        for (auto it = tree.qbegin(bgi::nearest(x, n)); it != tree.qend(); ++it)
+        for (auto it = located().tree.qbegin(bgi::nearest(x, n)); it != located().tree.qend(); ++it)
           boxes.emplace_back(bg::comparable_distance(x, it->first), it->second);
         std::sort(boxes.begin(), boxes.end());
         complete      = boxes.size() < n;
@@ -304,7 +312,7 @@ namespace Touchstone
                 break;
               }
             const Face &face = faces[place];
-            if (outlines[place].normal * point.normal > far_side)
+            if (located().outlines[place].normal * point.normal > far_side)
               continue;
             const Projection projection = closest_point_projection(x, geometry(face));
             ++counted.candidates;
@@ -350,7 +358,8 @@ namespace Touchstone
         const Face &face  = *best.face;
         const Box   box   = bounding_box(face, face.displacement);
         Candidate   found = best;
-        for (auto it = tree.qbegin(bgi::intersects(box)); it != tree.qend(); ++it)
+        for (auto it = located().tree.qbegin(bgi::intersects(box)); it != located().tree.qend();
+             ++it)
           {
             const Face &other = faces[it->second];
             const auto  end   = face.nodes.begin() + face.n_nodes();
@@ -358,7 +367,7 @@ namespace Touchstone
                                    other.nodes.begin() + other.n_nodes(),
                                    face.nodes.begin(),
                                    end) == other.nodes.begin() + other.n_nodes() ||
-                outlines[it->second].normal * point.normal > far_side)
+                located().outlines[it->second].normal * point.normal > far_side)
               continue;
             const Projection projection = closest_point_projection(point.x, geometry(other));
             ++counted.candidates;
@@ -381,10 +390,13 @@ namespace Touchstone
     Box path({point.x, point.x});
     path.merge_with(Box({point.start, point.start}));
     std::vector<std::pair<Crossing, const Face *>> crossings;
-    for (auto it = swept_tree.qbegin(bgi::intersects(path)); it != swept_tree.qend(); ++it)
+    for (auto it = located().swept_tree.qbegin(bgi::intersects(path));
+         it != located().swept_tree.qend();
+         ++it)
       {
         const Face &face = faces[it->second];
-        if (outlines[it->second].normal * point.normal > far_side || !may_cross(point, face))
+        if (located().outlines[it->second].normal * point.normal > far_side ||
+            !may_cross(point, face))
           continue;
         ++counted.candidates;
         if (const auto found = crossing(point.start, point.x, face, master.exact_surface(face)))

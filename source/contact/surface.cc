@@ -54,10 +54,10 @@ namespace Touchstone
      * less than a sharp edge: those that meet at more than 50 degrees meet in an
      * edge of the body. */
     bool
-    averaged_with(const Tensor<1, dim> &part, const Tensor<1, dim> &own)
+    averaged_with(const Tensor<1, dim> &unit_normal, const Tensor<1, dim> &own)
     {
       constexpr double cosine_of_sharp_edge = 0.64;
-      return part * own > cosine_of_sharp_edge * part.norm() * own.norm();
+      return unit_normal * own > cosine_of_sharp_edge;
     }
   } // namespace
 
@@ -145,6 +145,15 @@ namespace Touchstone
     mark_outer_edges(halves);
     if (solid.has_hanging_nodes())
       exchange_far_faces(solid);
+
+    for (auto *list : {&faces, &ghost_faces})
+      for (Face &face : *list)
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          {
+            around[face.nodes[m]].emplace_back(&face, m);
+            reference_tangents.push_back(
+              evaluate(face, exact_surface(face), node_coordinates(face, m)).tangents);
+          }
 
     std::map<Index, SurfaceNode> found;
     shortest = std::numeric_limits<double>::max();
@@ -335,43 +344,53 @@ namespace Touchstone
   void
   Surface::move(const Vector &u)
   {
+    for (const auto &[node, list] : around)
+      {
+        Tensor<1, dim> displacement;
+        for (unsigned int d = 0; d < dim; ++d)
+          displacement[d] = u(dim * node + d);
+        for (const auto &[face, m] : list)
+          face->displacement[m] = displacement;
+      }
     // Normals of the faces at their nodes, in length weighted by the area that
     // the face has around the node.
-    std::unordered_map<Index, std::vector<Tensor<1, dim>>> parts;
+    auto tangents = reference_tangents.begin();
     for (auto *list : {&faces, &ghost_faces})
       for (Face &face : *list)
-        {
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            for (unsigned int d = 0; d < dim; ++d)
-              face.displacement[m][d] = u(dim * face.nodes[m] + d);
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            {
-              const FacePoint point =
-                evaluate(face, exact_surface(face), node_coordinates(face, m));
-              face.normals[m] = cross_product_3d(point.tangents[0], point.tangents[1]);
-              parts[face.nodes[m]].push_back(face.normals[m]);
-            }
-        }
-    normals.clear();
-    for (const auto &[node, list] : parts)
+        for (unsigned int m = 0; m < face.n_nodes(); ++m, ++tangents)
+          {
+            const FaceShapes shapes(face.degree, node_coordinates(face, m));
+            auto             t = *tangents;
+            for (unsigned int l = 0; l < face.n_nodes(); ++l)
+              for (unsigned int a = 0; a < 2; ++a)
+                t[a] += shapes.gradient[l][a] * face.displacement[l];
+            face.normals[m]     = cross_product_3d(t[0], t[1]);
+            const double length = face.normals[m].norm();
+            face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
+          }
+    std::vector<Tensor<1, dim>> parts;
+    for (const auto &[node, list] : around)
       {
-        Tensor<1, dim> &normal = normals[node];
-        for (const Tensor<1, dim> &part : list)
-          normal += part;
-        if (normal.norm() > 0.)
-          normal /= normal.norm();
+        parts.clear();
+        Tensor<1, dim> all;
+        for (const auto &[face, m] : list)
+          {
+            parts.push_back(face->normals[m]);
+            all += parts.back();
+          }
+        if (all.norm() > 0.)
+          all /= all.norm();
+        normals[node] = all;
+        for (const auto &[face, m] : list)
+          {
+            Tensor<1, dim> sum;
+            for (std::size_t i = 0; i < parts.size(); ++i)
+              if (averaged_with(list[i].first->own_normals[list[i].second], face->own_normals[m]))
+                sum += parts[i];
+            face->edge_normals[m] = all;
+            face->normals[m]      = sum.norm() > 0. ? sum / sum.norm() : all;
+          }
       }
-    for (Face &face : faces)
-      for (unsigned int m = 0; m < face.n_nodes(); ++m)
-        {
-          const Tensor<1, dim> own = face.normals[m];
-          Tensor<1, dim>       sum;
-          for (const Tensor<1, dim> &part : parts[face.nodes[m]])
-            if (averaged_with(part, own))
-              sum += part;
-          face.edge_normals[m] = normals[face.nodes[m]];
-          face.normals[m]      = sum.norm() > 0. ? sum / sum.norm() : face.edge_normals[m];
-        }
   }
 
 
@@ -379,27 +398,19 @@ namespace Touchstone
   std::vector<NormalDerivative>
   Surface::normal_derivative(const Face &face) const
   {
-    if (around.empty())
-      for (const auto *list : {&faces, &ghost_faces})
-        for (const Face &f : *list)
-          for (unsigned int m = 0; m < f.n_nodes(); ++m)
-            around[f.nodes[m]].emplace_back(&f, m);
-
     const auto tangents = [this](const Face &f, const unsigned int m) {
       return evaluate(f, exact_surface(f), node_coordinates(f, m)).tangents;
     };
     std::vector<NormalDerivative> result;
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       {
-        const auto           t     = tangents(face, m);
-        const Tensor<1, dim> own   = cross_product_3d(t[0], t[1]);
-        const std::size_t    first = result.size();
-        Tensor<1, dim>       sum;
+        const std::size_t first = result.size();
+        Tensor<1, dim>    sum;
         for (const auto &[f, k] : around.at(face.nodes[m]))
           {
             const auto           t    = tangents(*f, k);
             const Tensor<1, dim> part = cross_product_3d(t[0], t[1]);
-            if (!averaged_with(part, own))
+            if (!averaged_with(f->own_normals[k], face.own_normals[m]))
               continue;
             sum += part;
             // d (t_0 x t_1), where the tangents are linear in the displacements.

@@ -156,6 +156,18 @@ namespace Touchstone
                (foot.r / foot.r_of_x) * outer_product(around, around);
       }
 
+      Point<3>
+      project_with(const Point<3> &x, std::array<Tensor<1, 3>, 2> &directions) const override
+      {
+        const Foot         foot    = find(x);
+        const Tensor<1, 3> tangent = (axis + slope * foot.e) / q;
+        const Tensor<1, 3> around  = cross_product_3d(axis, foot.e);
+        for (Tensor<1, 3> &direction : directions)
+          direction = (tangent * direction) * tangent +
+                      (foot.r / foot.r_of_x * (around * direction)) * around;
+        return point + foot.s * axis + foot.r * foot.e;
+      }
+
       Tensor<1, 3>
       normal(const Point<3> &x) const override
       {

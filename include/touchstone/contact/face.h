@@ -40,8 +40,8 @@ namespace Touchstone
     /** Displacement at the start of the step. */
     std::array<dealii::Tensor<1, dim>, max_nodes> committed;
     /** Unit normals averaged over the faces that meet at the node, but for those
-     * beyond a sharp edge; and over all of them. */
-    std::array<dealii::Tensor<1, dim>, max_nodes> normals, edge_normals;
+     * beyond a sharp edge; over all of them; and those of the face alone. */
+    std::array<dealii::Tensor<1, dim>, max_nodes> normals, edge_normals, own_normals;
 
     unsigned int
     n_nodes() const

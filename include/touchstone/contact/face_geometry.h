@@ -101,10 +101,6 @@ namespace Touchstone
     const AnalyticSurface      *exact;
     MasterNormal                kind;
     std::optional<GregoryPatch> patch;
-    /** Of the normals at the nodes from those of the exact surface there; made when first
-     * asked for. */
-    mutable std::optional<std::array<dealii::Tensor<1, dim>, Face::max_nodes>> deviations;
-
     /** @param point The evaluate() there. */
     dealii::Tensor<1, dim>
     interpolated_normal(const std::array<double, 2> &xi, const FacePoint &point) const;

@@ -16,6 +16,13 @@ namespace Touchstone
     std::vector<OverlapPoint> points;
   };
 
+  /** @brief A slave face and the master faces that cover it. */
+  struct CoveredFace
+  {
+    Face                    slave;
+    std::vector<FacingFace> masters;
+  };
+
   /**
    * @brief Which master faces cover a slave face in averaged rows.
    *
@@ -58,9 +65,9 @@ namespace Touchstone
     }
 
     /** @brief A step ends in the present positions: each face remembers what it
-     * touches. @param faces All slave faces of this rank. */
+     * touches. @param faces All slave faces of this rank, with what find() has found. */
     void
-    commit(const std::vector<const Face *> &faces);
+    commit(const std::vector<CoveredFace> &faces);
 
     /** By the keys of slave faces, those of the master faces that they touched. */
     using Touched = std::unordered_map<std::uint64_t, std::uint64_t>;

@@ -188,9 +188,17 @@ namespace Touchstone
       dealii::Point<dim>     centre; // of a sphere around the face
       double                 radius;
     };
-    std::vector<Outline> outlines;
-    /** Of the faces where they are, and of all places where they were in this step. */
-    Tree tree, swept_tree;
+    /** Of the faces of the last update. */
+    struct Located
+    {
+      std::vector<Outline> outlines;
+      /** Of the faces where they are, and of all places where they were in this step. */
+      Tree tree, swept_tree;
+    };
+    /** Made when first asked for: who knows which faces are near needs none. */
+    mutable std::optional<Located> located_now;
+    const Located &
+    located() const;
 
     /** Places in `faces`, filled when a face is first asked for. */
     mutable std::unordered_map<std::uint64_t, std::size_t> by_key;

@@ -151,9 +151,11 @@ namespace Touchstone
 
     std::unordered_map<Index, dealii::Tensor<1, dim>> normals;
 
-    /** Faces around a node, with its local number there, in the order in which
-     * their normals are summed. Filled when derivatives are first asked for. */
-    mutable std::unordered_map<Index, std::vector<std::pair<const Face *, unsigned int>>> around;
+    /** Faces around each node, with its local number there, in the order in which
+     * their normals are summed. */
+    std::unordered_map<Index, std::vector<std::pair<Face *, unsigned int>>> around;
+    /** Of all nodes of all faces in the reference state. */
+    std::vector<std::array<dealii::Tensor<1, dim>, 2>> reference_tangents;
 
     static std::array<Edge, 4>
     edges(const Face &face);

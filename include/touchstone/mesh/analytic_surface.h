@@ -4,6 +4,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <memory>
 
 namespace Touchstone
@@ -25,6 +26,17 @@ namespace Touchstone
     /** @brief Derivative of project() with respect to @p x, 3 x 3, symmetric. */
     virtual dealii::Tensor<2, 3>
     projection_gradient(const dealii::Point<3> &x) const = 0;
+
+    /** @brief project(), and two directions times projection_gradient(), at the price of
+     * little more than one of them. */
+    virtual dealii::Point<3>
+    project_with(const dealii::Point<3> &x, std::array<dealii::Tensor<1, 3>, 2> &directions) const
+    {
+      const dealii::Tensor<2, 3> gradient = projection_gradient(x);
+      for (dealii::Tensor<1, 3> &direction : directions)
+        direction = gradient * direction;
+      return project(x);
+    }
 
     /** @brief Unit normal at the closest point of @p x; points away from the
      * material that the surface bounds. */
