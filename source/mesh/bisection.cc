@@ -138,7 +138,7 @@ namespace Touchstone
 
 
 
-  std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
+  std::unique_ptr<parallel::TriangulationBase<dim>>
   partition_by_coordinates(const BodyMesh    &mesh,
                            const unsigned int refinements,
                            const CellWork    &cell_work,

@@ -87,7 +87,7 @@ namespace Touchstone
 
 
 
-  std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
+  std::unique_ptr<parallel::TriangulationBase<dim>>
   Forest::make(const Scene &scene, const std::string &scene_folder, const MPI_Comm communicator)
   {
     // Whole powers of two are left to the manifolds, which refine any mesh.
@@ -151,6 +151,8 @@ namespace Touchstone
     const std::string partitioner = parameters.partitioner != "automatic" ? parameters.partitioner
                                     : scene.refinement.active()           ? "p4est"
                                                                           : "coordinates";
+    if (partitioner != "p4est" && Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return whole_mesh(all, level, communicator);
     if (partitioner == "coordinates")
       return partition_by_coordinates(
         all, level, cell_work, work, parameters.contact_weight, communicator);

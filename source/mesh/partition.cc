@@ -4,6 +4,7 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/fully_distributed_tria.h>
+#include <deal.II/distributed/shared_tria.h>
 #include <deal.II/distributed/tria.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
@@ -97,7 +98,22 @@ namespace Touchstone
 
 
 
-  std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
+  std::unique_ptr<parallel::TriangulationBase<dim>>
+  whole_mesh(const BodyMesh &mesh, const unsigned int refinements, const MPI_Comm communicator)
+  {
+    using Mesh         = parallel::shared::Triangulation<dim>;
+    auto triangulation = std::make_unique<Mesh>(communicator,
+                                                Mesh::limit_level_difference_at_vertices,
+                                                /*allow_artificial_cells=*/false,
+                                                Mesh::partition_zorder);
+    create_triangulation(mesh, *triangulation);
+    triangulation->refine_global(refinements);
+    return triangulation;
+  }
+
+
+
+  std::unique_ptr<parallel::TriangulationBase<dim>>
   partition_by_curve(const BodyMesh    &mesh,
                      const unsigned int refinements,
                      const CellWork    &cell_work,
@@ -134,7 +150,7 @@ namespace Touchstone
 
 
 
-  std::unique_ptr<parallel::DistributedTriangulationBase<dim>>
+  std::unique_ptr<parallel::TriangulationBase<dim>>
   partition_by_graph(const BodyMesh    &mesh,
                      const unsigned int refinements,
                      const CellWork    &cell_work,

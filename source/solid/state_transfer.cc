@@ -10,8 +10,7 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  StateTransfer::StateTransfer(parallel::DistributedTriangulationBase<dim> &triangulation,
-                               Solid                                       &solid)
+  StateTransfer::StateTransfer(parallel::TriangulationBase<dim> &triangulation, Solid &solid)
     : solid(solid)
   {
     const auto *forest = dynamic_cast<parallel::distributed::Triangulation<dim> *>(&triangulation);

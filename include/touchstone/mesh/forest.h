@@ -28,14 +28,14 @@ namespace Touchstone
     unsigned int                                                                 level = 0;
     bool has_weights                                                                   = false;
     /** Which class it is, the partitioner decides. */
-    std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>> mesh;
+    std::unique_ptr<dealii::parallel::TriangulationBase<dim>> mesh;
 
   public:
     /** @throws InputError for bad meshes and boundaries that do not exist. */
     Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
 
     /** @brief From p4est it can be refined, from other partitioners it cannot. */
-    dealii::parallel::DistributedTriangulationBase<dim> &triangulation;
+    dealii::parallel::TriangulationBase<dim> &triangulation;
 
     /** @brief Level of the cells that the scene asks for; cells are not coarsened
      * beyond it. */
@@ -80,7 +80,7 @@ namespace Touchstone
     surface(dealii::types::boundary_id id) const;
 
   private:
-    std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
+    std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
     make(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
   };
 } // namespace Touchstone

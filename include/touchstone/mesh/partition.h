@@ -25,11 +25,16 @@ namespace Touchstone
    */
   using CellWork = std::function<unsigned int(const dealii::Triangulation<dim>::cell_iterator &)>;
 
+  /** @brief The mesh on one rank, which is made once and not handed out. It cannot be refined
+   * later. */
+  std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
+  whole_mesh(const BodyMesh &mesh, unsigned int refinements, MPI_Comm communicator);
+
   /** @brief The mesh in as many pieces of p4est's space-filling curve as there are
    * ranks, of about the same sum of weights if it is @p weighted: the work of each cell,
    * and @p contact_weight for each of its slave faces. The weights stay: later refinement
    * respects them. */
-  std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
+  std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
   partition_by_curve(const BodyMesh &mesh,
                      unsigned int    refinements,
                      const CellWork &cell_work,
@@ -49,7 +54,7 @@ namespace Touchstone
    * refined later. Collective.
    * @throws std::runtime_error if METIS fails, on all ranks.
    */
-  std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
+  std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
   partition_by_graph(const BodyMesh &mesh,
                      unsigned int    refinements,
                      const CellWork &cell_work,
@@ -68,7 +73,7 @@ namespace Touchstone
    * messages; collective.
    * Berger and Bokhari (1987), IEEE Trans. Comput. C-36.
    */
-  std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
+  std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
   partition_by_coordinates(const BodyMesh &mesh,
                            unsigned int    refinements,
                            const CellWork &cell_work,

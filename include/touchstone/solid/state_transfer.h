@@ -24,7 +24,7 @@ namespace Touchstone
   public:
     /** @brief To be made when the cells are marked, before the mesh changes. Does nothing
      * for bodies without history. */
-    StateTransfer(dealii::parallel::DistributedTriangulationBase<dim> &triangulation, Solid &solid);
+    StateTransfer(dealii::parallel::TriangulationBase<dim> &triangulation, Solid &solid);
 
     /** @brief The mesh has changed and the solid begun anew (Solid::reinit()): give it the
      * states. Collective. */
