@@ -55,23 +55,28 @@ namespace
       IndexSet           owned(n);
       owned.add_range(3 * begin, 3 * end);
 
-      DynamicSparsityPattern pattern(n, n, owned);
-      const auto             entries = [&](const auto &set) {
+      IndexSet nodes(n_nodes);
+      nodes.add_range(begin, end);
+      DynamicSparsityPattern pattern(n_nodes, n_nodes, nodes);
+      const auto             springs = [&](const auto &set) {
         for (unsigned int node = begin; node < end; ++node)
-          for (unsigned int c = 0; c < 3; ++c)
-            {
-              set(3 * node + c, 3 * node + c, 1e-6);
-              for_neighbours(node, [&](const unsigned int other, const unsigned int d) {
-                const double k = d == c ? 3. : 1.;
-                set(3 * node + c, 3 * node + c, k);
-                set(3 * node + c, 3 * other + c, -k);
-              });
-            }
+          for_neighbours(node, [&](const unsigned int other, const unsigned int d) {
+            set(node, other, d);
+          });
       };
-      entries([&](const Index i, const Index j, double) { pattern.add(i, j); });
-      stiffness.reinit(owned, owned, pattern, communicator);
-      entries([&](const Index i, const Index j, const double k) { stiffness.add(i, j, k); });
-      stiffness.compress(VectorOperation::add);
+      springs([&](const unsigned int node, const unsigned int other, unsigned int) {
+        pattern.add(node, node);
+        pattern.add(node, other);
+      });
+      stiffness.reinit(owned, pattern, communicator, true);
+      springs([&](const unsigned int node, const unsigned int other, const unsigned int d) {
+        const int          rows[]  = {stiffness.row(3 * node), -1};
+        const unsigned int nodes[] = {stiffness.node(3 * node), stiffness.node(3 * other)};
+        stiffness.add(2, rows, nodes, [&](const unsigned int i, const unsigned int j) {
+          const double k = d == i ? 3. : 1.;
+          return i != j % 3 ? 0. : j < 3 ? k + 1e-6 / 6. : -k;
+        });
+      });
 
       system.stiffness = &stiffness;
       system.tolerance = 1e-10;
@@ -111,7 +116,7 @@ namespace
         }
       condensed = std::make_unique<CondensedSystem>(system);
 
-      const Epetra_Map &map = static_cast<const Epetra_Map &>(stiffness.trilinos_matrix().RowMap());
+      const Epetra_Map &map = stiffness.rows();
       motions.reset(new RigidMotions{Epetra_MultiVector(map, 3), {}});
       motions->body.resize(map.NumMyElements());
       for (int i = 0; i < map.NumMyElements(); ++i)

@@ -170,10 +170,10 @@ namespace
                     const unsigned int               group)
   {
     using VectorType = Prolongation::VectorType;
-    const BlockMatrix blocks(rows, true);
-    const auto       &partitioner = blocks.vector_partitioner();
-    VectorType        fine(partitioner), forces(partitioner), coarse, gathered;
-    const auto        fill = [](VectorType &vector) {
+    const BlockMatrix<float> blocks(rows, true);
+    const auto              &partitioner = blocks.vector_partitioner();
+    VectorType               fine(partitioner), forces(partitioner), coarse, gathered;
+    const auto               fill = [](VectorType &vector) {
       for (const auto i : vector.locally_owned_elements())
         vector(i) = static_cast<float>(wave(i));
     };
@@ -250,15 +250,15 @@ namespace
     Epetra_Vector exact(x), of_matrix(x);
     matrix.Multiply(false, x, exact);
     matrix.ExtractDiagonalCopy(of_matrix);
-    MatrixRows              rows(matrix);
-    const BlockMatrix       blocks(rows, symmetric);
-    BlockMatrix::VectorType in, out;
+    MatrixRows                     rows(matrix);
+    const BlockMatrix<float>       blocks(rows, symmetric);
+    BlockMatrix<float>::VectorType in, out;
     blocks.initialize_vector(in);
     blocks.initialize_vector(out);
     std::copy(x.Values(), x.Values() + x.MyLength(), in.begin());
     blocks.vmult(out, in);
-    const BlockMatrix::VectorType inverse = blocks.inverse_diagonal();
-    double                        largest = 0., difference = 0., diagonal = 0.;
+    const BlockMatrix<float>::VectorType inverse = blocks.inverse_diagonal();
+    double                               largest = 0., difference = 0., diagonal = 0.;
     for (int i = 0; i < x.MyLength(); ++i)
       {
         largest    = std::max(largest, std::abs(exact[i]));
@@ -331,7 +331,7 @@ main(int argc, char **argv)
       test_prolongation(rows_of_matrix, some, n_given, body_of_nodes, 1);
     }
 
-  const Multigrid multigrid(*matrix, motions, body, true);
+  const Multigrid multigrid(map, std::make_unique<MatrixRows>(*matrix), motions, body, true);
   Epetra_Vector   of_x(map), of_y(map), rest(x), product(map);
   multigrid.ApplyInverse(x, of_x);
   multigrid.ApplyInverse(y, of_y);
@@ -359,7 +359,7 @@ main(int argc, char **argv)
       diagonal_matrix->InsertGlobalValues(i, 1, &two, &i);
     }
   diagonal_matrix->FillComplete();
-  const Multigrid alone(*diagonal_matrix, motions, body, true);
+  const Multigrid alone(map, std::make_unique<MatrixRows>(*diagonal_matrix), motions, body, true);
   Epetra_Vector   half(map);
   alone.ApplyInverse(x, half);
   double error = 0., norm = 0.;

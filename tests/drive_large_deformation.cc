@@ -261,7 +261,10 @@ end
     };
     const auto   nonlinear = make(law, element), linear = make("linear elastic", linear_element);
     const double scale = linear->frobenius_norm();
-    nonlinear->add(-1., *linear);
+    Touchstone::Vector ones(IndexSet(linear->rows()), MPI_COMM_WORLD);
+    ones = 1.;
+    *nonlinear *= -1.;
+    nonlinear->add(ones, *linear);
     const double difference = nonlinear->frobenius_norm() / scale;
     if (first_rank())
       std::cout << "stiffness at rest, " << law << ", " << element << " and " << linear_element

@@ -29,12 +29,10 @@ namespace Touchstone
         right   = forms(&RankOneTerm::right);
         stretch = std::make_unique<Epetra_Vector>(right->RangeMap());
       }
-    // Of few rows: ExtractDiagonalCopy() would search all.
-    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    for (int i = 0; i < stiffness.NumMyRows(); ++i)
+    for (unsigned int i = 0; i < dim * system.stiffness->n_nodes(); ++i)
       if (constrained[i])
         {
-          const double own = diagonal_entry(stiffness, i);
+          const double own = system.stiffness->diagonal(i);
           diagonal[i]      = own != 0. ? own : 1.;
         }
   }
@@ -138,11 +136,8 @@ namespace Touchstone
   AppliedOperator::multiply(const Epetra_Vector &x, Epetra_Vector &result) const
   {
     // Extra unknowns come last and have no stiffness.
-    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    const int               n         = stiffness.NumMyRows();
-    const Epetra_Vector     displacement(View, stiffness.DomainMap(), x.Values());
-    Epetra_Vector           internal(View, stiffness.RangeMap(), result.Values());
-    stiffness.Multiply(false, displacement, internal);
+    const int n = static_cast<int>(dim * system.stiffness->n_nodes());
+    system.stiffness->multiply(result.Values(), x.Values());
     std::fill(result.Values() + n, result.Values() + result.MyLength(), 0.);
     if (system.diagonal_shift.size() > 0)
       {
@@ -166,7 +161,7 @@ namespace Touchstone
     auto result = std::make_unique<Epetra_Vector>(map);
     multiply(inhomogeneity, force);
     force.Scale(-1.);
-    const int n = system.stiffness->trilinos_matrix().NumMyRows();
+    const int n = static_cast<int>(dim * system.stiffness->n_nodes());
     for (int i = 0; i < n; ++i)
       force[i] += system.rhs.begin()[i];
     for (Index k = 0; k < system.n_extra; ++k)

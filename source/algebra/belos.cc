@@ -27,9 +27,6 @@ namespace Touchstone
         : Ifpack_PointRelaxation(system.get())
         , matrix(system)
       {
-        // Its rows may be those of the stiffness, which stay where they are.
-        if (!matrix->Filled())
-          matrix->FillComplete(false);
         Teuchos::ParameterList list;
         list.set("relaxation: type", "symmetric Gauss-Seidel");
         list.set("relaxation: sweeps", 1);
@@ -171,9 +168,7 @@ namespace Touchstone
     /** Resistance to rigid motions over that of single unknowns, away from constrained
      * ones: zero but for inertia. */
     double
-    stiffness_of_motions(const CondensedSystem  &system,
-                         const Epetra_CrsMatrix &matrix,
-                         const RigidMotions     &motions)
+    stiffness_of_motions(const CondensedSystem &system, const RigidMotions &motions)
     {
       const Epetra_Vector &translation = *motions.columns(0);
       Epetra_Vector        force(system.rhs->Map());
@@ -184,9 +179,9 @@ namespace Touchstone
           {
             sums[0] += force[i] * translation[i];
             if (translation[i] != 0.)
-              sums[1] += diagonal_entry(matrix, i) * translation[i] * translation[i];
+              sums[1] += system.stiffness_diagonal(i) * translation[i] * translation[i];
           }
-      matrix.Comm().SumAll(sums, all, 2);
+      force.Comm().SumAll(sums, all, 2);
       return all[1] > 0. ? all[0] / all[1] : 0.;
     }
 
@@ -203,14 +198,13 @@ namespace Touchstone
         for (int i = 0; i < near_kernel.MyLength(); ++i)
           if (system.constrained[i] || system.changed[i])
             near_kernel[v][i] = 0.;
-      const std::shared_ptr<Epetra_CrsMatrix> matrix = system.matrix(false);
       // With much inertia it alone bounds the condition number: coarse spaces have nothing
       // to do, and the aggregates that weak couplings leave would hardly be fewer.
-      if (stiffness_of_motions(system, *matrix, motions) < 0.15)
-        preconditioner =
-          std::make_unique<Multigrid>(*matrix, near_kernel, motions.body, system.symmetric);
+      if (stiffness_of_motions(system, motions) < 0.15)
+        preconditioner = std::make_unique<Multigrid>(
+          system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
       else
-        preconditioner = std::make_unique<GaussSeidel>(matrix);
+        preconditioner = std::make_unique<GaussSeidel>(system.matrix());
       ++count.preconditioner_setups;
       fresh_iterations = 0;
     }

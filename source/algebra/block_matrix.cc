@@ -17,43 +17,107 @@ namespace Touchstone
     /** Numbers a node in vectors whose nodes are to be loaded and stored whole. */
     constexpr unsigned int pad = 4;
 
-    /** Four numbers in a register, from any address. (VectorizedArray of a deal.II that
-     * was built for all processors has but one.) */
-    using Lane __attribute__((vector_size(16), aligned(4), may_alias)) = float;
-
     /** Numbers that are read behind a block. */
     constexpr unsigned int unused = 1;
 
-    /** The unknowns of this rank, and those of other ranks whose nodes the columns refer to. */
-    std::shared_ptr<const Utilities::MPI::Partitioner>
-    make_partitioner(const Epetra_CrsMatrix &matrix)
+    /** out += A in, of padded vectors. */
+    template <typename Number>
+    __attribute__((always_inline)) inline void
+    add_product(const BlockPattern &pattern,
+                const Number       *entries,
+                const Number       *in,
+                Number             *result)
     {
-      const Epetra_Map &rows = matrix.RowMap(), &columns = matrix.ColMap();
-      const Index       size = matrix.NumGlobalRows();
-      IndexSet          owned(size), ghosts(size);
-      if (rows.NumMyElements() > 0)
-        owned.add_range(rows.MinMyGID(), rows.MaxMyGID() + 1);
-      std::vector<Index> far;
-      for (int j = 0; j < columns.NumMyElements(); ++j)
-        if (!owned.is_element(columns.GID(j)))
-          for (unsigned int d = 0; d < dim; ++d)
-            far.push_back(columns.GID(j) / dim * dim + d);
-      std::sort(far.begin(), far.end());
-      ghosts.add_indices(far.begin(), far.end());
-      return std::make_shared<Utilities::MPI::Partitioner>(
-        owned, ghosts, dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+      // Four numbers in registers, from any address. (VectorizedArray of a deal.II that was
+      // built for all processors has but one or two.)
+      using Lane
+        __attribute__((vector_size(4 * sizeof(Number)), aligned(alignof(Number)), may_alias)) =
+          Number;
+      auto *const               out     = reinterpret_cast<Lane *>(result);
+      const unsigned int *const column  = pattern.column.data();
+      const unsigned int        n_nodes = pattern.n_nodes();
+      for (unsigned int node = 0; node < n_nodes; ++node)
+        {
+          // Three rows of the node and one that is not used: what fits into a register.
+          Lane              sums[dim] = {};
+          const Number      own[dim]  = {in[pad * node], in[pad * node + 1], in[pad * node + 2]};
+          const std::size_t end       = pattern.mirrored[node];
+          for (std::size_t k = pattern.start[node]; k < end; ++k)
+            {
+              const Number *a = entries + block * k;
+              const Number *y = in + pad * column[k];
+              // Columns of the block, and rows of it. These from the registers: what limits
+              // the speed are loads.
+              const Lane a0 = *reinterpret_cast<const Lane *>(a),
+                         a1 = *reinterpret_cast<const Lane *>(a + dim),
+                         a2 = *reinterpret_cast<const Lane *>(a + 2 * dim);
+              sums[0] += a0 * y[0];
+              sums[1] += a1 * y[1];
+              sums[2] += a2 * y[2];
+              const Lane upper = __builtin_shufflevector(a0, a1, 0, 4, 1, 5),
+                         lower = __builtin_shufflevector(a0, a1, 2, 6, 3, 7);
+              out[column[k]] += __builtin_shufflevector(upper, a2, 0, 1, 4, 5) * own[0] +
+                                __builtin_shufflevector(upper, a2, 2, 3, 5, 6) * own[1] +
+                                __builtin_shufflevector(lower, a2, 0, 1, 6, 7) * own[2];
+            }
+          for (std::size_t k = end; k < pattern.start[node + 1]; ++k)
+            {
+              const Number *a = entries + block * k;
+              const Number *y = in + pad * column[k];
+              for (unsigned int d = 0; d < dim; ++d)
+                sums[d] += *reinterpret_cast<const Lane *>(a + dim * d) * y[d];
+            }
+          out[node] += sums[0] + sums[1] + sums[2];
+        }
     }
+
+    // The versions for several processors must not be templates.
+    TOUCHSTONE_VECTORISED void
+    product(const BlockPattern &pattern, const float *entries, const float *in, float *out)
+    {
+      add_product(pattern, entries, in, out);
+    }
+
+    TOUCHSTONE_VECTORISED void
+    product(const BlockPattern &pattern, const double *entries, const double *in, double *out)
+    {
+      add_product(pattern, entries, in, out);
+    }
+
   } // namespace
 
 
 
-  MatrixRows::MatrixRows(const Epetra_CrsMatrix &matrix)
-    : BlockRows(make_partitioner(matrix))
-    , matrix(matrix)
-    , number(matrix.NumMyCols())
+  std::shared_ptr<const BlockRows::Partitioner>
+  BlockRows::number(const Epetra_Map &rows, const int *const columns, const std::size_t n_columns)
   {
-    for (unsigned int j = 0; j < number.size(); ++j)
-      number[j] = partitioner->global_to_local(matrix.GCID(j));
+    const Index size = rows.NumGlobalElements();
+    IndexSet    owned(size), ghosts(size);
+    if (rows.NumMyElements() > 0)
+      owned.add_range(rows.MinMyGID(), rows.MaxMyGID() + 1);
+    std::vector<Index> far;
+    for (std::size_t j = 0; j < n_columns; ++j)
+      if (!owned.is_element(columns[j]))
+        for (unsigned int d = 0; d < dim; ++d)
+          far.push_back(columns[j] / dim * dim + d);
+    std::sort(far.begin(), far.end());
+    ghosts.add_indices(far.begin(), far.end());
+    return std::make_shared<Partitioner>(owned,
+                                         ghosts,
+                                         dynamic_cast<const Epetra_MpiComm &>(rows.Comm()).Comm());
+  }
+
+
+
+  MatrixRows::MatrixRows(const Epetra_CrsMatrix &matrix)
+    : BlockRows(number(matrix.RowMap(),
+                       matrix.ColMap().MyGlobalElements(),
+                       matrix.ColMap().NumMyElements()))
+    , matrix(matrix)
+    , local_number(matrix.NumMyCols())
+  {
+    for (unsigned int j = 0; j < local_number.size(); ++j)
+      local_number[j] = partitioner->global_to_local(matrix.GCID(j));
   }
 
 
@@ -85,13 +149,13 @@ namespace Touchstone
       even = even && n[d] == n[0] && std::equal(local[0], local[0] + n[0], local[d]);
     for (int k = 0; even && k < n[0]; ++k)
       {
-        const unsigned int place = k % int(dim), j = number[local[0][k]];
-        even = j % dim == place && j - place == number[local[0][k - place]];
+        const unsigned int place = k % int(dim), j = local_number[local[0][k]];
+        even = j % dim == place && j - place == local_number[local[0][k - place]];
       }
     if (even)
       for (int k = 0; k < n[0]; k += dim)
         {
-          Block &to = present.at(static_cast<int>(number[local[0][k]] / dim));
+          Block &to = present.at(static_cast<int>(local_number[local[0][k]] / dim));
           for (unsigned int d = 0; d < dim; ++d)
             for (unsigned int c = 0; c < dim; ++c)
               to[dim * d + c] += value[d][k + c];
@@ -100,7 +164,7 @@ namespace Touchstone
       for (unsigned int d = 0; d < dim; ++d)
         for (int k = 0; k < n[d]; ++k)
           {
-            const unsigned int j = number[local[d][k]];
+            const unsigned int j = local_number[local[d][k]];
             present.at(static_cast<int>(j / dim))[dim * d + j % dim] += value[d][k];
           }
     return present;
@@ -108,165 +172,166 @@ namespace Touchstone
 
 
 
-  BlockMatrix::BlockMatrix(BlockRows &rows, const bool symmetric)
-    : partitioner(rows.numbers())
+  const BlockPattern::Mirrors &
+  BlockPattern::mirrors() const
   {
+    if (known_mirrors)
+      return *known_mirrors;
+    auto result = std::make_unique<Mirrors>();
+    result->start.resize(n_nodes() + 1, 0);
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      for (std::size_t k = start[node]; k < mirrored[node]; ++k)
+        ++result->start[column[k] + 1];
+    std::partial_sum(result->start.begin(), result->start.end(), result->start.begin());
+    result->blocks.resize(result->start.back());
+    std::vector<std::size_t> next(result->start);
+    for (unsigned int node = 0; node < n_nodes(); ++node)
+      for (std::size_t k = start[node]; k < mirrored[node]; ++k)
+        result->blocks[next[column[k]]++] = {node, static_cast<unsigned int>(k)};
+    known_mirrors = std::move(result);
+    return *known_mirrors;
+  }
+
+
+
+  template <typename Number>
+  BlockMatrix<Number>::BlockMatrix(BlockRows &rows, const bool symmetric)
+  {
+    auto made                         = std::make_shared<BlockPattern>();
+    made->partitioner                 = rows.numbers();
+    made->symmetric                   = symmetric;
     const unsigned int        n_owned = rows.n_nodes();
-    std::vector<unsigned int> order;
-    start.reserve(n_owned + 1);
-    start.push_back(0);
-    mirrored.reserve(n_owned);
-    const std::size_t n_blocks = symmetric ? rows.n_blocks() * 11 / 20 : rows.n_blocks();
-    column.reserve(n_blocks);
+    std::vector<unsigned int> order, columns;
+    const std::size_t         n_blocks = symmetric ? rows.n_blocks() * 11 / 20 : rows.n_blocks();
+    made->start.reserve(n_owned + 1);
+    made->mirrored.reserve(n_owned);
+    made->column.reserve(n_blocks);
     entries.reserve(block * n_blocks + unused);
     for (unsigned int node = 0; node < n_owned; ++node)
       {
         const auto &row = rows.read(node);
         order.clear();
+        columns.clear();
         for (unsigned int k = 0; k < row.columns.size(); ++k)
-          if (const unsigned int other = row.columns[k];
-              !symmetric || other >= node || other >= n_owned)
+          if (made->has(node, row.columns[k]))
             order.push_back(k);
-        const auto twice = [&](const unsigned int k) {
-          const unsigned int other = row.columns[k];
-          return symmetric && other > node && other < n_owned;
-        };
         std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-          return std::make_pair(!twice(a), row.columns[a]) <
-                 std::make_pair(!twice(b), row.columns[b]);
+          return row.columns[a] < row.columns[b];
         });
-        mirrored.push_back(column.size() + std::count_if(order.begin(), order.end(), twice));
+        for (const unsigned int k : order)
+          columns.push_back(row.columns[k]);
+        made->add_row(columns);
+        entries.resize_fast(block * made->column.size());
         for (const unsigned int k : order)
           {
-            column.push_back(row.columns[k]);
+            Number *to = &entries[block * made->block(node, row.columns[k])];
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int r = 0; r < dim; ++r)
-                entries.push_back(static_cast<float>(row.blocks[k][dim * r + c]));
+                *to++ = static_cast<Number>(row.blocks[k][dim * r + c]);
           }
-        start.push_back(column.size());
       }
-    // The last block is read beyond its end.
     for (unsigned int k = 0; k < unused; ++k)
-      entries.push_back(0.f);
-    padded_in.resize(pad * (n_owned + partitioner->n_ghost_indices() / dim));
-    padded_out.resize(pad * n_owned);
+      entries.push_back(Number(0.));
+    pattern = made;
+    allocate();
   }
 
 
 
-  TOUCHSTONE_VECTORISED void
-  BlockMatrix::vmult(VectorType &result, const VectorType &x) const
+  template <typename Number>
+  void
+  BlockMatrix<Number>::allocate()
   {
-    x.update_ghost_values();
-    const unsigned int n_local = padded_in.size() / pad;
-    const float       *from    = x.begin();
-    float             *in      = padded_in.begin();
-    for (unsigned int node = 0; node < n_local; ++node)
-      for (unsigned int d = 0; d < dim; ++d)
-        in[pad * node + d] = from[dim * node + d];
-    auto *const out = reinterpret_cast<Lane *>(padded_out.begin());
-    std::fill(padded_out.begin(), padded_out.end(), 0.f);
-    for (unsigned int node = 0; node < mirrored.size(); ++node)
-      {
-        // Three rows of the node and one that is not used: what fits into a register.
-        Lane        sums[dim] = {};
-        const float own[dim]  = {in[pad * node], in[pad * node + 1], in[pad * node + 2]};
-        for (std::size_t k = start[node]; k < mirrored[node]; ++k)
-          {
-            const float *a = entries.data() + block * k;
-            const float *y = in + pad * column[k];
-            // Columns of the block, and rows of it. These from the registers: what limits
-            // the speed are loads.
-            const Lane a0 = *reinterpret_cast<const Lane *>(a),
-                       a1 = *reinterpret_cast<const Lane *>(a + dim),
-                       a2 = *reinterpret_cast<const Lane *>(a + 2 * dim);
-            sums[0] += a0 * y[0];
-            sums[1] += a1 * y[1];
-            sums[2] += a2 * y[2];
-            const Lane upper = __builtin_shufflevector(a0, a1, 0, 4, 1, 5),
-                       lower = __builtin_shufflevector(a0, a1, 2, 6, 3, 7);
-            out[column[k]] += __builtin_shufflevector(upper, a2, 0, 1, 4, 5) * own[0] +
-                              __builtin_shufflevector(upper, a2, 2, 3, 5, 6) * own[1] +
-                              __builtin_shufflevector(lower, a2, 0, 1, 6, 7) * own[2];
-          }
-        for (std::size_t k = mirrored[node]; k < start[node + 1]; ++k)
-          {
-            const float *a = entries.data() + block * k;
-            const float *y = in + pad * column[k];
-            for (unsigned int d = 0; d < dim; ++d)
-              sums[d] += *reinterpret_cast<const Lane *>(a + dim * d) * y[d];
-          }
-        out[node] += sums[0] + sums[1] + sums[2];
-      }
-    float *to = result.begin();
-    for (unsigned int node = 0; node < mirrored.size(); ++node)
-      for (unsigned int d = 0; d < dim; ++d)
-        to[dim * node + d] = padded_out[pad * node + d];
-    x.zero_out_ghost_values();
+    if (entries.size() == 0)
+      entries.resize(block * pattern->column.size() + unused);
+    padded_in.resize(pad * pattern->n_local_nodes());
+    padded_out.resize(pad * pattern->n_nodes());
+    ghosts.resize(pattern->partitioner->n_ghost_indices());
+    imported.resize(pattern->partitioner->n_import_indices());
   }
 
 
 
-  float
-  BlockMatrix::el(const size_type i, size_type) const
+  template <typename Number>
+  void
+  BlockMatrix<Number>::multiply(Number *result, const Number *x) const
   {
-    const unsigned int local = partitioner->global_to_local(i), node = local / dim;
-    const auto begin = column.begin() + mirrored[node], end = column.begin() + start[node + 1];
-    const auto found = std::lower_bound(begin, end, node);
-    return entries[block * (found - column.begin()) + (dim + 1) * (local % dim)];
+    const auto              &partitioner = *pattern->partitioner;
+    const unsigned int       n           = pattern->n_nodes();
+    std::vector<MPI_Request> requests;
+    partitioner.export_to_ghosted_array_start(
+      0,
+      ArrayView<const Number, MemorySpace::Host>(x, dim * n),
+      ArrayView<Number, MemorySpace::Host>(imported.data(), imported.size()),
+      ArrayView<Number, MemorySpace::Host>(ghosts.data(), ghosts.size()),
+      requests);
+    const auto spread = [&](const Number *from, const unsigned int begin, const unsigned int end) {
+      Number *to = padded_in.data() + pad * begin;
+      for (unsigned int node = begin; node < end; ++node, from += dim, to += pad)
+        std::copy_n(from, dim, to);
+    };
+    spread(x, 0, n);
+    partitioner.export_to_ghosted_array_finish(ArrayView<Number, MemorySpace::Host>(ghosts.data(),
+                                                                                    ghosts.size()),
+                                               requests);
+    spread(ghosts.data(), n, n + ghosts.size() / dim);
+    std::fill(padded_out.begin(), padded_out.end(), Number(0.));
+    product(*pattern, entries.data(), padded_in.data(), padded_out.data());
+    for (unsigned int node = 0; node < n; ++node)
+      std::copy_n(padded_out.data() + pad * node, dim, result + dim * node);
   }
 
 
 
-  BlockMatrix::VectorType
-  BlockMatrix::inverse_diagonal() const
+  template <typename Number>
+  typename BlockMatrix<Number>::VectorType
+  BlockMatrix<Number>::inverse_diagonal() const
   {
     VectorType result;
     initialize_vector(result);
-    for (const size_type i : partitioner->locally_owned_range())
-      result(i) = 1.f / el(i, i);
+    for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
+      result.local_element(i) = Number(1.) / diagonal(i);
     return result;
   }
 
 
 
-  BlockMatrix::Rows::Rows(const BlockMatrix &matrix)
-    : matrix(matrix)
-    , start(matrix.n_nodes() + 1, 0)
+  template <typename Number>
+  const typename BlockMatrix<Number>::Rows::Row &
+  BlockMatrix<Number>::Rows::read(const unsigned int node)
   {
-    for (unsigned int node = 0; node < matrix.n_nodes(); ++node)
-      for (std::size_t k = matrix.start[node]; k < matrix.mirrored[node]; ++k)
-        ++start[matrix.column[k] + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    mirrors.resize(start.back());
-    std::vector<std::size_t> next(start);
-    for (unsigned int node = 0; node < matrix.n_nodes(); ++node)
-      for (std::size_t k = matrix.start[node]; k < matrix.mirrored[node]; ++k)
-        mirrors[next[matrix.column[k]]++] = {node, k};
-  }
-
-
-
-  const BlockMatrix::Rows::Row &
-  BlockMatrix::Rows::read(const unsigned int node)
-  {
-    present.columns.clear();
-    present.blocks.clear();
-    for (std::size_t m = start[node]; m < start[node + 1]; ++m)
+    const BlockPattern          &pattern = *matrix.pattern;
+    const BlockPattern::Mirrors &mirrors = pattern.mirrors();
+    const std::size_t begin = mirrors.start[node], n_mirrors = mirrors.start[node + 1] - begin,
+                      first = pattern.start[node], n_own = pattern.start[node + 1] - first,
+                      n_upper = pattern.mirrored[node] - first;
+    present.columns.resize(n_mirrors + n_own);
+    present.blocks.resize(n_mirrors + n_own);
+    for (std::size_t m = 0; m < n_mirrors; ++m)
       {
-        present.columns.push_back(mirrors[m].first);
-        present.blocks.emplace_back();
-        const float *a = matrix.entries.data() + block * mirrors[m].second;
+        const auto &[other, k] = mirrors.blocks[begin + m];
+        const Number *a        = matrix.entries.data() + block * k;
+        present.columns[m]     = other;
         for (unsigned int r = 0; r < dim; ++r)
           for (unsigned int c = 0; c < dim; ++c)
-            present.blocks.back()[dim * c + r] = a[dim * r + c];
+            present.blocks[m][dim * c + r] = a[dim * r + c];
       }
-    for (std::size_t k = matrix.start[node]; k < matrix.start[node + 1]; ++k)
-      {
-        present.columns.push_back(matrix.column[k]);
-        present.blocks.emplace_back();
-        std::copy_n(matrix.entries.data() + block * k, block, present.blocks.back().begin());
-      }
+    // The diagonal is the first of what follows the upper part.
+    const auto copy = [&](const std::size_t from, const std::size_t n, const std::size_t to) {
+      std::copy_n(pattern.column.begin() + first + from, n, present.columns.begin() + to);
+      std::copy_n(matrix.entries.data() + block * (first + from),
+                  block * n,
+                  reinterpret_cast<Number *>(present.blocks.data() + to));
+    };
+    const std::size_t n_middle = n_upper > 0 ? 1 : 0;
+    copy(n_upper, n_middle, n_mirrors);
+    copy(0, n_upper, n_mirrors + n_middle);
+    copy(n_upper + n_middle, n_own - n_upper - n_middle, n_mirrors + n_upper + n_middle);
     return present;
   }
+
+
+
+  template class BlockMatrix<float>;
+  template class BlockMatrix<double>;
 } // namespace Touchstone

@@ -10,19 +10,18 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  double
-  diagonal_entry(const Epetra_CrsMatrix &matrix, const int i)
+  namespace
   {
-    int     n;
-    double *value;
-    int    *column;
-    matrix.ExtractMyRowView(i, n, value, column);
-    const int local = matrix.LCID(matrix.GRID(i));
-    int      *found = std::lower_bound(column, column + n, local);
-    if (found == column + n || *found != local)
-      found = std::find(column, column + n, local); // of a row that is not sorted
-    return found == column + n ? 0. : value[found - column];
-  }
+    /** Visit the entries of unknown @p i of a node's row: local numbers and values. */
+    template <class Visit>
+    void
+    for_each_entry(const Matrix::Rows::Row &row, const int i, const Visit &visit)
+    {
+      for (std::size_t k = 0; k < row.columns.size(); ++k)
+        for (unsigned int c = 0; c < dim; ++c)
+          visit(static_cast<int>(dim * row.columns[k] + c), row.blocks[k][dim * c + i % dim]);
+    }
+  } // namespace
 
 
 
@@ -112,6 +111,7 @@ namespace Touchstone
            system.basis_change,
            system.rhs.size(),
            row_numbers)
+    , places(rows.NumMyElements(), -1)
     , replaced(rows.NumMyElements())
   {
     add_stiffness();
@@ -154,62 +154,73 @@ namespace Touchstone
 
 
 
+  std::vector<char>
+  Condensation::touched_nodes()
+  {
+    // Which columns are plain is asked 27 times for each: look it up once.
+    const BlockPattern &pattern = system.stiffness->couplings();
+    std::vector<char>   touched(pattern.n_nodes()), plain(pattern.n_local_nodes(), 1);
+    for (unsigned int node = 0; node < plain.size(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (motion.line(static_cast<int>(dim * node + d)))
+          plain[node] = 0;
+    for (unsigned int node = 0; node < touched.size(); ++node)
+      {
+        for (std::size_t k = pattern.start[node]; k < pattern.start[node + 1]; ++k)
+          touched[node] |= !plain[pattern.column[k]];
+        if (!plain[node])
+          for (std::size_t k = pattern.start[node]; k < pattern.mirrored[node]; ++k)
+            touched[pattern.column[k]] = 1;
+      }
+    return touched;
+  }
+
+
+
   void
   Condensation::add_stiffness()
   {
-    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    const double           *shift =
+    const Matrix &stiffness = *system.stiffness;
+    const double *shift =
       system.diagonal_shift.size() > 0 ? system.diagonal_shift.begin() : nullptr;
-
-    // Which columns are plain is asked 27 times for each: look it up once.
-    std::vector<char> plain(stiffness.NumMyCols());
-    for (unsigned int j = 0; j < plain.size(); ++j)
-      plain[j] = (motion.line(static_cast<int>(j)) == nullptr);
-    double           diagonal = 0.;
-    std::vector<int> supported;
-    for (int i = 0; i < stiffness.NumMyRows(); ++i)
+    const std::vector<char> touched  = touched_nodes();
+    double                  diagonal = 0.;
+    std::vector<int>        supported;
+    Matrix::Rows            matrix_rows(stiffness);
+    for (int i = 0; i < static_cast<int>(dim * stiffness.n_nodes()); ++i)
       {
-        int     n;
-        double *value;
-        int    *column;
-        stiffness.ExtractMyRowView(i, n, value, column);
-        const int  here        = stiffness.LCID(stiffness.GRID(i));
-        const bool constrained = system.constraints.is_constrained(stiffness.GRID(i));
+        const bool constrained = system.constraints.is_constrained(row_map.GID(i));
         if (constrained)
           supported.push_back(i);
-        bool touched = constrained || (shift && shift[i] != 0.);
-        for (int k = 0; k < n && !touched; ++k)
-          touched = !plain[column[k]];
-        values[i] = 0.;
-        if (!touched)
+        if (!touched[i / dim] && !constrained && !(shift && shift[i] != 0.))
           {
             values[i] = system.rhs.begin()[i];
             continue;
           }
+        values[i]   = 0.;
         replaced[i] = 1;
-        for (int k = 0; k < n; ++k)
-          if (column[k] == here)
-            diagonal = std::max(diagonal, std::abs(value[k]));
-        const Expansion::Line *line = test.line(i);
-        if (line && line->entries.empty())
+        diagonal    = std::max(diagonal, std::abs(stiffness.diagonal(i)));
+        if (const Expansion::Line *line = test.line(i); line && line->entries.empty())
           continue; // a support: nothing stands for this row
         double product = 0.;
-        for (int k = 0; k < n; ++k)
-          product += expand(column[k], value[k]);
+        for_each_entry(matrix_rows.read(i / dim), i, [&](const int column, const double value) {
+          product += expand(column, value);
+        });
         if (shift)
-          product += expand(here, shift[i]);
+          product += expand(i, shift[i]);
         add_source(i, system.rhs.begin()[i] - product);
       }
     diagonal = Utilities::MPI::max(diagonal, system.rhs.get_mpi_communicator());
     if (diagonal == 0.)
       diagonal = 1.;
     for (const int i : supported)
-      rows[i] = {{stiffness.LCID(stiffness.GRID(i)), diagonal}};
+      new_row(i) = {{i, diagonal}};
+    const int n = static_cast<int>(dim * stiffness.n_nodes());
     for (Index k = 0; k < system.n_extra; ++k)
       {
-        values[stiffness.NumMyRows() + k]   = system.extra_rhs[k];
-        replaced[stiffness.NumMyRows() + k] = 1;
-        rows[stiffness.NumMyRows() + k];
+        values[n + k]   = system.extra_rhs[k];
+        replaced[n + k] = 1;
+        new_row(n + k);
       }
   }
 
@@ -292,7 +303,7 @@ namespace Touchstone
     parts.swap(away);
 
     // Ranks own displacements and extra unknowns in ascending order.
-    const Index first_owned = system.stiffness->local_size() > 0
+    const Index first_owned = system.stiffness->n_nodes() > 0
                                 ? static_cast<Index>(row_map.GID(0))
                                 : static_cast<Index>(system.rhs.size());
     const auto  first =
@@ -356,7 +367,7 @@ namespace Touchstone
   void
   Condensation::gather()
   {
-    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
+    Matrix::Rows matrix_rows(*system.stiffness);
     std::stable_sort(parts.begin(), parts.end(), [](const Part &a, const Part &b) {
       return a.target < b.target;
     });
@@ -368,16 +379,13 @@ namespace Touchstone
       {
         const int row = parts[begin].target;
         if (!replaced[row])
-          {
-            int     n;
-            double *value;
-            int    *column;
-            stiffness.ExtractMyRowView(row, n, value, column);
-            for (int k = 0; k < n; ++k)
-              accumulator.add(column[k], value[k]);
-          }
-        end       = sum(begin, values[row]);
-        rows[row] = accumulator.take();
+          for_each_entry(matrix_rows.read(row / dim),
+                         row,
+                         [&](const int column, const double value) {
+                           accumulator.add(column, value);
+                         });
+        end          = sum(begin, values[row]);
+        new_row(row) = accumulator.take();
         for (std::size_t k = begin; k < end; ++k)
           if (--uses[parts[k].source] == 0)
             SparseRow().swap(sources[parts[k].source]);

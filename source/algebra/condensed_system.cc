@@ -13,7 +13,7 @@ namespace Touchstone
     Epetra_Map
     unknowns(const LinearSystem &system)
     {
-      const Epetra_Map &rows = system.stiffness->trilinos_matrix().RowMap();
+      const Epetra_Map &rows = system.stiffness->rows();
       std::vector<int>  numbers(rows.MyGlobalElements(),
                                rows.MyGlobalElements() + rows.NumMyElements());
       for (Index k = 0; k < system.n_extra; ++k)
@@ -21,12 +21,91 @@ namespace Touchstone
       return Epetra_Map(-1, static_cast<int>(numbers.size()), numbers.data(), 0, rows.Comm());
     }
 
-    /** A matrix together with the entries of its special rows. */
-    struct MatrixWithStorage
+    /** Rows of the stiffness, or what replaces them. */
+    class CondensedRows : public BlockRows
     {
-      std::vector<int>                  columns;
-      std::vector<double>               values;
-      std::unique_ptr<Epetra_CrsMatrix> matrix;
+    public:
+      struct Parts
+      {
+        Parts(const LinearSystem &system, const Epetra_Map &rows)
+          : columns(system.stiffness->columns())
+          , condensation(system, rows, columns)
+        {
+        }
+
+        LocalNumbers columns;
+        Condensation condensation;
+      };
+
+      /** @param scale May be null. */
+      CondensedRows(const Matrix          &stiffness,
+                    const Epetra_Map      &rows,
+                    const Epetra_Vector   *scale,
+                    std::unique_ptr<Parts> made)
+        : BlockRows(number(rows, made->columns.global().data(), made->columns.global().size()))
+        , stiffness(stiffness)
+        , matrix_rows(stiffness)
+        , parts(std::move(made))
+        , factors(partitioner)
+      {
+        for (const int global : parts->columns.global())
+          local_number.push_back(partitioner->global_to_local(global));
+        factors = 1.;
+        if (scale)
+          std::copy(scale->Values(), scale->Values() + scale->MyLength(), factors.begin());
+        factors.update_ghost_values();
+      }
+
+      std::size_t
+      n_blocks() const override
+      {
+        const BlockPattern &pattern = stiffness.couplings();
+        return (pattern.column.size() + pattern.mirrors().blocks.size()) * 11 / 10;
+      }
+
+      const RowOfBlocks<Block> &
+      read(const unsigned int node) override
+      {
+        present.clear();
+        const SparseRow *replaced[dim];
+        bool             any = false, all = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            replaced[d] = parts->condensation.row(static_cast<int>(dim * node + d));
+            any         = any || replaced[d];
+            all         = all && replaced[d];
+          }
+        if (!all)
+          {
+            const Matrix::Rows::Row &row = matrix_rows.read(node);
+            for (std::size_t k = 0; k < row.columns.size(); ++k)
+              {
+                Block &to = present.at(static_cast<int>(local_number[dim * row.columns[k]] / dim));
+                for (unsigned int d = 0; d < dim; ++d)
+                  for (unsigned int c = 0; c < dim && !replaced[d]; ++c)
+                    to[dim * d + c] = row.blocks[k][dim * c + d];
+              }
+          }
+        // What replaces others is for unknowns and equations that are scaled; the others have
+        // none of these.
+        for (unsigned int d = 0; d < dim && any; ++d)
+          if (replaced[d])
+            for (const auto &[column, value] : *replaced[d])
+              {
+                const unsigned int j = local_number[column];
+                present.at(static_cast<int>(j / dim))[dim * d + j % dim] +=
+                  value * factors.local_element(dim * node + d) * factors.local_element(j);
+              }
+        return present;
+      }
+
+    private:
+      const Matrix                                      &stiffness;
+      Matrix::Rows                                       matrix_rows;
+      std::unique_ptr<Parts>                             parts;
+      dealii::LinearAlgebra::distributed::Vector<double> factors;
+      /** Of each column of the parts. */
+      std::vector<unsigned int> local_number;
     };
   } // namespace
 
@@ -41,7 +120,7 @@ namespace Touchstone
   {
     constrained.resize(row_map.NumMyElements());
     changed.resize(row_map.NumMyElements());
-    for (int i = 0; i < system.stiffness->trilinos_matrix().NumMyRows(); ++i)
+    for (unsigned int i = 0; i < dim * system.stiffness->n_nodes(); ++i)
       {
         constrained[i] = system.constraints.is_constrained(row_map.GID(i));
         changed[i]     = !constrained[i] && system.basis_change.is_constrained(row_map.GID(i));
@@ -54,7 +133,7 @@ namespace Touchstone
         return;
       }
     std::vector<double> values;
-    assembled = assemble(&values, true);
+    assembled = assemble(&values);
     rhs       = std::make_unique<Epetra_Vector>(Copy, row_map, values.data());
     if (scale)
       rhs->Multiply(1., *scale, *rhs, 0.);
@@ -89,81 +168,80 @@ namespace Touchstone
 
 
   std::shared_ptr<Epetra_CrsMatrix>
-  CondensedSystem::matrix(const bool complete) const
+  CondensedSystem::matrix() const
   {
-    return assembled ? assembled : assemble(nullptr, complete);
+    return assembled ? assembled : assemble(nullptr);
+  }
+
+
+
+  std::unique_ptr<BlockRows>
+  CondensedSystem::block_rows() const
+  {
+    if (assembled)
+      return std::make_unique<MatrixRows>(*assembled);
+    return std::make_unique<CondensedRows>(*system.stiffness,
+                                           row_map,
+                                           scale.get(),
+                                           std::make_unique<CondensedRows::Parts>(system, row_map));
   }
 
 
 
   std::shared_ptr<Epetra_CrsMatrix>
-  CondensedSystem::assemble(std::vector<double> *values, const bool complete) const
+  CondensedSystem::assemble(std::vector<double> *values) const
   {
-    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    LocalNumbers            columns(stiffness.ColMap());
-    Condensation            condensation(system, row_map, columns);
+    const Matrix &stiffness = *system.stiffness;
+    LocalNumbers  columns(stiffness.columns());
+    Condensation  condensation(system, row_map, columns);
     if (values)
       values->swap(condensation.values);
 
-    const unsigned int n_rows  = row_map.NumMyElements();
-    const auto         storage = std::make_shared<MatrixWithStorage>();
-    std::size_t        size    = 0;
-    std::vector<int>   lengths(n_rows);
-    for (unsigned int i = 0; i < n_rows; ++i)
-      {
-        const auto found = condensation.rows.find(i);
-        lengths[i] =
-          found == condensation.rows.end() ? stiffness.NumMyEntries(i) : found->second.size();
-        if (found != condensation.rows.end())
-          size += found->second.size();
-      }
-    storage->columns.reserve(size);
-    storage->values.reserve(size);
+    Matrix::Rows        matrix_rows(stiffness);
+    std::vector<int>    lengths(row_map.NumMyElements());
+    const BlockPattern &pattern = stiffness.couplings();
+    for (unsigned int i = 0; i < lengths.size(); ++i)
+      if (const SparseRow *row = condensation.row(i))
+        lengths[i] = static_cast<int>(row->size());
+      else
+        lengths[i] = static_cast<int>(dim * pattern.row_length(i / dim));
 
     const Epetra_Map column_map(
-      -1, static_cast<int>(columns.global().size()), columns.global().data(), 0, stiffness.Comm());
-    const auto access = system.lasting_stiffness ? View : Copy;
-    storage->matrix =
-      std::make_unique<Epetra_CrsMatrix>(access, row_map, column_map, lengths.data(), true);
-    for (unsigned int i = 0; i < n_rows; ++i)
+      -1, static_cast<int>(columns.global().size()), columns.global().data(), 0, row_map.Comm());
+    auto matrix =
+      std::make_shared<Epetra_CrsMatrix>(Copy, row_map, column_map, lengths.data(), true);
+    std::vector<int>    places;
+    std::vector<double> entries;
+    for (unsigned int i = 0; i < lengths.size(); ++i)
       {
-        const auto found = condensation.rows.find(i);
-        int        n;
-        double    *value;
-        int       *column;
-        if (found == condensation.rows.end())
-          stiffness.ExtractMyRowView(i, n, value, column);
+        places.clear();
+        entries.clear();
+        if (const SparseRow *row = condensation.row(i))
+          for (const auto &[place, value] : *row)
+            {
+              places.push_back(place);
+              entries.push_back(value);
+            }
         else
           {
-            const std::size_t begin = storage->columns.size();
-            for (const auto &entry : found->second)
-              {
-                storage->columns.push_back(entry.first);
-                storage->values.push_back(entry.second);
-              }
-            n      = static_cast<int>(found->second.size());
-            column = storage->columns.data() + begin;
-            value  = storage->values.data() + begin;
-            SparseRow().swap(found->second);
+            const Matrix::Rows::Row &of_node = matrix_rows.read(i / dim);
+            for (std::size_t k = 0; k < of_node.columns.size(); ++k)
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  places.push_back(static_cast<int>(dim * of_node.columns[k] + c));
+                  entries.push_back(of_node.blocks[k][dim * c + i % dim]);
+                }
           }
-        const int error = storage->matrix->InsertMyValues(i, n, value, column);
+        const int error = matrix->InsertMyValues(i, lengths[i], entries.data(), places.data());
         AssertThrow(error == 0, dealii::ExcMessage("A row does not fit into the matrix."));
       }
-    const bool copied = !system.lasting_stiffness;
-    if (complete || scale)
-      storage->matrix->FillComplete(row_map, row_map, copied);
-    if (copied)
-      {
-        storage->columns = {};
-        storage->values  = {};
-      }
-    // Rows that refer to the stiffness have no entry in the columns that are scaled.
+    matrix->FillComplete(row_map, row_map);
     if (scale)
       {
-        storage->matrix->LeftScale(*scale);
-        storage->matrix->RightScale(*scale);
+        matrix->LeftScale(*scale);
+        matrix->RightScale(*scale);
       }
-    return std::shared_ptr<Epetra_CrsMatrix>(storage, storage->matrix.get());
+    return matrix;
   }
 
 
@@ -200,13 +278,12 @@ namespace Touchstone
     if (system.diagonal_shift.size() > 0)
       springs += system.diagonal_shift;
 
-    const Epetra_CrsMatrix &stiffness = system.stiffness->trilinos_matrix();
-    scale                             = std::make_unique<Epetra_Vector>(row_map);
+    scale = std::make_unique<Epetra_Vector>(row_map);
     scale->PutScalar(1.);
-    for (int i = 0; i < stiffness.NumMyRows(); ++i)
+    for (unsigned int i = 0; i < dim * system.stiffness->n_nodes(); ++i)
       if (const double spring = springs.begin()[i]; changed[i] && spring > 0.)
         {
-          const double own = diagonal_entry(stiffness, i);
+          const double own = system.stiffness->diagonal(i);
           (*scale)[i]      = own / (own + spring);
         }
   }

@@ -51,15 +51,15 @@ namespace Touchstone
 
 
 
-  Multigrid::Multigrid(const Epetra_CrsMatrix          &matrix,
+  Multigrid::Multigrid(const Epetra_Map                &map,
+                       std::unique_ptr<BlockRows>       rows,
                        const Epetra_MultiVector        &near_kernel,
                        const std::vector<unsigned int> &body,
                        const bool                       symmetric)
-    : SquareOperator(matrix.RowMap(), "smoothed aggregation")
+    : SquareOperator(map, "smoothed aggregation")
   {
-    std::unique_ptr<BlockRows> rows  = std::make_unique<MatrixRows>(matrix);
-    const Epetra_MultiVector  *modes = &near_kernel;
-    std::vector<unsigned int>  bodies(map.NumMyElements() / dim);
+    const Epetra_MultiVector *modes = &near_kernel;
+    std::vector<unsigned int> bodies(map.NumMyElements() / dim);
     for (unsigned int node = 0; node < bodies.size(); ++node)
       bodies[node] = body[dim * node];
     unsigned int group = 1;

@@ -19,7 +19,7 @@ namespace Touchstone
 
     /** The groups of nodes of this rank to which each of them is coupled. */
     std::vector<std::vector<int>>
-    couplings(BlockMatrix::Rows        &matrix,
+    couplings(BlockMatrix<float>::Rows &matrix,
               const std::vector<float> &diagonal,
               const unsigned int        group)
     {
@@ -27,7 +27,7 @@ namespace Touchstone
       std::vector<std::vector<int>> graph(n_nodes / group);
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
-          const BlockMatrix::Rows::Row &row = matrix.read(node);
+          const BlockMatrix<float>::Rows::Row &row = matrix.read(node);
           for (unsigned int k = 0; k < row.columns.size(); ++k)
             {
               const unsigned int other = row.columns[k];
@@ -107,12 +107,12 @@ namespace Touchstone
     /** row += (1 - damping A) P_0, of a node: a motion of its own, if it has a place, less
      * those that its neighbours take. */
     TOUCHSTONE_VECTORISED void
-    add_smoothed(const BlockMatrix::Rows::Row  &of_matrix,
-                 const unsigned int             node,
-                 const std::array<double, dim> &damping,
-                 const std::vector<int>        &place,
-                 const std::vector<float>      &tentative,
-                 RowOfBlocks<OctetsOfNode>     &row)
+    add_smoothed(const BlockMatrix<float>::Rows::Row &of_matrix,
+                 const unsigned int                   node,
+                 const std::array<double, dim>       &damping,
+                 const std::vector<int>              &place,
+                 const std::vector<float>            &tentative,
+                 RowOfBlocks<OctetsOfNode>           &row)
     {
       constexpr unsigned int block = dim * Prolongation::n_modes;
       if (place[node] >= 0)
@@ -137,7 +137,7 @@ namespace Touchstone
 
 
 
-  Prolongation::Prolongation(const BlockMatrix               &matrix,
+  Prolongation::Prolongation(const BlockMatrix<float>        &matrix,
                              const Epetra_MultiVector        &near_kernel,
                              const std::vector<unsigned int> &body,
                              const unsigned int               group,
@@ -151,8 +151,8 @@ namespace Touchstone
       for (unsigned int i = 0; i < diagonal.size(); ++i)
         diagonal[i] = 1.f / inverse.local_element(i);
     }
-    BlockMatrix::Rows rows(matrix);
-    const Aggregates  aggregates = aggregate(couplings(rows, diagonal, group), body);
+    BlockMatrix<float>::Rows rows(matrix);
+    const Aggregates         aggregates = aggregate(couplings(rows, diagonal, group), body);
 
     // Motions of each aggregate, orthonormal.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);

@@ -31,7 +31,7 @@ namespace Touchstone
   RigidBodyModes::RigidBodyModes(const Scene &scene, const Solid &solid)
     : scene(scene)
     , solid(solid)
-    , rigid(new RigidMotions{Epetra_MultiVector(solid.stiffness().trilinos_matrix().RowMap(), 6),
+    , rigid(new RigidMotions{Epetra_MultiVector(solid.stiffness().rows(), 6),
                              bodies_of_unknowns(solid)})
     , centres(scene.bodies.size())
     , sizes(scene.bodies.size())
@@ -162,9 +162,7 @@ namespace Touchstone
                                 const double      smallest) const
   {
     Vector        shift(solid.owned, solid.communicator);
-    const auto   &stiffness = solid.stiffness().trilinos_matrix();
-    Epetra_Vector diagonal(stiffness.RowMap());
-    stiffness.ExtractDiagonalCopy(diagonal);
+    const Matrix &stiffness = solid.stiffness();
 
     // Work of the unbalanced forces on the modes of each body; sum of diagonals.
     const unsigned int  n = 6 * scene.bodies.size();
@@ -189,7 +187,7 @@ namespace Touchstone
             sums[6 * b + k] += force * translation[k];
             sums[6 * b + dim + k] += force * (about_first + offset) / sizes[b];
           }
-        sums[n + b] += diagonal[row] / dim;
+        sums[n + b] += stiffness.diagonal(row) / dim;
       }
     Utilities::MPI::sum(sums, solid.communicator, sums);
 
@@ -206,7 +204,7 @@ namespace Touchstone
       }
     for (unsigned int row = 0; row < rigid->body.size(); ++row)
       if (motion.bodies.count(rigid->body[row]) > 0)
-        shift.begin()[row] = fraction * diagonal[row];
+        shift.begin()[row] = fraction * stiffness.diagonal(row);
     return shift;
   }
 } // namespace Touchstone

@@ -2,7 +2,6 @@
 #include <touchstone/drive/impact.h>
 #include <touchstone/scene/expression.h>
 #include <touchstone/solid/bodies.h>
-#include <touchstone/solid/row_writer.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
@@ -216,7 +215,7 @@ namespace Touchstone
       {
         factors = damping_stiffness;
         factors *= of_damping;
-        add_rows(effective, factors, damping_matrix());
+        effective.add(factors, damping_matrix());
       }
     return effective;
   }
@@ -416,8 +415,7 @@ namespace Touchstone
         Tensor<1, dim> velocity(axis);
         if (k >= dim)
           velocity = cross_product_3d(
-            axis,
-            Point<dim>(result.begin()[i], result.begin()[i + 1], result.begin()[i + 2]));
+            axis, Point<dim>(result.begin()[i], result.begin()[i + 1], result.begin()[i + 2]));
         for (unsigned int d = 0; d < dim; ++d)
           result.begin()[i + d] = velocity[d];
       }

@@ -54,12 +54,6 @@ namespace Touchstone
         return solid.stiffness();
       }
 
-      bool
-      lasting() const override
-      {
-        return solid.linear();
-      }
-
       double
       weight() const override
       {

@@ -131,6 +131,7 @@ namespace Touchstone
     time = t;
     integration->begin_step(time, u);
     touch_unknown = integration->dynamic();
+    last_residual = 0.;
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
   }
@@ -375,8 +376,19 @@ namespace Touchstone
     linear_tolerance   = usual;
     if (!state.prescribed || state.changes > 0)
       linear_tolerance *= scene.has_friction() ? 1e-3 : 1e-2;
-    else if (state.residual > 0. && last >= 1e-2 * usual)
-      linear_tolerance = std::min(last, std::max(usual, 0.1));
+    else
+      {
+        // Symmetric systems leave out how normals change, and Newton converges linearly: to
+        // solve better than what that left of the last residual is wasted.
+        // Eisenstat and Walker (1996), SIAM J. Sci. Comput. 17, the first of their choices.
+        double left = 0.;
+        if (last_residual > 0. && solver->symmetric_only() && solid.linear())
+          left = 0.3 * state.residual / last_residual;
+        if (state.residual > 0. && last >= 1e-2 * usual)
+          linear_tolerance = std::min(last, std::max(usual, 0.1));
+        linear_tolerance = std::max(linear_tolerance, std::min(left, 1e-2));
+      }
+    last_residual = state.changes == 0 && state.prescribed ? state.residual : 0.;
     return state;
   }
 
@@ -391,9 +403,8 @@ namespace Touchstone
         solid.assemble(u, solver->symmetric_only());
         ++assemblies;
       }
-    system                    = std::make_unique<LinearSystem>();
-    system->stiffness         = &integration->stiffness();
-    system->lasting_stiffness = integration->lasting();
+    system            = std::make_unique<LinearSystem>();
+    system->stiffness = &integration->stiffness();
     system->rhs.reinit(solid.owned, solid.communicator);
     system->rhs            = applied;
     system->first_extra    = system->rhs.size();

@@ -1,16 +1,15 @@
 #include <touchstone/scene/input_error.h>
 #include <touchstone/solid/bodies.h>
 #include <touchstone/solid/mass.h>
-#include <touchstone/solid/row_writer.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
-#include <Epetra_Vector.h>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -295,37 +294,35 @@ namespace Touchstone
     const Vector              no_mass = solid.ghosted(flag);
     const std::vector<double> factors = density_factors(scene, solid, massless, no_mass, step);
     if (!diagonal)
-      {
-        matrix.reinit(solid.stiffness());
-        matrix = 0.;
-      }
-    CellMass            mass(scene, solid, no_mass, step);
-    std::vector<Index>  columns(mass.nodes.size());
-    std::vector<double> row(columns.size());
+      matrix.reinit(solid.stiffness());
+    CellMass                  mass(scene, solid, no_mass, step);
+    const unsigned int        n = mass.nodes.size();
+    std::vector<int>          rows(n);
+    std::vector<unsigned int> nodes(n);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          mass.reinit(cell);
-          mass.moved *= factors[cell->active_cell_index()];
-          for (unsigned int a = 0; a < columns.size(); ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              if (diagonal)
-                nodal(mass.nodes[a] + d) += mass.moved(a, a);
-              else
-                {
-                  for (unsigned int b = 0; b < columns.size(); ++b)
-                    {
-                      columns[b] = mass.nodes[b] + d;
-                      row[b]     = mass.moved(a, b);
-                    }
-                  matrix.add(mass.nodes[a] + d, columns.size(), columns.data(), row.data());
-                }
-        }
-    if (diagonal)
-      nodal.compress(VectorOperation::add);
-    else
       {
-        matrix.compress(VectorOperation::add);
+        if (cell->is_artificial())
+          continue;
+        mass.reinit(cell);
+        mass.moved *= factors[cell->active_cell_index()];
+        bool any = false;
+        for (unsigned int a = 0; a < n; ++a)
+          {
+            rows[a] = solid.stiffness().row(mass.nodes[a]);
+            any     = any || rows[a] >= 0;
+            for (unsigned int d = 0; d < dim && diagonal && rows[a] >= 0; ++d)
+              nodal.begin()[rows[a] + d] += mass.moved(a, a);
+          }
+        if (diagonal || !any)
+          continue;
+        for (unsigned int a = 0; a < n; ++a)
+          nodes[a] = matrix.node(mass.nodes[a]);
+        matrix.add(n, rows.data(), nodes.data(), [&](const unsigned int i, const unsigned int j) {
+          return i % dim == j % dim ? mass.moved(i / dim, j / dim) : 0.;
+        });
+      }
+    if (!diagonal)
+      {
         Vector ones(nodal);
         ones = 1.;
         matrix.vmult(nodal, ones);
@@ -398,6 +395,13 @@ namespace Touchstone
         for (std::size_t e = 0; e < numbers.size(); ++e)
           result[numbers[e]] = density.factors[e];
       }
+    using Cell = Triangulation<dim>::active_cell_iterator;
+    GridTools::exchange_cell_data_to_ghosts<double, Triangulation<dim>>(
+      solid.dof_handler.get_triangulation(),
+      [&](const Cell &cell) -> std_cxx17::optional<double> {
+        return result[cell->active_cell_index()];
+      },
+      [&](const Cell &cell, const double factor) { result[cell->active_cell_index()] = factor; });
     return result;
   }
 
@@ -422,14 +426,11 @@ namespace Touchstone
   {
     if (diagonal)
       {
-        auto         &target = const_cast<Epetra_CrsMatrix &>(sum.trilinos_matrix());
-        Epetra_Vector entries(target.RowMap());
-        target.ExtractDiagonalCopy(entries);
-        for (int i = 0; i < entries.MyLength(); ++i)
-          entries[i] += factors.begin()[i] * nodal.begin()[i];
-        target.ReplaceDiagonalValues(entries);
+        Vector entries(nodal);
+        entries.scale(factors);
+        sum.add_to_diagonal(entries);
         return;
       }
-    add_rows(sum, factors, matrix);
+    sum.add(factors, matrix);
   }
 } // namespace Touchstone

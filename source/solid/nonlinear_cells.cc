@@ -11,11 +11,7 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  NonlinearCells::NonlinearCells(const Scene           &scene,
-                                 const FESystem<dim>   &fe,
-                                 const MappingQ<dim>   &mapping,
-                                 const DoFHandler<dim> &dof_handler,
-                                 const Matrix          &stiffness)
+  NonlinearCells::NonlinearCells(const Scene &scene, const FESystem<dim> &fe)
     : n_nodes(fe.n_dofs_per_cell() / dim)
     , kernels(scene.bodies.size())
     , displacement(fe.n_dofs_per_cell())
@@ -33,15 +29,22 @@ namespace Touchstone
           any_history   = any_history || kernels[b]->n_state() > 0;
           all_symmetric = all_symmetric && kernels[b]->material()->symmetric();
         }
+  }
+
+
+
+  void
+  NonlinearCells::reinit(const MappingQ<dim>   &mapping,
+                         const DoFHandler<dim> &dof_handler,
+                         const Matrix          &stiffness)
+  {
     if (!any_body)
       return;
-
-    const Epetra_Map             &row_map = stiffness.trilinos_matrix().RowMap();
-    const Epetra_Map             &col_map = stiffness.trilinos_matrix().ColMap();
+    const FiniteElement<dim>     &fe = dof_handler.get_fe();
     std::vector<Index>            cell_dofs(fe.n_dofs_per_cell());
     const std::vector<Point<dim>> unit_points = FE_Q<dim>(fe.degree).get_unit_support_points();
-    std::vector<char>             known(row_map.NumMyElements());
-    size.assign(row_map.NumMyElements(), 0.);
+    std::vector<char>             known(dim * stiffness.n_nodes());
+    size.assign(known.size(), 0.);
     number.assign(dof_handler.get_triangulation().n_active_cells(), -1);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial() && kernels[cell->material_id()])
@@ -49,7 +52,7 @@ namespace Touchstone
           cell->get_dof_indices(cell_dofs);
           bool any = false;
           for (const Index dof : cell_dofs)
-            any = any || row_map.LID(static_cast<int>(dof)) >= 0;
+            any = any || stiffness.row(dof) >= 0;
           if (!any && !cell->is_locally_owned())
             continue;
           number[cell->active_cell_index()] = cells.size();
@@ -63,11 +66,10 @@ namespace Touchstone
           for (unsigned int a = 0; a < n_nodes; ++a)
             {
               const Index first = cell_dofs[fe.component_to_system_index(0, a)];
-              const int   row   = row_map.LID(static_cast<int>(first));
+              const int   row   = stiffness.row(first);
               dofs.push_back(first);
               rows.push_back(row);
-              for (unsigned int d = 0; d < dim; ++d)
-                columns.push_back(col_map.LID(static_cast<int>(first + d)));
+              nodes.push_back(stiffness.node(first));
               const Point<dim> x = mapping.transform_unit_to_real_cell(cell, unit_points[a]);
               positions.insert(positions.end(), {x[0], x[1], x[2]});
               if (row < 0)
@@ -101,22 +103,22 @@ namespace Touchstone
 
 
   bool
-  NonlinearCells::assemble(const Vector &u, const bool symmetric_part, RowWriter &writer)
+  NonlinearCells::assemble(const Vector &u, const bool symmetric_part, Matrix &stiffness)
   {
     for (const int row : node_rows)
-      writer.clear_node(row);
+      stiffness.clear_node(row);
     double determinant;
     bool   solved = true;
     for (std::size_t c = 0; c < cells.size(); ++c)
       {
-        CellKernel   &kernel    = go_to(c, u, determinant);
-        const double *stiffness = kernel.stiffness(symmetric_part).data();
-        writer.add(n_nodes,
-                   &rows[c * n_nodes],
-                   &columns[c * dim * n_nodes],
-                   [&](const unsigned int i, const unsigned int j) {
-                     return stiffness[dim * n_nodes * i + j];
-                   });
+        CellKernel   &kernel  = go_to(c, u, determinant);
+        const double *of_cell = kernel.stiffness(symmetric_part).data();
+        stiffness.add(n_nodes,
+                      &rows[c * n_nodes],
+                      &nodes[c * n_nodes],
+                      [&](const unsigned int i, const unsigned int j) {
+                        return of_cell[dim * n_nodes * i + j];
+                      });
         solved = solved && kernel.solved();
       }
     return solved;

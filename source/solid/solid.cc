@@ -1,6 +1,5 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/solid/linear_cells.h>
-#include <touchstone/solid/node_pattern.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -70,8 +69,9 @@ namespace Touchstone
             if (owned_nodes.is_element(row))
               couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
-    reinit_by_nodes(matrix, owned, couplings, communicator);
-    nonlinear = std::make_unique<NonlinearCells>(scene, fe, mapping, dof_handler, matrix);
+    nonlinear = std::make_unique<NonlinearCells>(scene, fe);
+    matrix.reinit(owned, couplings, communicator, symmetric());
+    nonlinear->reinit(mapping, dof_handler, matrix);
   }
 
 
@@ -115,17 +115,16 @@ namespace Touchstone
   Solid::assemble()
   {
     matrix = 0.;
-    RowWriter                                 writer(matrix);
     std::vector<std::unique_ptr<LinearCells>> linear_cells;
     for (const BodyParameters &body : scene.bodies)
       linear_cells.push_back(
         body.material.linear() ? std::make_unique<LinearCells>(mapping, fe, body) : nullptr);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial() && linear_cells[cell->material_id()])
-        linear_cells[cell->material_id()]->add(cell, writer);
+        linear_cells[cell->material_id()]->add(cell, matrix);
     for (const auto &cells : linear_cells)
       if (cells)
-        cells->finish(writer);
+        cells->finish(matrix);
     assemble(Vector(owned, communicator));
   }
 
@@ -143,12 +142,9 @@ namespace Touchstone
   void
   Solid::assemble(const Vector &u, const bool symmetric_part)
   {
-    RowWriter writer(matrix);
     if (!linear())
-      check_solved(nonlinear->assemble(ghosted(u), symmetric_part, writer));
-    row_sums.resize(owned.n_elements());
-    for (unsigned int i = 0; i < row_sums.size(); ++i)
-      row_sums[i] = writer.absolute_sum(i);
+      check_solved(nonlinear->assemble(ghosted(u), symmetric_part, matrix));
+    row_sums = matrix.absolute_row_sums();
   }
 
 

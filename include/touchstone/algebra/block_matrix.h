@@ -1,6 +1,7 @@
 #ifndef touchstone_algebra_block_matrix_h
 #define touchstone_algebra_block_matrix_h
 
+#include <touchstone/algebra/block_pattern.h>
 #include <touchstone/algebra/row_of_blocks.h>
 #include <touchstone/types.h>
 
@@ -60,6 +61,11 @@ namespace Touchstone
     {
     }
 
+    /** @brief Numbers for the unknowns of this rank, and those of other ranks whose nodes
+     * the columns, by global numbers, refer to. Collective. */
+    static std::shared_ptr<const Partitioner>
+    number(const Epetra_Map &rows, const int *columns, std::size_t n_columns);
+
     const std::shared_ptr<const Partitioner> partitioner;
     /** The row that was read last. */
     RowOfBlocks<Block> present;
@@ -81,22 +87,24 @@ namespace Touchstone
   private:
     const Epetra_CrsMatrix &matrix;
     /** Local number of each column of the matrix. */
-    std::vector<unsigned int> number;
+    std::vector<unsigned int> local_number;
   };
 
   /**
-   * @brief A matrix in single precision, stored as 3 x 3 blocks of nodes: good enough for a
-   * preconditioner, whose speed is that of the memory.
-   *
-   * Of a symmetric matrix each block between two nodes of a rank is stored once: an entry
-   * takes 2.3 bytes, 4.4 if it is not symmetric, instead of the 12 of a sparse matrix of
-   * double.
+   * @brief A matrix stored as 3 x 3 blocks of nodes. What limits products is the memory, of
+   * which a symmetric matrix takes half, for each block between two nodes of a rank is
+   * stored once: an entry takes 2.3 bytes in single precision, which is good enough for
+   * a preconditioner, and 4.4 in double, instead of the 12 of a sparse matrix of double.
    */
+  template <typename Number>
   class BlockMatrix : public dealii::Subscriptor
   {
   public:
-    using VectorType = dealii::LinearAlgebra::distributed::Vector<float>;
+    using VectorType = dealii::LinearAlgebra::distributed::Vector<Number>;
     using size_type  = dealii::types::global_dof_index;
+
+    /** @brief Empty. */
+    BlockMatrix() = default;
 
     /** @param symmetric Of each two blocks that are transposes of each other one counts. */
     BlockMatrix(BlockRows &rows, bool symmetric);
@@ -105,35 +113,54 @@ namespace Touchstone
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
     vector_partitioner() const
     {
-      return partitioner;
+      return pattern->partitioner;
     }
 
     /** @brief Make @p vector fit, with ghosts; its values are not set. */
     void
     initialize_vector(VectorType &vector) const
     {
-      vector.reinit(partitioner);
+      vector.reinit(pattern->partitioner);
     }
 
     size_type
     m() const
     {
-      return partitioner->size();
+      return pattern->partitioner->size();
     }
 
+    /** @brief Nodes of this rank. */
     unsigned int
     n_nodes() const
     {
-      return mirrored.size();
+      return pattern->n_nodes();
     }
 
     /** @brief result = A x. Collective. */
     void
-    vmult(VectorType &result, const VectorType &x) const;
+    vmult(VectorType &result, const VectorType &x) const
+    {
+      multiply(result.begin(), x.begin());
+    }
 
-    /** @brief An entry of the diagonal of a row of this rank. @param i Number of the row. */
-    float
-    el(size_type i, size_type) const;
+    /** @brief The same for the unknowns of this rank as plain arrays, which must not
+     * overlap. Collective. */
+    void
+    multiply(Number *result, const Number *x) const;
+
+    /** @brief An entry of the diagonal, by local number of the row. */
+    Number
+    diagonal(const unsigned int row) const
+    {
+      return entries[dim * dim * pattern->diagonal(row / dim) + (dim + 1) * (row % dim)];
+    }
+
+    /** @brief The same. @param i Number of the row, of this rank. */
+    Number
+    el(const size_type i, size_type) const
+    {
+      return diagonal(pattern->partitioner->global_to_local(i));
+    }
 
     /** @brief One over the diagonal. */
     VectorType
@@ -144,16 +171,19 @@ namespace Touchstone
     class Rows
     {
     public:
-      /** @brief Nodes to which a node is coupled, itself included, by local number, and
-       * blocks, column by column. */
+      /** @brief Nodes to which a node is coupled, itself included, by local number in
+       * ascending order, and blocks, column by column. */
       struct Row
       {
-        std::vector<unsigned int>                 columns;
-        std::vector<std::array<float, dim * dim>> blocks;
+        std::vector<unsigned int>                  columns;
+        std::vector<std::array<Number, dim * dim>> blocks;
       };
 
       /** @param matrix Must live as long. */
-      explicit Rows(const BlockMatrix &matrix);
+      explicit Rows(const BlockMatrix &matrix)
+        : matrix(matrix)
+      {
+      }
 
       /** @brief Of a node of this rank; valid until the next call. */
       const Row &
@@ -161,22 +191,23 @@ namespace Touchstone
 
     private:
       const BlockMatrix &matrix;
-      /** Where the blocks that mirror others begin, of each node; node and place of these. */
-      std::vector<std::size_t>                          start;
-      std::vector<std::pair<unsigned int, std::size_t>> mirrors;
-      Row                                               present;
+      Row                present;
     };
 
+  protected:
+    std::shared_ptr<const BlockPattern> pattern;
+    /** Of the blocks of the pattern, column by column; one more is read behind. */
+    dealii::AlignedVector<Number> entries;
+
+    /** Make room for products and, unless they are there, for entries: zeros. */
+    void
+    allocate();
+
   private:
-    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
-    /** Where the blocks of a node begin, first those whose transposes are blocks as well;
-     * where these end; the columns of blocks, local nodes; entries, column by column. */
-    std::vector<std::size_t>     start, mirrored;
-    std::vector<unsigned int>    column;
-    dealii::AlignedVector<float> entries;
     /** Vectors of a product, four numbers a node: of three, one node's would overlap in the
-     * registers with the next one's, which is being written. */
-    mutable dealii::AlignedVector<float> padded_in, padded_out;
+     * registers with the next one's, which is being written. And what comes from other
+     * ranks and goes to them. */
+    mutable dealii::AlignedVector<Number> padded_in, padded_out, ghosts, imported;
   };
 } // namespace Touchstone
 

@@ -15,11 +15,6 @@ namespace Touchstone
   /** @brief Entries of a sparse row, by local number. */
   using SparseRow = std::vector<std::pair<int, double>>;
 
-  /** @brief Entry of the diagonal of row @p i of this rank, 0 if there is none. Epetra's
-   * ExtractDiagonalCopy() reads all columns of all rows. */
-  double
-  diagonal_entry(const Epetra_CrsMatrix &matrix, int i);
-
   /** @brief Local numbers: those of a map, then those met later, in the order in
    * which they are met. */
   class LocalNumbers
@@ -144,9 +139,14 @@ namespace Touchstone
      *  @param columns Numbers of the columns: those of the stiffness come first. */
     Condensation(const LinearSystem &system, const Epetra_Map &rows, LocalNumbers &columns);
 
-    /** Rows that replace those of the stiffness, by local number; of the
-     * others nothing is known here. */
-    std::unordered_map<int, SparseRow> rows;
+    /** The row that replaces that of the stiffness, by local number, or null: the others are
+     * as they were. */
+    const SparseRow *
+    row(const int i) const
+    {
+      return places[i] < 0 ? nullptr : &rows[places[i]];
+    }
+
     /** Right-hand side of this rank's rows. */
     std::vector<double> values;
 
@@ -165,11 +165,28 @@ namespace Touchstone
     Expansion           motion, test;
     Accumulator         accumulator;
 
+    /** What row() gives: where, by local number, in which rows. */
+    std::vector<int>       places;
+    std::vector<SparseRow> rows;
+
     std::vector<SparseRow> sources;
     std::vector<double>    source_values;
     std::vector<Part>      parts;
     std::vector<char>      replaced;
 
+    SparseRow &
+    new_row(const int i)
+    {
+      if (places[i] < 0)
+        {
+          places[i] = static_cast<int>(rows.size());
+          rows.emplace_back();
+        }
+      return rows[places[i]];
+    }
+    /** Which nodes' rows meet an unknown that is not a plain one. */
+    std::vector<char>
+    touched_nodes();
     void
     add_stiffness();
     void

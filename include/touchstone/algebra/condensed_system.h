@@ -19,8 +19,7 @@ namespace Touchstone
    * constraints.
    *
    * Rows that no constraint and no contact term touches are those of the
-   * stiffness: copied, or only referred to if the stiffness lasts. Constrained
-   * unknowns keep a diagonal entry and a zero right-hand side.
+   * stiffness. Constrained unknowns keep a diagonal entry and a zero right-hand side.
    */
   class CondensedSystem
   {
@@ -45,11 +44,21 @@ namespace Touchstone
     product() const;
 
     /** @brief The matrix, assembled anew in each call if products are applied: keep it no
-     * longer than needed. Collective.
-     * @param complete If not, its rows can be read and no more: FillComplete() may be left
-     *                 to who needs it, for it takes as long as the rest. */
+     * longer than needed. Collective. */
     std::shared_ptr<Epetra_CrsMatrix>
-    matrix(bool complete = true) const;
+    matrix() const;
+
+    /** @brief The same to be read node by node, without the making of a matrix where products
+     * are applied; of displacements only. Collective. */
+    std::unique_ptr<BlockRows>
+    block_rows() const;
+
+    /** @brief Entry of the diagonal of the stiffness itself, by local number. */
+    double
+    stiffness_diagonal(const unsigned int i) const
+    {
+      return system.stiffness->diagonal(i);
+    }
 
     /** @brief The displacement part of x = T y + g. Collective.
      * @param solution y, of unknowns that are not divided by scale. */
@@ -80,7 +89,7 @@ namespace Touchstone
 
     /** @param values Right-hand side, not scaled, if not null. */
     std::shared_ptr<Epetra_CrsMatrix>
-    assemble(std::vector<double> *values, bool complete) const;
+    assemble(std::vector<double> *values) const;
   };
 } // namespace Touchstone
 

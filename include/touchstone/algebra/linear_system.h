@@ -1,7 +1,7 @@
 #ifndef touchstone_algebra_linear_system_h
 #define touchstone_algebra_linear_system_h
 
-#include <touchstone/algebra/vector.h>
+#include <touchstone/algebra/matrix.h>
 #include <touchstone/types.h>
 
 #include <deal.II/base/index_set.h>
@@ -41,8 +41,6 @@ namespace Touchstone
   {
     /** Continuum stiffness without any condition; symmetric pattern. */
     const Matrix *stiffness = nullptr;
-    /** The stiffness keeps its values as long as any system refers to it. */
-    bool lasting_stiffness = false;
     /** Added to the diagonal of the displacement block, force per length; may
      * be empty. */
     Vector diagonal_shift;

@@ -29,14 +29,16 @@ namespace Touchstone
   {
   public:
     /**
-     * @param matrix      Read here and not kept; needs no FillComplete().
+     * @param map         Of the unknowns.
+     * @param rows        The matrix, read here and not kept.
      * @param near_kernel Motions with little or no energy that the coarse levels must be
      *                    able to represent, zero at constrained unknowns.
      * @param body        Body of each row of this rank: aggregates() are within one.
      * @param symmetric   The matrix is, and half of it is enough.
      * @throws LinearSolverFailure if the coarsest level is singular, on all ranks.
      */
-    Multigrid(const Epetra_CrsMatrix          &matrix,
+    Multigrid(const Epetra_Map                &map,
+              std::unique_ptr<BlockRows>       rows,
               const Epetra_MultiVector        &near_kernel,
               const std::vector<unsigned int> &body,
               bool                             symmetric);
@@ -46,16 +48,16 @@ namespace Touchstone
     ApplyInverse(const Epetra_MultiVector &rhs, Epetra_MultiVector &result) const override;
 
   private:
-    using VectorType = BlockMatrix::VectorType;
-    using Chebyshev =
-      dealii::PreconditionChebyshev<BlockMatrix, VectorType, dealii::DiagonalMatrix<VectorType>>;
+    using VectorType = BlockMatrix<float>::VectorType;
+    using Chebyshev  = dealii::
+      PreconditionChebyshev<BlockMatrix<float>, VectorType, dealii::DiagonalMatrix<VectorType>>;
 
     struct Level
     {
       Level(BlockRows &rows, bool symmetric);
 
-      BlockMatrix matrix;
-      Chebyshev   smoother;
+      BlockMatrix<float> matrix;
+      Chebyshev          smoother;
       /** To the next level, if there is one. */
       std::unique_ptr<Prolongation> prolongation;
       /** Work space of a cycle. */

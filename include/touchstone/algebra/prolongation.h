@@ -29,7 +29,7 @@ namespace Touchstone
   class Prolongation
   {
   public:
-    using VectorType = BlockMatrix::VectorType;
+    using VectorType = BlockMatrix<float>::VectorType;
 
     /** @brief Rigid motions of an aggregate. */
     static constexpr unsigned int n_modes = 6;
@@ -70,7 +70,7 @@ namespace Touchstone
      *                    level, the nodes of an aggregate on the others.
      * @param largest     Largest eigenvalue of the matrix over its diagonal.
      */
-    Prolongation(const BlockMatrix               &matrix,
+    Prolongation(const BlockMatrix<float>        &matrix,
                  const Epetra_MultiVector        &near_kernel,
                  const std::vector<unsigned int> &body,
                  unsigned int                     group,

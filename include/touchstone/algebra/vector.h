@@ -1,17 +1,12 @@
 #ifndef touchstone_algebra_vector_h
 #define touchstone_algebra_vector_h
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 namespace Touchstone
 {
   /** @brief Distributed vector over the displacement unknowns. */
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
-
-  /** @brief Distributed matrix; each rank holds the rows of the unknowns it
-   * owns. */
-  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
 } // namespace Touchstone
 
 #endif

@@ -43,11 +43,6 @@ namespace Touchstone
     balance(const Vector &u, const Vector &external, const Vector &internal, Vector &sum) override;
     const Matrix &
     stiffness() override;
-    bool
-    lasting() const override
-    {
-      return false;
-    }
     double
     weight() const override
     {

@@ -199,6 +199,8 @@ namespace Touchstone
     std::string        stabilised;
     /** Relative residual that the next linear solve needs. */
     double linear_tolerance = 1e-3;
+    /** The one before this increment, if nothing but the residual was left to be met. */
+    double last_residual = 0.;
 
     /** Length against which a missed prescribed displacement is measured. */
     double length = 1.;

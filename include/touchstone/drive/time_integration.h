@@ -84,10 +84,6 @@ namespace Touchstone
     virtual const Matrix &
     stiffness() = 0;
 
-    /** @brief The stiffness keeps its values as long as the bodies' does. */
-    virtual bool
-    lasting() const = 0;
-
     /** @brief Share of the forces at the end of the step in balance(); no unit. */
     virtual double
     weight() const = 0;

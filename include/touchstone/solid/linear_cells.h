@@ -1,8 +1,8 @@
 #ifndef touchstone_solid_linear_cells_h
 #define touchstone_solid_linear_cells_h
 
+#include <touchstone/algebra/matrix.h>
 #include <touchstone/solid/element_kernel.h>
-#include <touchstone/solid/row_writer.h>
 
 #include <vector>
 
@@ -24,19 +24,20 @@ namespace Touchstone
     /** @brief Take a cell, if it has rows of this rank; its stiffness is written with those
      * of seven others. */
     void
-    add(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, RowWriter &writer);
+    add(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, Matrix &matrix);
 
     /** @brief Write what has not been written yet. */
     void
-    finish(RowWriter &writer);
+    finish(Matrix &matrix);
 
   private:
     ElementKernel       kernel;
     ElementStiffness<8> stiffness;
     unsigned int        n_waiting = 0;
     std::vector<Index>  dofs;
-    /** Of the cells that wait, as RowWriter takes them. */
-    std::vector<int> rows, columns;
+    /** Of the cells that wait, as Matrix takes them. */
+    std::vector<int>          rows;
+    std::vector<unsigned int> nodes;
   };
 } // namespace Touchstone
 

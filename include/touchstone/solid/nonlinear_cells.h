@@ -1,10 +1,9 @@
 #ifndef touchstone_solid_nonlinear_cells_h
 #define touchstone_solid_nonlinear_cells_h
 
-#include <touchstone/algebra/vector.h>
+#include <touchstone/algebra/matrix.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/cell_kernel.h>
-#include <touchstone/solid/row_writer.h>
 
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_system.h>
@@ -30,11 +29,13 @@ namespace Touchstone
   class NonlinearCells
   {
   public:
-    NonlinearCells(const Scene                   &scene,
-                   const dealii::FESystem<dim>   &fe,
-                   const dealii::MappingQ<dim>   &mapping,
-                   const dealii::DoFHandler<dim> &dof_handler,
-                   const Matrix                  &stiffness);
+    NonlinearCells(const Scene &scene, const dealii::FESystem<dim> &fe);
+
+    /** @brief Find the cells, and where in @p stiffness their nodes are. */
+    void
+    reinit(const dealii::MappingQ<dim>   &mapping,
+           const dealii::DoFHandler<dim> &dof_handler,
+           const Matrix                  &stiffness);
 
     /** @brief Whether no body of the scene has such a material; the same on all ranks. */
     bool
@@ -60,7 +61,7 @@ namespace Touchstone
     /** @brief Replace the rows of these cells' nodes by the tangent at @p u, or its
      * symmetric part. @return false if a material has no answer. */
     bool
-    assemble(const Vector &u, bool symmetric_part, RowWriter &writer);
+    assemble(const Vector &u, bool symmetric_part, Matrix &stiffness);
 
     /** @brief Replace the forces on these cells' nodes (no ghosts) by the internal
      * forces at @p u, and the present state by that of @p u. @return false if a material
@@ -153,10 +154,10 @@ namespace Touchstone
     std::vector<Cell>                        cells;
     /** By active cell of the triangulation; -1 for none. */
     std::vector<int> number;
-    /** By cell and node: first unknown, first local row (or -1), the three local
-     * columns. */
-    std::vector<Index> dofs;
-    std::vector<int>   rows, columns;
+    /** By cell and node: first unknown, first local row (or -1), local number. */
+    std::vector<Index>        dofs;
+    std::vector<int>          rows;
+    std::vector<unsigned int> nodes;
     /** Reference positions, by cell, node and component. */
     std::vector<double> positions;
     /** First row of each owned node. */

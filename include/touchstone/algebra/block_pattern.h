@@ -1,0 +1,117 @@
+#ifndef touchstone_algebra_block_pattern_h
+#define touchstone_algebra_block_pattern_h
+
+#include <touchstone/types.h>
+
+#include <deal.II/base/partitioner.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Which nodes are coupled in the rows of this rank: where the blocks of a matrix
+   * over nodes are.
+   *
+   * Nodes go by local numbers, those of this rank first.
+   */
+  struct BlockPattern
+  {
+    /** @brief Of the unknowns, three a node. */
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
+    /** @brief Blocks whose transposes are blocks as well are stored once. */
+    bool symmetric = false;
+    /** @brief Where the blocks of a node begin, first those whose transposes stand for other
+     * blocks; where these end. */
+    std::vector<std::size_t> start{0}, mirrored;
+    /** @brief Their columns, in ascending order in each of both parts. */
+    std::vector<unsigned int> column;
+
+    unsigned int
+    n_nodes() const
+    {
+      return mirrored.size();
+    }
+
+    /** @brief With those of other ranks. */
+    unsigned int
+    n_local_nodes() const
+    {
+      return (partitioner->locally_owned_size() + partitioner->n_ghost_indices()) / dim;
+    }
+
+    /** @brief Append the row of the next node: the @p columns for which it has() blocks,
+     * in ascending order. */
+    void
+    add_row(const std::vector<unsigned int> &columns)
+    {
+      const unsigned int node  = mirrored.size();
+      const auto         twice = [&](const unsigned int other) {
+        return symmetric && other > node && other < n_owned();
+      };
+      std::copy_if(columns.begin(), columns.end(), std::back_inserter(column), twice);
+      mirrored.push_back(column.size());
+      std::remove_copy_if(columns.begin(), columns.end(), std::back_inserter(column), twice);
+      start.push_back(column.size());
+    }
+
+    /** @brief Whether a row has a block for itself, or that of another one stands for it. */
+    bool
+    has(const unsigned int node, const unsigned int other) const
+    {
+      return !symmetric || other >= node;
+    }
+
+    /** @brief The number of a block that the row has(). */
+    std::size_t
+    block(const unsigned int node, const unsigned int other) const
+    {
+      const bool twice = symmetric && other > node && other < n_owned();
+      const auto begin = column.begin() + (twice ? start[node] : mirrored[node]),
+                 end   = column.begin() + (twice ? mirrored[node] : start[node + 1]);
+      return std::lower_bound(begin, end, other) - column.begin();
+    }
+
+    /** @brief Blocks in the row of a node, others' transposes included. */
+    unsigned int
+    row_length(const unsigned int node) const
+    {
+      return mirrors().start[node + 1] - mirrors().start[node] + start[node + 1] - start[node];
+    }
+
+    /** @brief That on the diagonal. */
+    std::size_t
+    diagonal(const unsigned int node) const
+    {
+      // The first of its part: what precedes it is stored elsewhere.
+      return symmetric ? mirrored[node] : block(node, node);
+    }
+
+    /** @brief The blocks that stand for others. */
+    struct Mirrors
+    {
+      /** @brief Where those for the row of a node begin. */
+      std::vector<std::size_t> start;
+      /** @brief The node in whose row it is, and its number, in ascending order. */
+      std::vector<std::pair<unsigned int, unsigned int>> blocks;
+    };
+
+    /** @brief Made when first asked for. */
+    const Mirrors &
+    mirrors() const;
+
+  private:
+    mutable std::unique_ptr<const Mirrors> known_mirrors;
+
+    unsigned int
+    n_owned() const
+    {
+      return partitioner->locally_owned_size() / dim;
+    }
+  };
+} // namespace Touchstone
+
+#endif
