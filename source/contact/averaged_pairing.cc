@@ -49,6 +49,7 @@ namespace Touchstone
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           places.emplace(node.node, places.size());
+        sums.resize(places.size());
         // Of owned and of ghost cells: with all faces around an owned node its sums are
         // complete here without another rank.
         for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
@@ -125,6 +126,14 @@ namespace Touchstone
       {
         /** A dozen nodes or two, in the order in which they came. */
         Stencil stencil;
+
+        /** Zero, with room for as many nodes. */
+        void
+        clear()
+        {
+          static_cast<Integrals &>(*this) = Integrals();
+          stencil.clear();
+        }
 
         void
         add(const Index node, const double value)
@@ -335,7 +344,8 @@ namespace Touchstone
     void
     AveragedPairing::integrate()
     {
-      sums.assign(input.slave->owned_nodes().size(), {});
+      for (Sums &sum : sums)
+        sum.clear();
 
       slave_faces.clear();
       slave_faces.reserve(faces.size());

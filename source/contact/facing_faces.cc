@@ -87,12 +87,10 @@ namespace Touchstone
     cover(const Face &slave, const std::vector<const Face *> &masters)
     {
       std::vector<FacingFace> result;
-      for (const Face *master : masters)
-        {
-          FacingFace facing{master, overlap(slave, *master)};
-          if (!facing.points.empty())
-            result.push_back(std::move(facing));
-        }
+      auto                    points = overlap(slave, masters);
+      for (std::size_t f = 0; f < masters.size(); ++f)
+        if (!points[f].empty())
+          result.push_back({masters[f], std::move(points[f])});
       return result;
     }
 

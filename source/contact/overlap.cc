@@ -335,30 +335,44 @@ namespace Touchstone
 
 
 
-  std::vector<OverlapPoint>
-  overlap(const Face &slave, const Face &master)
+  std::vector<std::vector<OverlapPoint>>
+  overlap(const Face &slave, const std::vector<const Face *> &masters)
   {
     const Positions<double> x = positions(slave);
     const Plane<double>     plane(slave, x);
     const Shadow<double>    slave_shadow(slave, x, plane);
-    const Shadow<double>    master_shadow(master, positions(master), plane);
+    const Stretch           stretch(slave_shadow, x);
 
-    std::vector<OverlapPoint> points;
-    // Most faces that are near are beside it.
-    if (apart(slave_shadow, master_shadow))
-      return points;
-    const Stretch stretch(slave_shadow, x);
-    for_each_point(slave_shadow,
-                   master_shadow,
-                   [&](const Point2<double> &place, const double weight) {
-                     OverlapPoint point;
-                     if (!slave_shadow.invert(place.x, place.y, point.slave) ||
-                         !master_shadow.invert(place.x, place.y, point.master))
-                       return;
-                     point.weight = weight * stretch(point.slave);
-                     points.push_back(point);
-                   });
-    return points;
+    std::vector<std::vector<OverlapPoint>> result(masters.size());
+    std::vector<OverlapPoint>              points;
+    for (std::size_t f = 0; f < masters.size(); ++f)
+      {
+        const Shadow<double> master_shadow(*masters[f], positions(*masters[f]), plane);
+        // Most faces that are near are beside it.
+        if (apart(slave_shadow, master_shadow))
+          continue;
+        points.clear();
+        for_each_point(slave_shadow,
+                       master_shadow,
+                       [&](const Point2<double> &place, const double weight) {
+                         OverlapPoint point;
+                         if (!slave_shadow.invert(place.x, place.y, point.slave) ||
+                             !master_shadow.invert(place.x, place.y, point.master))
+                           return;
+                         point.weight = weight * stretch(point.slave);
+                         points.push_back(point);
+                       });
+        result[f] = points;
+      }
+    return result;
+  }
+
+
+
+  std::vector<OverlapPoint>
+  overlap(const Face &slave, const Face &master)
+  {
+    return overlap(slave, std::vector<const Face *>{&master})[0];
   }
 
 

@@ -29,6 +29,10 @@ namespace Touchstone
   std::vector<OverlapPoint>
   overlap(const Face &slave, const Face &master);
 
+  /** @brief The same with each of several masters, in their order, for less. */
+  std::vector<std::vector<OverlapPoint>>
+  overlap(const Face &slave, const std::vector<const Face *> &masters);
+
   /** @brief Whether two faces overlap, or may do so after each of their nodes has moved
    * by no more than @p motion (length). */
   bool
