@@ -383,7 +383,7 @@ namespace Touchstone
         // Eisenstat and Walker (1996), SIAM J. Sci. Comput. 17, the first of their choices.
         double left = 0.;
         if (last_residual > 0. && solver->symmetric_only() && solid.linear())
-          left = 0.3 * state.residual / last_residual;
+          left = 0.03 * state.residual / last_residual;
         if (state.residual > 0. && last >= 1e-2 * usual)
           linear_tolerance = std::min(last, std::max(usual, 0.1));
         linear_tolerance = std::max(linear_tolerance, std::min(left, 1e-2));
