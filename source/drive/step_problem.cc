@@ -379,7 +379,8 @@ namespace Touchstone
     else
       {
         // Symmetric systems leave out how normals change, and Newton converges linearly: to
-        // solve better than what that left of the last residual is wasted.
+        // solve much better than what that left of the last residual is wasted. A tenth of it
+        // and more would cost another solve now and then.
         // Eisenstat and Walker (1996), SIAM J. Sci. Comput. 17, the first of their choices.
         double left = 0.;
         if (last_residual > 0. && solver->symmetric_only() && solid.linear())
