@@ -155,12 +155,12 @@ namespace Touchstone
 
     const LinearSolverRegistry::Entry<BelosCg>
       cg("Belos CG",
-         "conjugate gradients with algebraic multigrid (ML), for symmetric "
+         "conjugate gradients with algebraic multigrid, for symmetric "
          "positive definite systems");
 
     const LinearSolverRegistry::Entry<BelosGmres>
       gmres("Belos GMRES",
-            "restarted GMRES with algebraic multigrid (ML), for unsymmetric systems "
+            "restarted GMRES with algebraic multigrid, for unsymmetric systems "
             "without multipliers");
 
 

@@ -83,7 +83,6 @@ namespace Touchstone
     {
       add_product(pattern, entries, in, out);
     }
-
   } // namespace
 
 
@@ -300,6 +299,9 @@ namespace Touchstone
   const typename BlockMatrix<Number>::Rows::Row &
   BlockMatrix<Number>::Rows::read(const unsigned int node)
   {
+    if (node == present_node)
+      return present;
+    present_node                         = node;
     const BlockPattern          &pattern = *matrix.pattern;
     const BlockPattern::Mirrors &mirrors = pattern.mirrors();
     const std::size_t begin = mirrors.start[node], n_mirrors = mirrors.start[node + 1] - begin,

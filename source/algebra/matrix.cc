@@ -34,13 +34,19 @@ namespace Touchstone
           far.push_back(entry->column());
     std::sort(far.begin(), far.end());
     far.erase(std::unique(far.begin(), far.end()), far.end());
-    IndexSet ghosts(owned.size());
+    row_map = std::make_shared<Epetra_Map>(owned.make_trilinos_map(communicator, false));
+    std::vector<int> numbers;
+    numbers.reserve(dim * (n_nodes + far.size()));
+    for (Index i = dim * first; i < dim * (first + n_nodes); ++i)
+      numbers.push_back(static_cast<int>(i));
     for (const Index node : far)
-      ghosts.add_range(dim * node, dim * (node + 1));
-    ghosts.compress();
+      for (unsigned int d = 0; d < dim; ++d)
+        numbers.push_back(static_cast<int>(dim * node + d));
+    column_map = std::make_shared<Epetra_Map>(
+      -1, static_cast<int>(numbers.size()), numbers.data(), 0, row_map->Comm());
 
     auto made         = std::make_shared<BlockPattern>();
-    made->partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, communicator);
+    made->partitioner = BlockRows::number(*row_map, numbers.data(), numbers.size());
     made->symmetric   = symmetric;
     made->start.reserve(n_nodes + 1);
     made->mirrored.reserve(n_nodes);
@@ -65,17 +71,6 @@ namespace Touchstone
     pattern = made;
     entries.clear();
     allocate();
-
-    row_map = std::make_shared<Epetra_Map>(owned.make_trilinos_map(communicator, false));
-    std::vector<int> numbers;
-    numbers.reserve(dim * (n_nodes + far.size()));
-    for (Index i = dim * first; i < dim * (first + n_nodes); ++i)
-      numbers.push_back(static_cast<int>(i));
-    for (const Index node : far)
-      for (unsigned int d = 0; d < dim; ++d)
-        numbers.push_back(static_cast<int>(dim * node + d));
-    column_map = std::make_shared<Epetra_Map>(
-      -1, static_cast<int>(numbers.size()), numbers.data(), 0, row_map->Comm());
   }
 
 

@@ -432,14 +432,9 @@ namespace Touchstone
           }
       for (const auto &[slave, masters] : slave_faces)
         if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
-          {
-            std::vector<const Face *> near;
-            for (const FacingFace &facing : masters)
-              near.push_back(facing.master);
-            derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
-                                basis,
-                                near);
-          }
+          derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
+                              basis,
+                              masters_of(masters));
       derivative.finish();
       for (ContactRow &row : rows)
         row.derivative = row.active() ? derivative.result(row.slave) : nullptr;

@@ -12,6 +12,17 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  std::vector<const Face *>
+  masters_of(const std::vector<FacingFace> &facing)
+  {
+    std::vector<const Face *> result;
+    for (const FacingFace &face : facing)
+      result.push_back(face.master);
+    return result;
+  }
+
+
+
   namespace
   {
     /** What moves less than this part of a face against another does not pass
@@ -139,15 +150,6 @@ namespace Touchstone
       BoundingBox<dim> result = box(slave);
       const auto      &ends   = result.get_boundary_points();
       result.merge_with(BoundingBox<dim>({ends.first - motion, ends.second - motion}));
-      return result;
-    }
-
-    std::vector<const Face *>
-    masters_of(const std::vector<FacingFace> &facing)
-    {
-      std::vector<const Face *> result;
-      for (const FacingFace &face : facing)
-        result.push_back(face.master);
       return result;
     }
 

@@ -234,11 +234,11 @@ namespace Touchstone
     const double radius = half_diagonal(box);
     // In the order of their keys, so that sums do not depend on the partition.
     std::vector<const Face *> result;
-    for (auto it = located().tree.qbegin(bgi::intersects(capture)); it != located().tree.qend();
-         ++it)
+    const Located            &now = located();
+    for (auto it = now.tree.qbegin(bgi::intersects(capture)); it != now.tree.qend(); ++it)
       {
         const Face    &face    = faces[it->second];
-        const Outline &outline = located().outlines[it->second];
+        const Outline &outline = now.outlines[it->second];
         ++counted.candidates;
         // Only those over the box or under it, seen along the normal, cover any of it.
         const Tensor<1, dim> way = outline.centre - box.center();
@@ -290,6 +290,7 @@ namespace Touchstone
     // Boxes are asked for a few at a time: an iterator over all of them, in the order of
     // their distance, costs more the more there are.
     constexpr unsigned int first_try     = 16;
+    const Located         &now           = located();
     const Point<dim>      &x             = point.x;
     double                 best_distance = 0., margin = 0.;
     Candidate              best, present;
@@ -297,7 +298,7 @@ namespace Touchstone
     for (unsigned int n = first_try; !complete; n *= 4)
       {
         std::vector<std::pair<double, std::size_t>> boxes;
-        for (auto it = located().tree.qbegin(bgi::nearest(x, n)); it != located().tree.qend(); ++it)
+        for (auto it = now.tree.qbegin(bgi::nearest(x, n)); it != now.tree.qend(); ++it)
           boxes.emplace_back(bg::comparable_distance(x, it->first), it->second);
         std::sort(boxes.begin(), boxes.end());
         complete      = boxes.size() < n;
@@ -312,7 +313,7 @@ namespace Touchstone
                 break;
               }
             const Face &face = faces[place];
-            if (located().outlines[place].normal * point.normal > far_side)
+            if (now.outlines[place].normal * point.normal > far_side)
               continue;
             const Projection projection = closest_point_projection(x, geometry(face));
             ++counted.candidates;
@@ -352,14 +353,14 @@ namespace Touchstone
   Search::Candidate
   Search::walk(const SlavePoint &point, const Face &from) const
   {
-    Candidate best{&from, closest_point_projection(point.x, geometry(from))};
+    const Located &now = located();
+    Candidate      best{&from, closest_point_projection(point.x, geometry(from))};
     while (best.projection.beyond_inner > 0.)
       {
         const Face &face  = *best.face;
         const Box   box   = bounding_box(face, face.displacement);
         Candidate   found = best;
-        for (auto it = located().tree.qbegin(bgi::intersects(box)); it != located().tree.qend();
-             ++it)
+        for (auto it = now.tree.qbegin(bgi::intersects(box)); it != now.tree.qend(); ++it)
           {
             const Face &other = faces[it->second];
             const auto  end   = face.nodes.begin() + face.n_nodes();
@@ -367,7 +368,7 @@ namespace Touchstone
                                    other.nodes.begin() + other.n_nodes(),
                                    face.nodes.begin(),
                                    end) == other.nodes.begin() + other.n_nodes() ||
-                located().outlines[it->second].normal * point.normal > far_side)
+                now.outlines[it->second].normal * point.normal > far_side)
               continue;
             const Projection projection = closest_point_projection(point.x, geometry(other));
             ++counted.candidates;
@@ -387,16 +388,14 @@ namespace Touchstone
   std::optional<Search::Candidate>
   Search::passed(const SlavePoint &point, const bool penetrates) const
   {
-    Box path({point.x, point.x});
+    const Located &now = located();
+    Box            path({point.x, point.x});
     path.merge_with(Box({point.start, point.start}));
     std::vector<std::pair<Crossing, const Face *>> crossings;
-    for (auto it = located().swept_tree.qbegin(bgi::intersects(path));
-         it != located().swept_tree.qend();
-         ++it)
+    for (auto it = now.swept_tree.qbegin(bgi::intersects(path)); it != now.swept_tree.qend(); ++it)
       {
         const Face &face = faces[it->second];
-        if (located().outlines[it->second].normal * point.normal > far_side ||
-            !may_cross(point, face))
+        if (now.outlines[it->second].normal * point.normal > far_side || !may_cross(point, face))
           continue;
         ++counted.candidates;
         if (const auto found = crossing(point.start, point.x, face, master.exact_surface(face)))

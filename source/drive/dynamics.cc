@@ -199,8 +199,6 @@ namespace Touchstone
   {
     if (solid.linear() && effective_step == step)
       return effective;
-    if (effective_step == 0.)
-      effective.reinit(solid.stiffness());
     effective_step = step;
     effective.copy_from(solid.stiffness());
     effective *= 1. - scheme.alpha_f;

@@ -310,8 +310,9 @@ namespace Touchstone
           {
             rows[a] = solid.stiffness().row(mass.nodes[a]);
             any     = any || rows[a] >= 0;
-            for (unsigned int d = 0; d < dim && diagonal && rows[a] >= 0; ++d)
-              nodal.begin()[rows[a] + d] += mass.moved(a, a);
+            if (diagonal && rows[a] >= 0)
+              for (unsigned int d = 0; d < dim; ++d)
+                nodal.begin()[rows[a] + d] += mass.moved(a, a);
           }
         if (diagonal || !any)
           continue;

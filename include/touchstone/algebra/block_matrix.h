@@ -55,16 +55,16 @@ namespace Touchstone
       return partitioner->locally_owned_size() / dim;
     }
 
+    /** @brief Numbers for the unknowns of this rank, and those of other ranks whose nodes
+     * the columns, by global numbers, refer to. Collective. */
+    static std::shared_ptr<const Partitioner>
+    number(const Epetra_Map &rows, const int *columns, std::size_t n_columns);
+
   protected:
     explicit BlockRows(std::shared_ptr<const Partitioner> partitioner)
       : partitioner(std::move(partitioner))
     {
     }
-
-    /** @brief Numbers for the unknowns of this rank, and those of other ranks whose nodes
-     * the columns, by global numbers, refer to. Collective. */
-    static std::shared_ptr<const Partitioner>
-    number(const Epetra_Map &rows, const int *columns, std::size_t n_columns);
 
     const std::shared_ptr<const Partitioner> partitioner;
     /** The row that was read last. */
@@ -179,19 +179,21 @@ namespace Touchstone
         std::vector<std::array<Number, dim * dim>> blocks;
       };
 
-      /** @param matrix Must live as long. */
+      /** @param matrix Must live as long, and keep its entries. */
       explicit Rows(const BlockMatrix &matrix)
         : matrix(matrix)
       {
       }
 
-      /** @brief Of a node of this rank; valid until the next call. */
+      /** @brief Of a node of this rank; valid until another one is read. What is read for
+       * one unknown of a node after the other is put together once. */
       const Row &
       read(unsigned int node);
 
     private:
       const BlockMatrix &matrix;
       Row                present;
+      unsigned int       present_node = dealii::numbers::invalid_unsigned_int;
     };
 
   protected:

@@ -16,6 +16,10 @@ namespace Touchstone
     std::vector<OverlapPoint> points;
   };
 
+  /** @brief The master faces alone. */
+  std::vector<const Face *>
+  masters_of(const std::vector<FacingFace> &facing);
+
   /** @brief A slave face and the master faces that cover it. */
   struct CoveredFace
   {
