@@ -134,6 +134,51 @@ namespace Touchstone
       part.manifolds = mesh.manifolds;
       return part;
     }
+
+
+
+    /** A mesh whose coarse cells are on their ranks already: each refines those it has. The
+     * class of deal.II takes refined cells one by one with all that is known of each. */
+    class DistributedMesh : public parallel::fullydistributed::Triangulation<dim>
+    {
+    public:
+      using parallel::fullydistributed::Triangulation<dim>::Triangulation;
+
+      void
+      refine_alike(const unsigned int n_times)
+      {
+        for (unsigned int n = 0; n < n_times; ++n)
+          {
+            set_all_refine_flags();
+            dealii::Triangulation<dim>::execute_coarsening_and_refinement();
+          }
+        local_cell_relations.clear(); // of coarse cells
+
+        // Of the coarse neighbours' cells only those that touch own ones are needed.
+        std::vector<char> own(n_vertices());
+        for (const auto &cell : active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const unsigned int v : cell->vertex_indices())
+              own[cell->vertex_index(v)] = 1;
+        for (const auto &cell : active_cell_iterators())
+          {
+            bool any = false;
+            for (const unsigned int v : cell->vertex_indices())
+              any = any || own[cell->vertex_index(v)];
+            if (!any)
+              cell->set_subdomain_id(numbers::artificial_subdomain_id);
+          }
+        const auto n_coarse_cells = number_cache.number_of_global_coarse_cells;
+        parallel::TriangulationBase<dim>::update_number_cache();
+        number_cache.number_of_global_coarse_cells = n_coarse_cells;
+      }
+
+      bool
+      prepare_coarsening_and_refinement() override
+      {
+        return dealii::Triangulation<dim>::prepare_coarsening_and_refinement();
+      }
+    };
   } // namespace
 
 
@@ -188,29 +233,20 @@ namespace Touchstone
             cells.push_back(c);
         Triangulation<dim> part(smoothing);
         create_triangulation(part_of(mesh, cells), part);
-        part.refine_global(refinements);
-        describe(part, [&](auto cell) {
-          while (cell->level() > 0)
-            cell = cell->parent();
-          return rank[cells[cell->index()]];
-        });
+        describe(part, [&](const auto &cell) { return rank[cells[cell->index()]]; });
         // Coarse cells by their numbers in the whole mesh.
         for (auto &id : description.coarse_cell_index_to_coarse_cell_id)
           id = cells[id];
-        for (auto &level : description.cell_infos)
-          for (auto &cell : level)
-            {
-              const CellId own(cell.id);
-              const auto   children = own.get_child_indices();
-              cell.id = CellId(cells[own.get_coarse_cell_id()], children.size(), children.data())
-                          .template to_binary<dim>();
-            }
+        for (auto &cell : description.cell_infos.front())
+          cell.id =
+            CellId(cells[CellId(cell.id).get_coarse_cell_id()], 0, nullptr).to_binary<dim>();
       }
-    auto triangulation =
-      std::make_unique<parallel::fullydistributed::Triangulation<dim>>(communicator);
+    auto triangulation = std::make_unique<DistributedMesh>(communicator);
     for (const auto &[id, manifold] : mesh.manifolds)
       triangulation->set_manifold(id, *manifold);
     triangulation->create_triangulation(description);
+    if (coarse_cells)
+      triangulation->refine_alike(refinements);
     return triangulation;
   }
 } // namespace Touchstone
