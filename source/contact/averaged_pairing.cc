@@ -4,7 +4,6 @@
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/identity_matrix.h>
 
 #include <algorithm>
 #include <optional>
@@ -48,23 +47,27 @@ namespace Touchstone
         , kind(master_normal(input.parameters->master_normal))
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
-          places.emplace(node.node, places.size());
+          places.emplace(node.node, static_cast<int>(places.size()));
         sums.resize(places.size());
         // Of owned and of ghost cells: with all faces around an owned node its sums are
         // complete here without another rank.
         for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
           for (const Face &face : *list)
             {
-              const TraceBasis *basis = input.slave->trace(face);
+              SlaveFace slave{&face, input.slave->trace(face), {}};
+              bool      any = false;
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
-                if (places.count(basis ? basis->nodes[m] : face.nodes[m]) > 0)
-                  {
-                    faces.push_back(&face);
-                    break;
-                  }
+                {
+                  const auto found =
+                    places.find(slave.basis ? slave.basis->nodes[m] : face.nodes[m]);
+                  slave.places[m] = found != places.end() ? found->second : -1;
+                  any             = any || found != places.end();
+                }
+              if (any)
+                faces.push_back(slave);
             }
-        std::sort(faces.begin(), faces.end(), [](const Face *a, const Face *b) {
-          return a->key < b->key;
+        std::sort(faces.begin(), faces.end(), [](const SlaveFace &a, const SlaveFace &b) {
+          return a.face->key < b.face->key;
         });
         search.commit(nullptr);
         // Both sides of the gap are smooth or none, or it would be measured from
@@ -162,13 +165,25 @@ namespace Touchstone
       std::vector<Sums>        sums;
       std::vector<CoveredFace> slave_faces;
 
+      /** A face with nodes of this rank: its continuous basis, if it has hanging nodes, and
+       * the places of the nodes to which its rows belong; negative: of another rank. */
+      struct SlaveFace
+      {
+        const Face                      *face;
+        const TraceBasis                *basis;
+        std::array<int, Face::max_nodes> places;
+      };
+
       /** Places of the owned nodes, and the slave faces around them in the order of their
        * keys. */
-      std::unordered_map<Index, std::size_t> places;
-      std::vector<const Face *>              faces;
+      std::unordered_map<Index, int> places;
+      std::vector<SlaveFace>         faces;
 
       /** Of the faces that the search knows, made when one is first asked for. */
       std::vector<std::optional<FaceGeometry>> geometries;
+
+      /** Of the face at hand. */
+      FullMatrix<double> to_basis, scratch, weights;
 
       /** Displacements of the faces of this rank, slaves and then masters: of the last
        * update, if any, and when all facing faces were looked for last. */
@@ -187,7 +202,7 @@ namespace Touchstone
       void
       integrate();
       void
-      add_face(CoveredFace &covered);
+      add_face(const SlaveFace &face, CoveredFace &covered);
     };
 
     const PairingRegistry::Entry<AveragedPairing>
@@ -251,7 +266,7 @@ namespace Touchstone
 
 
     void
-    AveragedPairing::add_face(CoveredFace &covered)
+    AveragedPairing::add_face(const SlaveFace &face, CoveredFace &covered)
     {
       const Face                    &slave   = covered.slave;
       const std::vector<FacingFace> &masters = covered.masters = facing.find(slave);
@@ -265,20 +280,20 @@ namespace Touchstone
       std::vector<std::array<Values, Face::max_nodes>> mixed(masters.size());
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
-          const Face         &face      = *masters[f].master;
-          const FaceGeometry &on_master = geometry(face);
+          const Face         &master    = *masters[f].master;
+          const FaceGeometry &on_master = geometry(master);
           for (const OverlapPoint &point : masters[f].points)
             {
               const FaceShapes shapes(slave.degree, point.slave);
-              const FaceShapes master_shapes(face.degree, point.master);
-              const auto [x, normal]   = on_master.position_and_normal(point.master);
-              const Tensor<1, dim> gap = on_slave.position(point.slave) - x;
+              const FaceShapes master_shapes(master.degree, point.master);
+              const auto [x, normal]   = on_master.position_and_normal(point.master, master_shapes);
+              const Tensor<1, dim> gap = on_slave.position(point.slave, shapes) - x;
               for (unsigned int j = 0; j < n; ++j)
                 {
                   const double value = point.weight * shapes.value[j];
                   for (unsigned int k = 0; k < n; ++k)
                     mass[j][k] += value * shapes.value[k];
-                  for (unsigned int m = 0; m < face.n_nodes(); ++m)
+                  for (unsigned int m = 0; m < master.n_nodes(); ++m)
                     mixed[f][j][m] += value * master_shapes.value[m];
                   integrals[j].area += value;
                   integrals[j].gap += value * gap;
@@ -292,35 +307,45 @@ namespace Touchstone
       // The basis N~ of the continuous displacements is C^T N, and the dual one of the
       // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
       // those with N.
-      const TraceBasis  *basis = input.slave->trace(slave);
-      FullMatrix<double> to_basis{IdentityMatrix(n)}, inverse(n, n), weights(n, n);
-      double             trace = 0.;
-      for (unsigned int i = 0; basis && i < n; ++i)
-        for (unsigned int p = 0; p < n; ++p)
-          to_basis(p, i) = basis->weights[i][p];
+      const TraceBasis *basis = face.basis;
+      weights.reinit(n, n, /*omit_default_initialization=*/true);
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int k = 0; k < n; ++k)
           weights(j, k) = mass[j][k];
-      inverse.triple_product(weights, to_basis, to_basis, false, true);
+      if (basis)
+        {
+          to_basis.reinit(n, n);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int p = 0; p < n; ++p)
+              to_basis(p, i) = basis->weights[i][p];
+          scratch.reinit(n, n);
+          scratch.triple_product(weights, to_basis, to_basis, false, true);
+          weights = scratch;
+        }
       // A sliver of coverage leaves the mass matrix singular to working precision:
       // a trace of the full face's matrix keeps it regular.
+      const double trace = weights.trace();
       for (unsigned int i = 0; i < n; ++i)
-        trace += inverse(i, i);
-      for (unsigned int i = 0; i < n; ++i)
-        inverse(i, i) += 1e-14 * trace;
-      inverse.gauss_jordan();
-      inverse.mmult(weights, to_basis);
+        weights(i, i) += 1e-14 * trace;
+      weights.gauss_jordan();
+      if (basis)
+        {
+          scratch = weights;
+          scratch.mmult(weights, to_basis);
+        }
 
       for (unsigned int i = 0; i < n; ++i)
         {
           double area = 0.;
-          for (unsigned int j = 0; j < n; ++j)
-            area += to_basis(i, j) * integrals[j].area;
-          const auto found = places.find(basis ? basis->nodes[i] : slave.nodes[i]);
+          if (basis)
+            for (unsigned int j = 0; j < n; ++j)
+              area += to_basis(i, j) * integrals[j].area;
+          else
+            area = integrals[i].area;
           // Nodes of other ranks get their shares there.
-          if (found == places.end())
+          if (face.places[i] < 0)
             continue;
-          Sums &sum = sums[found->second];
+          Sums &sum = sums[face.places[i]];
           for (unsigned int j = 0; j < n; ++j)
             {
               const double psi = area * weights(i, j);
@@ -347,13 +372,12 @@ namespace Touchstone
       for (Sums &sum : sums)
         sum.clear();
 
-      slave_faces.clear();
-      slave_faces.reserve(faces.size());
+      slave_faces.resize(faces.size());
       std::vector<Point<dim>> positions;
-      for (const Face *face : faces)
+      for (std::size_t f = 0; f < faces.size(); ++f)
         {
-          slave_faces.push_back({*face, {}});
-          Face &slave = slave_faces.back().slave;
+          Face &slave = slave_faces[f].slave;
+          slave       = *faces[f].face;
           for (unsigned int m = 0; m < slave.n_nodes(); ++m)
             {
               slave.committed[m] = Tensor<1, dim>();
@@ -380,8 +404,8 @@ namespace Touchstone
       geometries.clear();
       geometries.resize(search.known_faces().size());
       watch_motion();
-      for (CoveredFace &covered : slave_faces)
-        add_face(covered);
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        add_face(faces[f], slave_faces[f]);
     }
 
 

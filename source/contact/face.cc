@@ -103,10 +103,17 @@ namespace Touchstone
   FacePoint
   evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi)
   {
-    const FaceShapes shapes(face.degree, xi);
-    FacePoint        result;
-    Point<dim>       reference;
-    Tensor<1, dim>   displacement;
+    return evaluate(face, exact, FaceShapes(face.degree, xi));
+  }
+
+
+
+  FacePoint
+  evaluate(const Face &face, const AnalyticSurface *exact, const FaceShapes &shapes)
+  {
+    FacePoint      result;
+    Point<dim>     reference;
+    Tensor<1, dim> displacement;
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       {
         reference += shapes.value[m] * face.reference[m];

@@ -40,13 +40,12 @@ namespace Touchstone
 
 
   Point<dim>
-  FaceGeometry::position(const std::array<double, 2> &xi) const
+  FaceGeometry::position(const std::array<double, 2> &xi, const FaceShapes &shapes) const
   {
     if (patch)
       return patch->evaluate(xi).x;
-    const FaceShapes shapes(data.degree, xi);
-    Point<dim>       x;
-    Tensor<1, dim>   displacement;
+    Point<dim>     x;
+    Tensor<1, dim> displacement;
     for (unsigned int m = 0; m < data.n_nodes(); ++m)
       {
         x += shapes.value[m] * data.reference[m];
@@ -58,10 +57,10 @@ namespace Touchstone
 
 
   std::pair<Point<dim>, Tensor<1, dim>>
-  FaceGeometry::position_and_normal(const std::array<double, 2> &xi) const
+  FaceGeometry::position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const
   {
-    const FacePoint point = evaluate(xi);
-    return {point.x, interpolates_normals() ? interpolated_normal(xi, point) : point.normal()};
+    const FacePoint point = patch ? patch->evaluate(xi) : Touchstone::evaluate(data, exact, shapes);
+    return {point.x, interpolates_normals() ? interpolated_normal(shapes, point) : point.normal()};
   }
 
 
@@ -113,10 +112,9 @@ namespace Touchstone
 
 
   Tensor<1, dim>
-  FaceGeometry::interpolated_normal(const std::array<double, 2> &xi, const FacePoint &point) const
+  FaceGeometry::interpolated_normal(const FaceShapes &shapes, const FacePoint &point) const
   {
-    const FaceShapes shapes(data.degree, xi);
-    Tensor<1, dim>   result;
+    Tensor<1, dim> result;
     if (!exact)
       for (unsigned int m = 0; m < data.n_nodes(); ++m)
         result += shapes.value[m] * data.normals[m];
@@ -134,7 +132,7 @@ namespace Touchstone
   Tensor<1, dim>
   FaceGeometry::normal(const std::array<double, 2> &xi) const
   {
-    return position_and_normal(xi).second;
+    return position_and_normal(xi, FaceShapes(data.degree, xi)).second;
   }
 
 
@@ -146,6 +144,6 @@ namespace Touchstone
     mean = Tensor<1, dim>();
     for (unsigned int m = 0; m < data.n_nodes(); ++m)
       mean += shapes.value[m] * data.edge_normals[m];
-    return interpolated_normal(xi, evaluate(xi)) * mean < 0.999 * mean.norm();
+    return interpolated_normal(shapes, evaluate(xi)) * mean < 0.999 * mean.norm();
   }
 } // namespace Touchstone

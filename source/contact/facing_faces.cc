@@ -106,8 +106,8 @@ namespace Touchstone
     }
 
     /** Numbers for faces, the same for those that hang together over common nodes. */
-    std::vector<std::size_t>
-    numbers_of_layers(const std::vector<const Face *> &faces)
+    std::map<const Face *, std::size_t>
+    layers(const std::vector<const Face *> &faces)
     {
       std::vector<std::size_t> parent(faces.size());
       std::iota(parent.begin(), parent.end(), 0);
@@ -124,19 +124,9 @@ namespace Touchstone
       for (std::size_t k = 1; k < nodes.size(); ++k)
         if (nodes[k].first == nodes[k - 1].first)
           parent[root(nodes[k].second)] = root(nodes[k - 1].second);
-      for (std::size_t i = 0; i < faces.size(); ++i)
-        parent[i] = root(i);
-      return parent;
-    }
-
-    /** The same by face. */
-    std::map<const Face *, std::size_t>
-    layers(const std::vector<const Face *> &faces)
-    {
-      const std::vector<std::size_t>      numbers = numbers_of_layers(faces);
       std::map<const Face *, std::size_t> result;
       for (std::size_t i = 0; i < faces.size(); ++i)
-        result[faces[i]] = numbers[i];
+        result[faces[i]] = root(i);
       return result;
     }
 
@@ -153,13 +143,46 @@ namespace Touchstone
       return result;
     }
 
-    /** Whether @p faces hang together. */
+    /** Whether @p faces hang together; quick for a dozen or two. */
     bool
     one_layer(const std::vector<const Face *> &faces)
     {
-      const std::vector<std::size_t> numbers = numbers_of_layers(faces);
-      return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
-             numbers.end();
+      struct Member
+      {
+        const Face *face;
+        /** A bit for each node; few nodes have the same. */
+        std::uint64_t bits = 0;
+
+        const Index *
+        end() const
+        {
+          return face->nodes.data() + face->n_nodes();
+        }
+
+        bool
+        touches(const Member &other) const
+        {
+          return (bits & other.bits) != 0 && std::find_first_of(face->nodes.data(),
+                                                                end(),
+                                                                other.face->nodes.data(),
+                                                                other.end()) != end();
+        }
+      };
+      std::vector<Member> members;
+      members.reserve(faces.size());
+      for (const Face *face : faces)
+        {
+          members.push_back({face});
+          for (unsigned int m = 0; m < face->n_nodes(); ++m)
+            members.back().bits |= std::uint64_t(1) << (face->nodes[m] % 64);
+        }
+      // Those in front hang together; the neighbours of each in turn are put behind them.
+      auto found = members.begin() + (members.empty() ? 0 : 1);
+      for (auto member = members.begin(); member != found; ++member)
+        found = std::partition(found, members.end(), [&](const Member &other) {
+          return member->touches(other);
+        });
+      return found == members.end();
     }
 
     /** Whether @p facing hang together over the nodes of @p faces. */

@@ -432,9 +432,10 @@ namespace Touchstone
   {
     const FaceGeometry shape = geometry(*candidate.face);
     ContactPartner     partner;
-    partner.face                        = candidate.face;
-    partner.xi                          = candidate.projection.xi;
-    std::tie(partner.x, partner.normal) = shape.position_and_normal(partner.xi);
+    partner.face = candidate.face;
+    partner.xi   = candidate.projection.xi;
+    std::tie(partner.x, partner.normal) =
+      shape.position_and_normal(partner.xi, FaceShapes(shape.face().degree, partner.xi));
     Tensor<1, dim> edge;
     if (candidate.projection.beyond_inner > 1e-6 && shape.sharp(partner.xi, edge))
       {

@@ -30,6 +30,38 @@ namespace Touchstone
       return (key * 16 + path.size()) * 8 + face;
     }
 
+    /** A node of a face of a cell: its first unknown there, its number on the face, and its
+     * place in the unit cell. */
+    struct NodeOnFace
+    {
+      unsigned int dof, m;
+      Point<dim>   unit;
+    };
+
+    std::array<std::vector<NodeOnFace>, 6>
+    nodes_on_faces(const FiniteElement<dim> &fe)
+    {
+      std::array<std::vector<NodeOnFace>, 6> result;
+      for (unsigned int f = 0; f < result.size(); ++f)
+        {
+          // Axes of the face such that their cross product points outward: the
+          // position of a node on the unit cell tells where it stands.
+          const unsigned int normal_axis = f / 2;
+          const unsigned int axes[2]     = {(normal_axis + (f % 2 == 1 ? 1 : 2)) % 3,
+                                            (normal_axis + (f % 2 == 1 ? 2 : 1)) % 3};
+          for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
+            if (fe.system_to_component_index(i).first == 0 && fe.has_support_on_face(i, f))
+              {
+                const Point<dim> unit  = fe.unit_support_point(i);
+                const auto       along = [&](const unsigned int axis) {
+                  return static_cast<unsigned int>(std::lround(unit[axis] * fe.degree));
+                };
+                result[f].push_back({i, along(axes[0]) + (fe.degree + 1) * along(axes[1]), unit});
+              }
+        }
+      return result;
+    }
+
     /** Area of the face's shape functions, by Gauss quadrature on the facet. */
     std::array<double, Face::max_nodes>
     nodal_areas(const Face &face)
@@ -63,6 +95,19 @@ namespace Touchstone
 
 
 
+  std::vector<Surface::Place>::const_iterator
+  Surface::place(const Index node) const
+  {
+    const auto found =
+      std::lower_bound(places.begin(), places.end(), node, [](const Place &a, const Index b) {
+        return a.node < b;
+      });
+    AssertThrow(found != places.end() && found->node == node, ExcInternalError());
+    return found;
+  }
+
+
+
   std::array<Surface::Edge, 4>
   Surface::edges(const Face &face)
   {
@@ -91,6 +136,7 @@ namespace Touchstone
   {
     const unsigned int                                p = solid.fe.degree;
     std::vector<Index>                                dofs(solid.fe.n_dofs_per_cell());
+    const auto                                        nodes_of_faces = nodes_on_faces(solid.fe);
     std::vector<std::pair<Edge, std::array<Edge, 2>>> halves;
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       {
@@ -98,8 +144,7 @@ namespace Touchstone
           continue;
         for (const unsigned int f : cell->face_indices())
           {
-            if (!cell->face(f)->at_boundary() ||
-                boundaries.count(cell->face(f)->boundary_id()) == 0)
+            if (!cell->at_boundary(f) || boundaries.count(cell->face(f)->boundary_id()) == 0)
               continue;
             cell->get_dof_indices(dofs);
             Face face;
@@ -107,22 +152,12 @@ namespace Touchstone
             face.degree   = p;
             face.boundary = cell->face(f)->boundary_id();
             face.body     = body;
-            // Axes of the face such that their cross product points outward: the
-            // position of a node on the unit cell tells where it stands.
-            const unsigned int normal_axis = f / 2;
-            const unsigned int axes[2]     = {(normal_axis + (f % 2 == 1 ? 1 : 2)) % 3,
-                                              (normal_axis + (f % 2 == 1 ? 2 : 1)) % 3};
-            for (unsigned int i = 0; i < dofs.size(); ++i)
-              if (solid.fe.system_to_component_index(i).first == 0 &&
-                  solid.fe.has_support_on_face(i, f))
-                {
-                  const Point<dim>   unit = solid.fe.unit_support_point(i);
-                  const unsigned int m =
-                    static_cast<unsigned int>(std::lround(unit[axes[0]] * p)) +
-                    (p + 1) * static_cast<unsigned int>(std::lround(unit[axes[1]] * p));
-                  face.nodes[m]     = dofs[i] / dim;
-                  face.reference[m] = solid.mapping.transform_unit_to_real_cell(cell, unit);
-                }
+            for (const NodeOnFace &on_face : nodes_of_faces[f])
+              {
+                face.nodes[on_face.m] = dofs[on_face.dof] / dim;
+                face.reference[on_face.m] =
+                  solid.mapping.transform_unit_to_real_cell(cell, on_face.unit);
+              }
             if (TraceBasis::needed(face, solid.hanging))
               traces.emplace(face.key, TraceBasis(face, solid.hanging));
             (cell->is_locally_owned() ? faces : ghost_faces).push_back(face);
@@ -146,6 +181,7 @@ namespace Touchstone
     if (solid.has_hanging_nodes())
       exchange_far_faces(solid);
 
+    std::map<Index, std::vector<std::pair<Face *, unsigned int>>> around;
     for (auto *list : {&faces, &ghost_faces})
       for (Face &face : *list)
         for (unsigned int m = 0; m < face.n_nodes(); ++m)
@@ -154,6 +190,8 @@ namespace Touchstone
             reference_tangents.push_back(
               evaluate(face, exact_surface(face), node_coordinates(face, m)).tangents);
           }
+    for (auto &[node, list] : around)
+      places.push_back({node, {}, std::move(list)});
 
     std::map<Index, SurfaceNode> found;
     shortest = std::numeric_limits<double>::max();
@@ -344,35 +382,38 @@ namespace Touchstone
   void
   Surface::move(const Vector &u)
   {
-    for (const auto &[node, list] : around)
+    for (const Place &place : places)
       {
         Tensor<1, dim> displacement;
         for (unsigned int d = 0; d < dim; ++d)
-          displacement[d] = u(dim * node + d);
-        for (const auto &[face, m] : list)
+          displacement[d] = u(dim * place.node + d);
+        for (const auto &[face, m] : place.faces)
           face->displacement[m] = displacement;
       }
     // Normals of the faces at their nodes, in length weighted by the area that
     // the face has around the node.
-    auto tangents = reference_tangents.begin();
+    std::vector<FaceShapes> at_nodes;
+    auto                    tangents = reference_tangents.begin();
     for (auto *list : {&faces, &ghost_faces})
       for (Face &face : *list)
         for (unsigned int m = 0; m < face.n_nodes(); ++m, ++tangents)
           {
-            const FaceShapes shapes(face.degree, node_coordinates(face, m));
-            auto             t = *tangents;
+            // All faces are of one degree.
+            if (at_nodes.size() == m)
+              at_nodes.emplace_back(face.degree, node_coordinates(face, m));
+            auto t = *tangents;
             for (unsigned int l = 0; l < face.n_nodes(); ++l)
               for (unsigned int a = 0; a < 2; ++a)
-                t[a] += shapes.gradient[l][a] * face.displacement[l];
+                t[a] += at_nodes[m].gradient[l][a] * face.displacement[l];
             face.normals[m]     = cross_product_3d(t[0], t[1]);
             const double length = face.normals[m].norm();
             face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
           }
     std::vector<Tensor<1, dim>> parts;
-    for (const auto &[node, list] : around)
+    for (auto &[node, all, list] : places)
       {
         parts.clear();
-        Tensor<1, dim> all;
+        all = Tensor<1, dim>();
         for (const auto &[face, m] : list)
           {
             parts.push_back(face->normals[m]);
@@ -380,7 +421,6 @@ namespace Touchstone
           }
         if (all.norm() > 0.)
           all /= all.norm();
-        normals[node] = all;
         for (const auto &[face, m] : list)
           {
             Tensor<1, dim> sum;
@@ -406,7 +446,7 @@ namespace Touchstone
       {
         const std::size_t first = result.size();
         Tensor<1, dim>    sum;
-        for (const auto &[f, k] : around.at(face.nodes[m]))
+        for (const auto &[f, k] : place(face.nodes[m])->faces)
           {
             const auto           t    = tangents(*f, k);
             const Tensor<1, dim> part = cross_product_3d(t[0], t[1]);

@@ -26,7 +26,7 @@ namespace Touchstone
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned() && cell->material_id() == body)
           for (const unsigned int f : cell->face_indices())
-            if (cell->face(f)->at_boundary() && boundaries.count(cell->face(f)->boundary_id()) > 0)
+            if (cell->at_boundary(f) && boundaries.count(cell->face(f)->boundary_id()) > 0)
               visit(cell, f);
     }
 

@@ -119,7 +119,7 @@ namespace Touchstone
     for (const auto &cell : solid.dof_handler.get_triangulation().active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+          if (cell->at_boundary(f) && cell->face(f)->boundary_id() == boundary)
             {
               values.reinit(cell, f);
               for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
@@ -159,7 +159,7 @@ namespace Touchstone
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+          if (cell->at_boundary(f) && cell->face(f)->boundary_id() == boundary)
             {
               cell->get_dof_indices(dofs);
               for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
@@ -245,7 +245,7 @@ namespace Touchstone
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
           for (const Load &load : loads)
-            if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == load.boundary)
+            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == load.boundary)
               {
                 values.reinit(cell, f);
                 cell->get_dof_indices(dofs);

@@ -88,6 +88,10 @@ namespace Touchstone
    */
   FacePoint
   evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi);
+
+  /** @brief The same with the shape functions there. */
+  FacePoint
+  evaluate(const Face &face, const AnalyticSurface *exact, const FaceShapes &shapes);
 } // namespace Touchstone
 
 #endif

@@ -66,13 +66,13 @@ namespace Touchstone
     FacePoint
     evaluate(const std::array<double, 2> &xi) const;
 
-    /** @brief Position alone, which costs half. */
+    /** @brief Position alone, which costs half. @param shapes Shape functions at @p xi. */
     dealii::Point<dim>
-    position(const std::array<double, 2> &xi) const;
+    position(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
 
-    /** @brief Position and normal() for the price of one. */
+    /** @brief Position and normal() for the price of one. @param shapes Those at @p xi. */
     std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
-    position_and_normal(const std::array<double, 2> &xi) const;
+    position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
 
     /** @brief Second derivatives of the position with respect to xi: 11, 12, 22;
      * length. Those of an exact surface are central differences of its projection
@@ -103,7 +103,7 @@ namespace Touchstone
     std::optional<GregoryPatch> patch;
     /** @param point The evaluate() there. */
     dealii::Tensor<1, dim>
-    interpolated_normal(const std::array<double, 2> &xi, const FacePoint &point) const;
+    interpolated_normal(const FaceShapes &shapes, const FacePoint &point) const;
   };
 
   /** @brief Result of a closest-point projection. */

@@ -92,7 +92,7 @@ namespace Touchstone
     const dealii::Tensor<1, dim> &
     normal(Index node) const
     {
-      return normals.at(node);
+      return place(node)->normal;
     }
 
     /** @brief For each owned node weights of node positions whose sum is a tangent
@@ -149,14 +149,25 @@ namespace Touchstone
     /** An edge as a pair of its corner nodes, the smaller first. */
     using Edge = std::pair<Index, Index>;
 
-    std::unordered_map<Index, dealii::Tensor<1, dim>> normals;
+    /** A node of the faces that this rank knows. */
+    struct Place
+    {
+      Index node;
+      /** Averaged over all faces. */
+      dealii::Tensor<1, dim> normal;
+      /** Faces around it, with its local number there, in the order in which their normals
+       * are summed. */
+      std::vector<std::pair<Face *, unsigned int>> faces;
+    };
+    /** In ascending order of the nodes. */
+    std::vector<Place> places;
 
-    /** Faces around each node, with its local number there, in the order in which
-     * their normals are summed. */
-    std::unordered_map<Index, std::vector<std::pair<Face *, unsigned int>>> around;
     /** Of all nodes of all faces in the reference state. */
     std::vector<std::array<dealii::Tensor<1, dim>, 2>> reference_tangents;
 
+    /** @throws ExcInternalError if no face of this rank has the node. */
+    std::vector<Place>::const_iterator
+    place(Index node) const;
     static std::array<Edge, 4>
     edges(const Face &face);
     /** @param halves Edges of faces that have a node in the middle, which smaller
