@@ -1,4 +1,5 @@
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/neighbours.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
@@ -100,7 +101,8 @@ namespace Touchstone
               for (const auto &[unknown, coefficient] : entries)
                 to.insert(to.end(), {static_cast<double>(unknown), coefficient});
             }
-      for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
+      for (const auto &[rank, package] : exchange_with_neighbours(
+             packages, partitioner.import_targets(), partitioner.ghost_targets(), communicator))
         for (std::size_t k = 0; k < package.size();)
           {
             const Index index = static_cast<Index>(package[k]);

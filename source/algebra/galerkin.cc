@@ -1,3 +1,4 @@
+#include <touchstone/algebra/neighbours.h>
 #include <touchstone/algebra/prolongation.h>
 #include <touchstone/algebra/row_of_blocks.h>
 #include <touchstone/vectorised.h>
@@ -150,8 +151,8 @@ namespace Touchstone
               }
           }
     std::vector<FarRow> result(fine->n_ghost_indices() / dim);
-    for (const auto &[rank, package] :
-         Utilities::MPI::some_to_some(fine->get_mpi_communicator(), packages))
+    for (const auto &[rank, package] : exchange_with_neighbours(
+           packages, fine->import_targets(), fine->ghost_targets(), fine->get_mpi_communicator()))
       for (std::size_t k = 0; k < package.size();)
         {
           const unsigned int local = fine->global_to_local(static_cast<Index>(package[k]));
@@ -223,23 +224,32 @@ namespace Touchstone
     const unsigned int                          n_mine = coarse->locally_owned_size() / n_modes;
     unsigned int                                row    = n_mine;
     for (const auto &[rank, n] : coarse->ghost_targets())
-      for (const unsigned int end = row + n / n_modes; row < end; ++row)
-        {
-          auto &to = packages[rank];
-          to.push_back(global[row]);
-          to.push_back(static_cast<double>(parts[row].places.size()));
-          for (const auto &[aggregate, place] : parts[row].places)
-            {
-              const AggregateBlock &entry = parts[row].blocks[place];
-              to.push_back(aggregate);
-              for (unsigned int i = 0; i < n_modes; ++i)
-                for (unsigned int m = 0; m < n_modes; ++m)
-                  to.push_back(entry[i][m]);
-            }
-        }
+      {
+        auto              &to   = packages[rank];
+        const unsigned int end  = row + n / n_modes;
+        std::size_t        size = 0;
+        for (unsigned int r = row; r < end; ++r)
+          size += 2 + (1 + n_modes * n_modes) * parts[r].places.size();
+        to.reserve(size);
+        for (; row < end; ++row)
+          {
+            to.push_back(global[row]);
+            to.push_back(static_cast<double>(parts[row].places.size()));
+            for (const auto &[aggregate, place] : parts[row].places)
+              {
+                const AggregateBlock &entry = parts[row].blocks[place];
+                to.push_back(aggregate);
+                for (unsigned int i = 0; i < n_modes; ++i)
+                  for (unsigned int m = 0; m < n_modes; ++m)
+                    to.push_back(entry[i][m]);
+              }
+          }
+      }
     parts.resize(n_mine);
-    for (const auto &[rank, package] :
-         Utilities::MPI::some_to_some(coarse->get_mpi_communicator(), packages))
+    for (const auto &[rank, package] : exchange_with_neighbours(packages,
+                                                                coarse->ghost_targets(),
+                                                                coarse->import_targets(),
+                                                                coarse->get_mpi_communicator()))
       for (std::size_t k = 0; k < package.size();)
         {
           AggregateRow &to =

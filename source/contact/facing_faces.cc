@@ -38,6 +38,16 @@ namespace Touchstone
       return face.reference[m] + face.displacement[m];
     }
 
+    Point<dim>
+    position(const Face &face, const std::array<double, 2> &xi)
+    {
+      const FaceShapes shapes(face.degree, xi);
+      Point<dim>       x;
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        x += shapes.value[m] * position(face, m);
+      return x;
+    }
+
     BoundingBox<dim>
     box(const Face &face)
     {
@@ -88,9 +98,7 @@ namespace Touchstone
       double sum = 0.;
       for (const OverlapPoint &p : facing.points)
         sum +=
-          p.weight *
-          ((evaluate(*facing.master, nullptr, p.master).x - evaluate(slave, nullptr, p.slave).x) *
-           normal);
+          p.weight * ((position(*facing.master, p.master) - position(slave, p.slave)) * normal);
       return sum;
     }
 

@@ -68,7 +68,7 @@ namespace Touchstone
    * that contact stays at home.
    *
    * Work as for partition_by_curve(). Coarse cells are handed out where there are many of
-   * them, and each rank makes and refines only its own and those around; refined ones where
+   * them, and each rank refines only its own and those around; refined ones where
    * there are few, and each rank makes all. The result cannot be refined later. Needs no
    * messages; collective.
    * Berger and Bokhari (1987), IEEE Trans. Comput. C-36.
