@@ -67,6 +67,10 @@ namespace Touchstone
       auto               middle  = begin;
       for (; middle != end && sum + 0.5 * middle->work < total * n_lower / n_ranks; ++middle)
         sum += middle->work;
+      // However heavy a cell, no rank goes without if there is one for each.
+      if (const std::ptrdiff_t n_items = end - begin; n_items >= n_ranks)
+        middle = begin +
+                 std::clamp<std::ptrdiff_t>(middle - begin, n_lower, n_items - (n_ranks - n_lower));
       bisect(begin, middle, first, n_lower, rank);
       bisect(middle, end, first + n_lower, n_ranks - n_lower, rank);
     }

@@ -66,4 +66,14 @@ below "METIS on 4 ranks" "search" "$(imbalance metis search_candidates)" 1.5
 spread coordinates coordinates 0
 below "coordinates on 4 ranks" "cells" "$(imbalance coordinates cells)" 1.05
 fewer_rows curve coordinates
+
+# A cell that weighs more than all the others together: no rank goes without any.
+column() {
+  run "$1" "$2" "$source/prm/patch_test.prm" --set "Discretisation/Contact weight=$3" \
+    --set "Body lower/Geometry/Upper corner=1, 1, 0.05" --set "Body lower/Geometry/Cells=1, 1, 1" \
+    --set "Body upper/Geometry/Lower corner=0, 0, 0.05" --set "Body upper/Geometry/Cells=1, 1, 200"
+}
+column column 1 0
+column column-heavy 3 1000
+same column column-heavy 1e-8
 finish
