@@ -17,7 +17,7 @@ namespace Touchstone
    * @brief Numbers for and from ranks that know of each other.
    *
    * The same as dealii::Utilities::MPI::some_to_some(), which first finds out who sends to
-   * whom and takes three copies of what is sent.
+   * whom, and copies all of it into bytes and back.
    * @param packages By rank, for ranks of @p to only; those without get none.
    * @param to Ranks that have this one in their @p from.
    * @return Pairs of a rank of @p from and what it has sent, in the order of @p from.
