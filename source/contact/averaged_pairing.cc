@@ -372,12 +372,13 @@ namespace Touchstone
       for (Sums &sum : sums)
         sum.clear();
 
-      slave_faces.resize(faces.size());
+      slave_faces.clear();
+      slave_faces.reserve(faces.size());
       std::vector<Point<dim>> positions;
-      for (std::size_t f = 0; f < faces.size(); ++f)
+      for (const SlaveFace &face : faces)
         {
-          Face &slave = slave_faces[f].slave;
-          slave       = *faces[f].face;
+          slave_faces.push_back({*face.face, {}});
+          Face &slave = slave_faces.back().slave;
           for (unsigned int m = 0; m < slave.n_nodes(); ++m)
             {
               slave.committed[m] = Tensor<1, dim>();
