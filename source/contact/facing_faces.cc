@@ -38,16 +38,6 @@ namespace Touchstone
       return face.reference[m] + face.displacement[m];
     }
 
-    Point<dim>
-    position(const Face &face, const std::array<double, 2> &xi)
-    {
-      const FaceShapes shapes(face.degree, xi);
-      Point<dim>       x;
-      for (unsigned int m = 0; m < face.n_nodes(); ++m)
-        x += shapes.value[m] * position(face, m);
-      return x;
-    }
-
     BoundingBox<dim>
     box(const Face &face)
     {
@@ -98,7 +88,9 @@ namespace Touchstone
       double sum = 0.;
       for (const OverlapPoint &p : facing.points)
         sum +=
-          p.weight * ((position(*facing.master, p.master) - position(slave, p.slave)) * normal);
+          p.weight *
+          ((evaluate(*facing.master, nullptr, p.master).x - evaluate(slave, nullptr, p.slave).x) *
+           normal);
       return sum;
     }
 
@@ -114,8 +106,8 @@ namespace Touchstone
     }
 
     /** Numbers for faces, the same for those that hang together over common nodes. */
-    std::map<const Face *, std::size_t>
-    layers(const std::vector<const Face *> &faces)
+    std::vector<std::size_t>
+    numbers_of_layers(const std::vector<const Face *> &faces)
     {
       std::vector<std::size_t> parent(faces.size());
       std::iota(parent.begin(), parent.end(), 0);
@@ -125,6 +117,7 @@ namespace Touchstone
         return i;
       };
       std::vector<std::pair<Index, std::size_t>> nodes;
+      nodes.reserve(Face::max_nodes * faces.size());
       for (std::size_t i = 0; i < faces.size(); ++i)
         for (unsigned int m = 0; m < faces[i]->n_nodes(); ++m)
           nodes.emplace_back(faces[i]->nodes[m], i);
@@ -132,9 +125,19 @@ namespace Touchstone
       for (std::size_t k = 1; k < nodes.size(); ++k)
         if (nodes[k].first == nodes[k - 1].first)
           parent[root(nodes[k].second)] = root(nodes[k - 1].second);
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        parent[i] = root(i);
+      return parent;
+    }
+
+    /** The same by face. */
+    std::map<const Face *, std::size_t>
+    layers(const std::vector<const Face *> &faces)
+    {
+      const std::vector<std::size_t>      numbers = numbers_of_layers(faces);
       std::map<const Face *, std::size_t> result;
       for (std::size_t i = 0; i < faces.size(); ++i)
-        result[faces[i]] = root(i);
+        result[faces[i]] = numbers[i];
       return result;
     }
 
@@ -151,46 +154,13 @@ namespace Touchstone
       return result;
     }
 
-    /** Whether @p faces hang together; quick for a dozen or two. */
+    /** Whether @p faces hang together. */
     bool
     one_layer(const std::vector<const Face *> &faces)
     {
-      struct Member
-      {
-        const Face *face;
-        /** A bit for each node; few nodes have the same. */
-        std::uint64_t bits = 0;
-
-        const Index *
-        end() const
-        {
-          return face->nodes.data() + face->n_nodes();
-        }
-
-        bool
-        touches(const Member &other) const
-        {
-          return (bits & other.bits) != 0 && std::find_first_of(face->nodes.data(),
-                                                                end(),
-                                                                other.face->nodes.data(),
-                                                                other.end()) != end();
-        }
-      };
-      std::vector<Member> members;
-      members.reserve(faces.size());
-      for (const Face *face : faces)
-        {
-          members.push_back({face});
-          for (unsigned int m = 0; m < face->n_nodes(); ++m)
-            members.back().bits |= std::uint64_t(1) << (face->nodes[m] % 64);
-        }
-      // Those in front hang together; the neighbours of each in turn are put behind them.
-      auto found = members.begin() + (members.empty() ? 0 : 1);
-      for (auto member = members.begin(); member != found; ++member)
-        found = std::partition(found, members.end(), [&](const Member &other) {
-          return member->touches(other);
-        });
-      return found == members.end();
+      const std::vector<std::size_t> numbers = numbers_of_layers(faces);
+      return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
+             numbers.end();
     }
 
     /** Whether @p facing hang together over the nodes of @p faces. */

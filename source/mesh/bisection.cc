@@ -172,6 +172,7 @@ namespace Touchstone
             if (!any)
               cell->set_subdomain_id(numbers::artificial_subdomain_id);
           }
+        // The function of the base class takes those of this rank for all.
         const auto n_coarse_cells = number_cache.number_of_global_coarse_cells;
         parallel::TriangulationBase<dim>::update_number_cache();
         number_cache.number_of_global_coarse_cells = n_coarse_cells;
