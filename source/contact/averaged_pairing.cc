@@ -69,6 +69,9 @@ namespace Touchstone
         std::sort(faces.begin(), faces.end(), [](const SlaveFace &a, const SlaveFace &b) {
           return a.face->key < b.face->key;
         });
+        slave_faces.reserve(faces.size());
+        for (const SlaveFace &face : faces)
+          slave_faces.push_back({*face.face, {}});
         search.commit(nullptr);
         // Both sides of the gap are smooth or none, or it would be measured from
         // facets that stray from their surface to one that does not. The normals of
@@ -157,11 +160,9 @@ namespace Touchstone
       MasterNormal kind;
       /** Only for its exchange of faces, and only if they are smoothed. */
       std::unique_ptr<Search> slave_search;
-      /** Displacement with ghosts at the start of the step; empty: none. */
-      Vector start;
 
       /** Of the last update: sums in the order of the owned nodes, and the slave faces
-       * around them. */
+       * around them, in the order of `faces`. */
       std::vector<Sums>        sums;
       std::vector<CoveredFace> slave_faces;
 
@@ -215,10 +216,11 @@ namespace Touchstone
     {
       facing.commit(slave_faces);
       search.commit(&u);
-      start = u;
       searched.clear();
       for (CoveredFace &covered : slave_faces)
-        covered.slave.committed = covered.slave.displacement;
+        for (unsigned int m = 0; m < covered.slave.n_nodes(); ++m)
+          for (unsigned int d = 0; d < dim; ++d)
+            covered.slave.committed[m][d] = u(dim * covered.slave.nodes[m] + d);
     }
 
 
@@ -270,8 +272,10 @@ namespace Touchstone
     {
       const Face                    &slave   = covered.slave;
       const std::vector<FacingFace> &masters = covered.masters = facing.find(slave);
-      const unsigned int             n                         = slave.n_nodes();
-      const FaceGeometry             on_slave(slave, input.slave->exact_surface(slave), kind);
+      if (masters.empty())
+        return;
+      const unsigned int n = slave.n_nodes();
+      const FaceGeometry on_slave(slave, input.slave->exact_surface(slave), kind);
 
       // Integrals of the slave shapes times themselves, 1, gap, normal, and master shapes.
       using Values = std::array<double, Face::max_nodes>;
@@ -301,8 +305,6 @@ namespace Touchstone
                 }
             }
         }
-      if (masters.empty())
-        return;
 
       // The basis N~ of the continuous displacements is C^T N, and the dual one of the
       // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
@@ -372,19 +374,17 @@ namespace Touchstone
       for (Sums &sum : sums)
         sum.clear();
 
-      slave_faces.clear();
-      slave_faces.reserve(faces.size());
       std::vector<Point<dim>> positions;
-      for (const SlaveFace &face : faces)
+      for (std::size_t f = 0; f < faces.size(); ++f)
         {
-          slave_faces.push_back({*face.face, {}});
-          Face &slave = slave_faces.back().slave;
+          const Face &now    = *faces[f].face;
+          Face       &slave  = slave_faces[f].slave;
+          slave.displacement = now.displacement;
+          slave.normals      = now.normals;
+          slave.edge_normals = now.edge_normals;
+          slave.own_normals  = now.own_normals;
           for (unsigned int m = 0; m < slave.n_nodes(); ++m)
             {
-              slave.committed[m] = Tensor<1, dim>();
-              if (start.size() > 0)
-                for (unsigned int d = 0; d < dim; ++d)
-                  slave.committed[m][d] = start(dim * slave.nodes[m] + d);
               positions.push_back(slave.reference[m] + slave.displacement[m]);
               positions.push_back(slave.reference[m] + slave.committed[m]);
             }

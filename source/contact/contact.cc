@@ -121,6 +121,7 @@ namespace Touchstone
         seen.add_indices(pair.master->far_unknowns().begin(), pair.master->far_unknowns().end());
     seen.compress();
     ghosted.reinit(solid.owned, seen, solid.communicator);
+    import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
     committed = rows;
     if (scene.has_friction())
       {
@@ -180,8 +181,8 @@ namespace Touchstone
   void
   Contact::update(const Vector &u, const double t)
   {
-    time    = t;
-    ghosted = u;
+    time = t;
+    (*import_ghosts)(u, ghosted);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         Pair &pair = pairs[p];

@@ -27,6 +27,14 @@ namespace Touchstone
   {
     if (kind == MasterNormal::smoothed && exact == nullptr)
       patch.emplace(face);
+    else if (face.degree == 1)
+      {
+        const auto components = [](const auto &values) {
+          return [&values](const unsigned int m, const unsigned int d) { return values[m][d]; };
+        };
+        reference    = Bilinear<dim>(components(face.reference));
+        displacement = Bilinear<dim>(components(face.displacement));
+      }
   }
 
 
@@ -34,7 +42,21 @@ namespace Touchstone
   FacePoint
   FaceGeometry::evaluate(const std::array<double, 2> &xi) const
   {
-    return patch ? patch->evaluate(xi) : Touchstone::evaluate(data, exact, xi);
+    if (patch)
+      return patch->evaluate(xi);
+    if (data.degree > 1)
+      return Touchstone::evaluate(data, exact, xi);
+    FacePoint                     point;
+    Tensor<1, dim>                u;
+    std::array<Tensor<1, dim>, 2> du;
+    reference.evaluate(xi, point.x, point.tangents);
+    displacement.evaluate(xi, u, du);
+    if (exact)
+      point.x = exact->project_with(point.x, point.tangents);
+    point.x += u;
+    for (unsigned int a = 0; a < 2; ++a)
+      point.tangents[a] += du[a];
+    return point;
   }
 
 
@@ -45,13 +67,19 @@ namespace Touchstone
     if (patch)
       return patch->evaluate(xi).x;
     Point<dim>     x;
-    Tensor<1, dim> displacement;
-    for (unsigned int m = 0; m < data.n_nodes(); ++m)
+    Tensor<1, dim> u;
+    if (data.degree == 1)
       {
-        x += shapes.value[m] * data.reference[m];
-        displacement += shapes.value[m] * data.displacement[m];
+        reference.evaluate(xi, x);
+        displacement.evaluate(xi, u);
       }
-    return (exact ? exact->project(x) : x) + displacement;
+    else
+      for (unsigned int m = 0; m < data.n_nodes(); ++m)
+        {
+          x += shapes.value[m] * data.reference[m];
+          u += shapes.value[m] * data.displacement[m];
+        }
+    return (exact ? exact->project(x) : x) + u;
   }
 
 
@@ -59,7 +87,8 @@ namespace Touchstone
   std::pair<Point<dim>, Tensor<1, dim>>
   FaceGeometry::position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const
   {
-    const FacePoint point = patch ? patch->evaluate(xi) : Touchstone::evaluate(data, exact, shapes);
+    const FacePoint point =
+      patch || data.degree == 1 ? evaluate(xi) : Touchstone::evaluate(data, exact, shapes);
     return {point.x, interpolates_normals() ? interpolated_normal(shapes, point) : point.normal()};
   }
 

@@ -294,8 +294,8 @@ namespace Touchstone
   void
   Contact::load(const ArchiveReader &archive, const Vector &u, const double t)
   {
-    time    = t;
-    ghosted = u;
+    time = t;
+    (*import_ghosts)(u, ghosted);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         Pair         &pair    = pairs[p];

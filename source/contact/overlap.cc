@@ -1,3 +1,4 @@
+#include <touchstone/contact/bilinear.h>
 #include <touchstone/contact/overlap.h>
 #include <touchstone/contact/polygon.h>
 #include <touchstone/contact/vector3.h>
@@ -77,41 +78,41 @@ namespace Touchstone
       }
     };
 
-    /** A bilinear map c_0 + c_1 xi + c_2 eta + c_3 xi eta, which takes a third of the
-     * operations of shape functions. */
-    template <unsigned int n>
-    struct Bilinear
+    /** Whether @p xi are coordinates of a point on a face or not far beside it. */
+    bool
+    near(const std::array<double, 2> &xi)
     {
-      using Values = std::array<double, n>;
-      Values c[4];
+      return std::abs(xi[0]) < 1.5 && std::abs(xi[1]) < 1.5;
+    }
 
-      Bilinear() = default;
-
-      /** @param corner values of component d at corner m. */
-      template <typename Corner>
-      explicit Bilinear(const Corner &corner)
-      {
-        for (unsigned int d = 0; d < n; ++d)
-          {
-            const double a = corner(0, d), b = corner(1, d), e = corner(2, d), f = corner(3, d);
-            c[0][d] = 0.25 * (a + b + e + f);
-            c[1][d] = 0.25 * (b - a + f - e);
-            c[2][d] = 0.25 * (e - a + f - b);
-            c[3][d] = 0.25 * (a - b + f - e);
-          }
-      }
-
-      void
-      evaluate(const std::array<double, 2> &xi, Values &x, Values (&t)[2]) const
-      {
-        for (unsigned int d = 0; d < n; ++d)
-          {
-            t[0][d] = c[1][d] + c[3][d] * xi[1];
-            t[1][d] = c[2][d] + c[3][d] * xi[0];
-            x[d]    = c[0][d] + c[2][d] * xi[1] + t[0][d] * xi[0];
-          }
-      }
-    };
+    /** Where @p map takes the value @p x, by Newton's method.
+     * @return false if that is not near the face. */
+    bool
+    invert(const Bilinear<2> &map, const Point2<double> &x, std::array<double, 2> &xi)
+    {
+      const auto          &c = map.c;
+      const Point2<double> mixed{c[3][0], c[3][1]};
+      Point2<double>       t[2] = {{c[1][0], c[1][1]}, {c[2][0], c[2][1]}};
+      Point2<double>       r{x.x - c[0][0], x.y - c[0][1]};
+      xi = {{0., 0.}};
+      for (unsigned int iteration = 0; iteration < 20; ++iteration)
+        {
+          const double jacobian = cross(t[0], t[1]);
+          if (jacobian == 0.)
+            return false;
+          const double inverse = 1. / jacobian;
+          const double d[2]    = {inverse * cross(r, t[1]), inverse * cross(t[0], r)};
+          xi[0] += d[0];
+          xi[1] += d[1];
+          // A step leaves nothing but its mixed term.
+          r = {-d[0] * d[1] * mixed.x, -d[0] * d[1] * mixed.y};
+          if (r.x * r.x + r.y * r.y < 1e-30 * std::abs(jacobian))
+            break;
+          t[0] = {c[1][0] + xi[1] * mixed.x, c[1][1] + xi[1] * mixed.y};
+          t[1] = {c[2][0] + xi[0] * mixed.x, c[2][1] + xi[0] * mixed.y};
+        }
+      return near(xi);
+    }
 
     /** A face projected onto a plane. */
     template <typename Number>
@@ -175,28 +176,18 @@ namespace Touchstone
         return position;
       }
 
-      Point2<double>
-      evaluate(const std::array<double, 2> &xi, Point2<double> (&t)[2]) const
-      {
-        if (face.degree > 1)
-          return evaluate(FaceShapes(face.degree, xi), t);
-        Bilinear<2>::Values x, tangents[2];
-        bilinear.evaluate(xi, x, tangents);
-        for (unsigned int a = 0; a < 2; ++a)
-          t[a] = {tangents[a][0], tangents[a][1]};
-        return {x[0], x[1]};
-      }
-
       /** Face coordinates of a point of the plane, by Newton's method.
        * @return false if there are none near the face. */
       bool
       invert(const double x, const double y, std::array<double, 2> &xi) const
       {
+        if (face.degree == 1)
+          return Touchstone::invert(bilinear, {x, y}, xi);
         xi = {{0., 0.}};
         for (unsigned int iteration = 0; iteration < 20; ++iteration)
           {
             Point2<double>       t[2];
-            const Point2<double> position = evaluate(xi, t);
+            const Point2<double> position = evaluate(FaceShapes(face.degree, xi), t);
             const Point2<double> r{x - position.x, y - position.y};
             const double         jacobian = cross(t[0], t[1]);
             if (jacobian == 0.)
@@ -208,7 +199,7 @@ namespace Touchstone
             if (std::abs(d[0]) + std::abs(d[1]) < 1e-8)
               break;
           }
-        return std::abs(xi[0]) < 1.5 && std::abs(xi[1]) < 1.5;
+        return near(xi);
       }
     };
 
@@ -235,7 +226,8 @@ namespace Touchstone
 
     /** Visit points of a polygon, with weights that integrate shape functions of degree one
      * and their squares exactly: of quadrilaterals with a common corner, and of a triangle if
-     * the number of corners is odd. */
+     * the number of corners is odd. With fewer points it would matter which corner comes
+     * first, which round-off decides, and Newton's method would take more iterations. */
     template <typename Number, typename Visitor>
     void
     for_each_point(const Polygon<Number> &corners, const Visitor &visit)
@@ -293,15 +285,16 @@ namespace Touchstone
         }
     }
 
-    /** Area of a face per area of its shadow. */
+    /** Area of a face per area of its shadow on a plane. */
     class Stretch
     {
     public:
-      Stretch(const Shadow<double> &shadow, const Positions<double> &x)
-        : shadow(shadow)
+      Stretch(const Face &face, const Positions<double> &x, const Plane<double> &plane)
+        : face(face)
         , x(x)
+        , normal(cross(plane.e1, plane.e2))
       {
-        if (shadow.face.degree == 1)
+        if (face.degree == 1)
           bilinear =
             Bilinear<dim>([&x](const unsigned int m, const unsigned int d) { return x[m][d]; });
       }
@@ -310,25 +303,24 @@ namespace Touchstone
       operator()(const std::array<double, 2> &xi) const
       {
         Vector3<double> place, t[2] = {{}, {}};
-        if (shadow.face.degree == 1)
+        if (face.degree == 1)
           bilinear.evaluate(xi, place, t);
         else
           {
-            const FaceShapes shapes(shadow.face.degree, xi);
-            for (unsigned int m = 0; m < shadow.face.n_nodes(); ++m)
+            const FaceShapes shapes(face.degree, xi);
+            for (unsigned int m = 0; m < face.n_nodes(); ++m)
               for (unsigned int a = 0; a < 2; ++a)
                 for (unsigned int d = 0; d < dim; ++d)
                   t[a][d] += shapes.gradient[m][a] * x[m][d];
           }
         const Vector3<double> c = cross(t[0], t[1]);
-        Point2<double>        flat[2];
-        shadow.evaluate(xi, flat);
-        return std::sqrt(dot(c, c)) / std::abs(cross(flat[0], flat[1]));
+        return std::sqrt(dot(c, c)) / std::abs(dot(c, normal));
       }
 
     private:
-      const Shadow<double>    &shadow;
+      const Face              &face;
       const Positions<double> &x;
+      Vector3<double>          normal;
       Bilinear<dim>            bilinear; // if of degree 1
     };
   } // namespace
@@ -341,7 +333,7 @@ namespace Touchstone
     const Positions<double> x = positions(slave);
     const Plane<double>     plane(slave, x);
     const Shadow<double>    slave_shadow(slave, x, plane);
-    const Stretch           stretch(slave_shadow, x);
+    const Stretch           stretch(slave, x, plane);
 
     std::vector<std::vector<OverlapPoint>> result(masters.size());
     std::vector<OverlapPoint>              points;

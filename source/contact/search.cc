@@ -116,12 +116,15 @@ namespace Touchstone
     by_key.clear();
     sent.clear();
     received.clear();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    std::vector<Face>  own     = master.owned_faces();
-    for (std::size_t f = 0; f < committed.size(); ++f)
-      own[f].committed = committed[f];
+    const unsigned int       n_ranks   = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int       this_rank = Utilities::MPI::this_mpi_process(communicator);
+    const std::vector<Face> &own       = master.owned_faces();
     if (n_ranks == 1)
-      faces.swap(own);
+      {
+        faces = own;
+        for (std::size_t f = 0; f < committed.size(); ++f)
+          faces[f].committed = committed[f];
+      }
     else
       {
         const auto captures =
@@ -130,8 +133,10 @@ namespace Touchstone
         std::map<unsigned int, std::vector<char>> packages;
         for (std::size_t f = 0; f < own.size(); ++f)
           {
-            const Face &face = own[f];
-            const Box   box  = swept_box(face);
+            Face face = own[f];
+            if (!committed.empty())
+              face.committed = committed[f];
+            const Box box = swept_box(face);
             for (unsigned int rank = 0; rank < n_ranks; ++rank)
               {
                 const auto &c     = captures[rank];
@@ -141,14 +146,19 @@ namespace Touchstone
                 if (!meets)
                   continue;
                 sent[rank].push_back(f);
-                auto             &package = packages[rank];
-                const std::size_t size    = package.size();
-                package.resize(size + sizeof(Face));
-                std::memcpy(package.data() + size, static_cast<const void *>(&face), sizeof(Face));
+                if (rank == this_rank)
+                  {
+                    faces.push_back(face);
+                    continue;
+                  }
+                const char *data = reinterpret_cast<const char *>(&face);
+                packages[rank].insert(packages[rank].end(), data, data + sizeof(Face));
               }
           }
+        if (!faces.empty())
+          received[this_rank] = 0;
         for (const auto &[rank, places] : sent)
-          if (rank != Utilities::MPI::this_mpi_process(communicator))
+          if (rank != this_rank)
             {
               ++counted.messages;
               counted.faces_sent += places.size();

@@ -2,12 +2,14 @@
 #define touchstone_contact_contact_h
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/ghost_import.h>
 #include <touchstone/contact/pairing.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/scene/scene.h>
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -231,7 +233,8 @@ namespace Touchstone
     std::vector<Pair>                    pairs;
     std::vector<std::vector<ContactRow>> committed;
     /** Displacement with the ghosts that the surfaces need. */
-    Vector ghosted;
+    Vector                     ghosted;
+    std::optional<GhostImport> import_ghosts;
     /** The same for the stencils of reference pairings. */
     Vector stencil_values;
     /** With friction: positions of all nodes in the reference state (owned), and

@@ -1,6 +1,7 @@
 #ifndef touchstone_contact_face_geometry_h
 #define touchstone_contact_face_geometry_h
 
+#include <touchstone/contact/bilinear.h>
 #include <touchstone/contact/gregory_patch.h>
 
 #include <optional>
@@ -28,7 +29,7 @@ namespace Touchstone
    * @brief The surface over a face to which gaps are measured, and its normal.
    *
    * Where the exact surface is known it is used, and `smoothed` is the same as
-   * `averaged`. Refers to the face, which must live as long.
+   * `averaged`. Refers to the face, which must live as long and stay where it is.
    */
   class FaceGeometry
   {
@@ -101,6 +102,9 @@ namespace Touchstone
     const AnalyticSurface      *exact;
     MasterNormal                kind;
     std::optional<GregoryPatch> patch;
+    /** If of degree 1: of the nodes and of their displacements. */
+    Bilinear<dim> reference, displacement;
+
     /** @param point The evaluate() there. */
     dealii::Tensor<1, dim>
     interpolated_normal(const FaceShapes &shapes, const FacePoint &point) const;
