@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numeric>
 
 namespace Touchstone
 {
@@ -105,37 +104,12 @@ namespace Touchstone
       return result;
     }
 
-    /** Numbers for faces, the same for those that hang together over common nodes. */
-    std::vector<std::size_t>
-    numbers_of_layers(const std::vector<const Face *> &faces)
+    /** Search::layers() by face. */
+    std::map<const Face *, unsigned int>
+    layers(const Search &search, const std::vector<const Face *> &faces)
     {
-      std::vector<std::size_t> parent(faces.size());
-      std::iota(parent.begin(), parent.end(), 0);
-      const auto root = [&](std::size_t i) {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      };
-      std::vector<std::pair<Index, std::size_t>> nodes;
-      nodes.reserve(Face::max_nodes * faces.size());
-      for (std::size_t i = 0; i < faces.size(); ++i)
-        for (unsigned int m = 0; m < faces[i]->n_nodes(); ++m)
-          nodes.emplace_back(faces[i]->nodes[m], i);
-      std::sort(nodes.begin(), nodes.end());
-      for (std::size_t k = 1; k < nodes.size(); ++k)
-        if (nodes[k].first == nodes[k - 1].first)
-          parent[root(nodes[k].second)] = root(nodes[k - 1].second);
-      for (std::size_t i = 0; i < faces.size(); ++i)
-        parent[i] = root(i);
-      return parent;
-    }
-
-    /** The same by face. */
-    std::map<const Face *, std::size_t>
-    layers(const std::vector<const Face *> &faces)
-    {
-      const std::vector<std::size_t>      numbers = numbers_of_layers(faces);
-      std::map<const Face *, std::size_t> result;
+      const std::vector<unsigned int>      numbers = search.layers(faces);
+      std::map<const Face *, unsigned int> result;
       for (std::size_t i = 0; i < faces.size(); ++i)
         result[faces[i]] = numbers[i];
       return result;
@@ -156,20 +130,22 @@ namespace Touchstone
 
     /** Whether @p faces hang together. */
     bool
-    one_layer(const std::vector<const Face *> &faces)
+    one_layer(const Search &search, const std::vector<const Face *> &faces)
     {
-      const std::vector<std::size_t> numbers = numbers_of_layers(faces);
+      const std::vector<unsigned int> numbers = search.layers(faces);
       return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
              numbers.end();
     }
 
     /** Whether @p facing hang together over the nodes of @p faces. */
     bool
-    one_layer(const std::vector<FacingFace> &facing, const std::vector<const Face *> &faces)
+    one_layer(const Search                    &search,
+              const std::vector<FacingFace>   &facing,
+              const std::vector<const Face *> &faces)
     {
       if (facing.size() < 2)
         return true;
-      const std::map<const Face *, std::size_t> number = layers(faces);
+      const std::map<const Face *, unsigned int> number = layers(search, faces);
       return std::all_of(facing.begin(), facing.end(), [&](const FacingFace &face) {
         return number.at(face.master) == number.at(facing[0].master);
       });
@@ -222,14 +198,15 @@ namespace Touchstone
     near                        = search.near(box(slave), normal);
     std::vector<FacingFace> all = cover(slave, near);
     // Those that cover the face mostly hang together without the help of others.
-    const bool   layered = !one_layer(masters_of(all)) && !one_layer(all, near);
+    const bool   layered = !one_layer(search, masters_of(all)) && !one_layer(search, all, near);
     const double size    = cross_product_3d(centre.tangents[0], centre.tangents[1]).norm();
     const double far     = small_motion * std::sqrt(4. * size);
     bool         moved   = false;
     for (const FacingFace &facing : all)
       moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
     // Where there is but one layer on its way it cannot have come to another.
-    if (layered || all.empty() || (moved && !one_layer(search.near(way(slave, all), normal))))
+    if (layered || all.empty() ||
+        (moved && !one_layer(search, search.near(way(slave, all), normal))))
       {
         const Entries in    = entries(slave, normal);
         const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {
@@ -262,8 +239,8 @@ namespace Touchstone
       double                  area = 0., gap = 0.;
       bool                    entered = false;
     };
-    const std::map<const Face *, std::size_t> number = layers(masters);
-    std::map<std::size_t, Layer>              by_number;
+    const std::map<const Face *, unsigned int> number = layers(search, masters);
+    std::map<unsigned int, Layer>              by_number;
     for (FacingFace &facing : cover(slave, masters))
       {
         Layer &layer = by_number[number.at(facing.master)];

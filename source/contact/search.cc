@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 namespace Touchstone
@@ -114,6 +115,7 @@ namespace Touchstone
 
     faces.clear();
     by_key.clear();
+    node_numbers.clear();
     sent.clear();
     received.clear();
     const unsigned int       n_ranks   = Utilities::MPI::n_mpi_processes(communicator);
@@ -261,6 +263,47 @@ namespace Touchstone
       return a->key < b->key;
     });
     return result;
+  }
+
+
+
+  std::vector<unsigned int>
+  Search::layers(const std::vector<const Face *> &some) const
+  {
+    constexpr unsigned int none = numbers::invalid_unsigned_int;
+    if (node_numbers.empty())
+      {
+        std::unordered_map<Index, unsigned int> known;
+        node_numbers.resize(faces.size());
+        for (std::size_t f = 0; f < faces.size(); ++f)
+          for (unsigned int m = 0; m < faces[f].n_nodes(); ++m)
+            node_numbers[f][m] = known.emplace(faces[f].nodes[m], known.size()).first->second;
+        first_at_node.assign(known.size(), none);
+      }
+
+    std::vector<unsigned int> parent(some.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&parent](unsigned int i) {
+      while (parent[i] != i)
+        i = parent[i] = parent[parent[i]];
+      return i;
+    };
+    for (unsigned int i = 0; i < some.size(); ++i)
+      for (unsigned int m = 0; m < some[i]->n_nodes(); ++m)
+        {
+          unsigned int &first = first_at_node[node_numbers[place(*some[i])][m]];
+          if (first == none)
+            first = i;
+          else
+            parent[root(i)] = root(first);
+        }
+    for (unsigned int i = 0; i < some.size(); ++i)
+      {
+        parent[i] = root(i);
+        for (unsigned int m = 0; m < some[i]->n_nodes(); ++m)
+          first_at_node[node_numbers[place(*some[i])][m]] = none;
+      }
+    return parent;
   }
 
 
@@ -519,9 +562,9 @@ namespace Touchstone
     for (const auto &[face, derivative] : result)
       {
         const std::size_t f    = face - faces.data();
-        auto              from = received.begin();
+        auto              from = received.end();
         for (auto it = received.begin(); it != received.end(); ++it)
-          if (it->second <= f && it->second >= from->second)
+          if (it->second <= f && (from == received.end() || it->second > from->second))
             from = it;
         questions[from->first].push_back(f - from->second);
       }

@@ -409,26 +409,35 @@ namespace Touchstone
             const double length = face.normals[m].norm();
             face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
           }
-    std::vector<Tensor<1, dim>> parts;
+    std::vector<Tensor<1, dim>> parts, units;
     for (auto &[node, all, list] : places)
       {
         parts.clear();
-        all = Tensor<1, dim>();
+        units.clear();
+        all         = Tensor<1, dim>();
+        bool smooth = true;
         for (const auto &[face, m] : list)
           {
             parts.push_back(face->normals[m]);
             all += parts.back();
+            for (const Tensor<1, dim> &other : units)
+              smooth = smooth && averaged_with(other, face->own_normals[m]);
+            units.push_back(face->own_normals[m]);
           }
-        if (all.norm() > 0.)
-          all /= all.norm();
-        for (const auto &[face, m] : list)
+        if (const double length = all.norm(); length > 0.)
+          all /= length;
+        for (std::size_t k = 0; k < list.size(); ++k)
           {
+            const auto &[face, m] = list[k];
+            face->edge_normals[m] = face->normals[m] = all;
+            if (smooth)
+              continue;
             Tensor<1, dim> sum;
             for (std::size_t i = 0; i < parts.size(); ++i)
-              if (averaged_with(list[i].first->own_normals[list[i].second], face->own_normals[m]))
+              if (averaged_with(units[i], units[k]))
                 sum += parts[i];
-            face->edge_normals[m] = all;
-            face->normals[m]      = sum.norm() > 0. ? sum / sum.norm() : all;
+            if (const double length = sum.norm(); length > 0.)
+              face->normals[m] = sum / length;
           }
       }
   }

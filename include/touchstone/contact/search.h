@@ -123,6 +123,11 @@ namespace Touchstone
     std::vector<const Face *>
     near(const dealii::BoundingBox<dim> &box, const dealii::Tensor<1, dim> &slave_normal) const;
 
+    /** @brief Numbers for faces of this search, the same for those of @p some that hang
+     * together over common nodes. */
+    std::vector<unsigned int>
+    layers(const std::vector<const Face *> &some) const;
+
     /** @brief The face where a point has gone into a body since the start of the step
      * and not come out, or a neighbour of it that is closest to where the point is
      * now; null if there is none. */
@@ -199,6 +204,11 @@ namespace Touchstone
     mutable std::optional<Located> located_now;
     const Located &
     located() const;
+
+    /** For layers(), made when first asked for: small numbers of the nodes of `faces`, and at
+     * each node the first of the faces at hand. */
+    mutable std::vector<std::array<unsigned int, Face::max_nodes>> node_numbers;
+    mutable std::vector<unsigned int>                              first_at_node;
 
     /** Places in `faces`, filled when a face is first asked for. */
     mutable std::unordered_map<std::uint64_t, std::size_t> by_key;
