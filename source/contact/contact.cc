@@ -127,6 +127,7 @@ namespace Touchstone
       {
         reference_positions.reinit(solid.owned, solid.communicator);
         VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);
+        owned_start_positions = reference_positions;
       }
   }
 
@@ -318,6 +319,8 @@ namespace Touchstone
               row.friction->spin_gradient.clear();
             }
         }
+    if (positions.size() > 0)
+      start_step();
     committed = rows;
   }
 

@@ -85,6 +85,8 @@ namespace Touchstone
         if (history && !pairs[p].small)
           pairs[p].pairing->commit_positions(ghosted);
       }
+    if (history && positions.size() > 0)
+      start_step();
     if (history)
       committed = rows;
   }
@@ -322,6 +324,12 @@ namespace Touchstone
           continue;
         pair.pairing->commit_positions(ghosted);
         pair.pairing->remember(memory);
+      }
+    if (reference_positions.size() > 0)
+      {
+        owned_start_positions = reference_positions;
+        owned_start_positions += u;
+        positions_known.clear(); // ghosts are imported by the next update
       }
     committed = rows;
   }

@@ -35,11 +35,13 @@ namespace Touchstone
     if (Utilities::MPI::min(same, solid.communicator) == 0)
       {
         positions.reinit(solid.owned, needed, solid.communicator);
+        start_positions.reinit(solid.owned, needed, solid.communicator);
+        start_positions = owned_start_positions;
         positions_known = needed;
       }
-    Vector owned(reference_positions);
-    owned += u;
-    positions = owned;
+    owned_positions = reference_positions;
+    owned_positions += u;
+    positions = owned_positions;
 
     for (unsigned int p = 0; p < pairs.size(); ++p)
       for (std::size_t k = 0; k < rows[p].size(); ++k)
@@ -59,10 +61,46 @@ namespace Touchstone
           f.slip_gradient.clear();
           f.spin_gradient.clear();
 
-          if (!f.has_anchor)
-            set_anchor(row);
-          f.slip = tangential * way_from_anchor(row) - f.carry(f.anchor_way);
+          if (f.has_anchor)
+            f.slip = tangential * way_from_anchor(row) - f.carry(f.anchor_way);
+          else
+            {
+              f.slip = tangential * relative_displacement(row);
+              f.area = row.area;
+            }
         }
+  }
+
+
+
+  void
+  Contact::start_step()
+  {
+    start_positions       = positions;
+    owned_start_positions = owned_positions;
+  }
+
+
+
+  Tensor<1, dim>
+  Contact::displacement_of_step(const Index node) const
+  {
+    Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = positions(dim * node + d) - start_positions(dim * node + d);
+    return result;
+  }
+
+
+
+  Tensor<1, dim>
+  Contact::relative_displacement(const ContactRow &row) const
+  {
+    // Only of rows that had no partner when the step began, and so of no obstacle.
+    Tensor<1, dim> result = displacement_of_step(row.slave);
+    for (const StencilEntry &entry : row.stencil)
+      result -= entry.weight * displacement_of_step(entry.node);
+    return result;
   }
 
 
@@ -119,7 +157,7 @@ namespace Touchstone
     {
       const FrictionState &f       = *row.friction;
       const double         closing = f.anchor_gap - row.gap;
-      if (row.active() || row.gap <= 0. || closing <= 0.)
+      if (!f.has_anchor || row.active() || row.gap <= 0. || closing <= 0.)
         return {};
       const Tensor<1, dim> way = f.slip + f.carry(f.way_to_touch);
       if (way.norm() > closing)
@@ -140,6 +178,8 @@ namespace Touchstone
       {
         f.has_anchor   = false;
         f.way_to_touch = {};
+        f.anchor.clear();
+        f.anchor_way = {};
         return;
       }
     f.way_to_touch = way_to_touch(row);
@@ -183,14 +223,21 @@ namespace Touchstone
 
     // s = T v - (what v was at the anchor, turned); of the changes of T and of the
     // frame only the tangential part counts.
-    const Tensor<1, dim> way    = way_from_anchor(row);
+    const Tensor<1, dim> way    = f.has_anchor ? way_from_anchor(row) : relative_displacement(row);
     const Tensor<1, dim> turned = cross_product_3d(row.normal, f.carry(f.anchor_way));
     slip[row.slave] += tangential;
-    for (const StencilEntry &entry : f.anchor)
+    for (const StencilEntry &entry : f.has_anchor ? f.anchor : row.stencil)
       slip[entry.node] -= entry.weight * tangential;
+    if (!f.has_anchor)
+      for (std::size_t m = 0; m < row.stencil.size(); ++m)
+        {
+          const Tensor<1, dim> moved = tangential * displacement_of_step(row.stencil[m].node);
+          for (std::size_t a = 0; a < d.nodes.size(); ++a)
+            slip[d.nodes[a]] -= outer_product(moved, d.weights[m][a]);
+        }
     for (std::size_t a = 0; a < d.nodes.size(); ++a)
       slip[d.nodes[a]] -= (row.normal * way) * (tangential * d.normal[a]);
-    if (turned.norm() > 1e-12 * row.size)
+    if (f.has_anchor && turned.norm() > 1e-12 * row.size)
       for (const auto &[node, rate] : spin)
         slip[node] -= outer_product(turned, rate);
 

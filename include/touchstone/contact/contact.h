@@ -239,7 +239,9 @@ namespace Touchstone
     Vector stencil_values;
     /** With friction: positions of all nodes in the reference state (owned), and
      * at present for those that stencils and anchors refer to. */
-    Vector           reference_positions, positions;
+    Vector           reference_positions, owned_positions, positions;
+    /** The same when the step began. */
+    Vector           owned_start_positions, start_positions;
     dealii::IndexSet positions_known;
     unsigned int     searches = 0;
     bool             started  = false;
@@ -262,6 +264,16 @@ namespace Touchstone
     /** Position of a node that positions knows. */
     dealii::Tensor<1, dim>
     position(Index node) const;
+    /** A step begins with the present positions. */
+    void
+    start_step();
+    /** Displacement of a node that positions knows, since the step began. */
+    dealii::Tensor<1, dim>
+    displacement_of_step(Index node) const;
+    /** Displacement of a slave node relative to the material points of the master
+     * surface that it faces now, since the step began. */
+    dealii::Tensor<1, dim>
+    relative_displacement(const ContactRow &row) const;
     /** Way of a slave node from its anchor. */
     dealii::Tensor<1, dim>
     way_from_anchor(const ContactRow &row) const;
