@@ -16,7 +16,7 @@ namespace Touchstone
         , committed_u(committed_u)
         // With friction the stick and slip of a step begin where the last one ended;
         // and finite strains may not bear a guess.
-        , guesses(solid.linear() && !scene.has_friction())
+        , guesses(solid.linear())
         , motion(solid.owned, solid.communicator)
       {
       }
