@@ -29,6 +29,7 @@ namespace Touchstone
       if (factor == 0.)
         return;
       side.direction -= factor * other.direction;
+      side.origin -= factor * other.origin;
       for (const auto &[unknown, coefficient] : other.others)
         side.others[unknown] -= factor * coefficient;
       side.value -= factor * other.value;
@@ -50,6 +51,7 @@ namespace Touchstone
     {
       const double factor = 1. / side.direction[pivot];
       side.direction *= factor;
+      side.origin *= factor;
       for (auto &entry : side.others)
         entry.second *= factor;
       side.value *= factor;
@@ -137,6 +139,7 @@ namespace Touchstone
   {
     conditions.clear();
     nodes.clear();
+    numbers.clear();
   }
 
 
@@ -188,6 +191,11 @@ namespace Touchstone
     reduced.symmetric = condition.symmetric();
     reduced.motion    = Side(condition.node, condition.motion_form(), condition.value);
     reduced.force     = Side(condition.node, condition.force_form(), 0.);
+    const auto         found  = nodes.find(condition.node);
+    const unsigned int number = found == nodes.end() ? 0 : found->second.size();
+    if (number >= dim)
+      return false; // all directions are determined
+    reduced.motion.origin[number] = reduced.force.origin[number] = 1.;
     reduce(condition.node, reduced);
 
     // The pivot must do for both sides.
@@ -223,7 +231,69 @@ namespace Touchstone
         }
     all.push_back(std::move(reduced));
     conditions.push_back(condition);
+    numbers.push_back(number);
     return true;
+  }
+
+
+
+  std::vector<double>
+  ConstraintGraph::forces(const Vector                        &residual,
+                          const std::function<void(Vector &)> &condense) const
+  {
+    // References between conditions are no longer than a few; more would be a cycle.
+    constexpr unsigned int longest = 1000;
+    constexpr double       round_off = 1e-14;
+
+    Vector rest(residual);
+    condense(rest);
+    std::map<Index, Tensor<1, dim>> by_pivot;
+    double                          largest = 0.;
+    for (unsigned int pass = 0;; ++pass)
+      {
+        AssertThrow(pass < longest, ExcMessage("Conditions depend on each other in a cycle."));
+        std::vector<Index>  unknowns;
+        std::vector<double> values;
+        double              change = 0.;
+        for (const auto &[node, reduced] : nodes)
+          for (unsigned int k = 0; k < reduced.size(); ++k)
+            {
+              if (reduced[k].treatment != Treatment::eliminate)
+                continue;
+              const Side  &side  = reduced[k].force;
+              const double force = -rest(dim * node + reduced[k].pivot);
+              by_pivot[node][k] += force;
+              change  = std::max(change, std::abs(force));
+              largest = std::max(largest, std::abs(by_pivot[node][k]));
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  unknowns.push_back(dim * node + d);
+                  values.push_back(force * side.direction[d]);
+                }
+              for (const auto &[unknown, coefficient] : side.others)
+                {
+                  unknowns.push_back(unknown);
+                  values.push_back(force * coefficient);
+                }
+            }
+        const MPI_Comm communicator = residual.get_mpi_communicator();
+        if (Utilities::MPI::max(change, communicator) <=
+            round_off * Utilities::MPI::max(largest, communicator))
+          break;
+        rest.add(unknowns, values);
+        rest.compress(VectorOperation::add);
+        condense(rest);
+      }
+
+    std::vector<double> result(conditions.size(), 0.);
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      {
+        const auto &reduced = nodes.at(conditions[i].node);
+        for (unsigned int k = 0; k < reduced.size(); ++k)
+          if (reduced[k].treatment == Treatment::eliminate)
+            result[i] += by_pivot.at(conditions[i].node)[k] * reduced[k].force.origin[numbers[i]];
+      }
+    return result;
   }
 
 

@@ -43,6 +43,21 @@ namespace Touchstone
 
 
 
+    /** Slip that friction should not have let happen: all of it while sticking, else what is
+     * across the force. */
+    double
+    slip_off_direction(const ContactRow &row)
+    {
+      const FrictionState &f = *row.friction;
+      if (row.status == ContactStatus::stick)
+        return f.slip.norm();
+      if (row.status == ContactStatus::slip)
+        return (f.slip - (f.slip * f.direction) * f.direction).norm();
+      return 0.;
+    }
+
+
+
     Wish
     wish(const ContactRow &row, const double gap_tolerance)
     {
@@ -169,9 +184,8 @@ namespace Touchstone
                                  : std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
                          row.size);
           // What sticks without elastic slip must not have moved.
-          if (row.refused == 0 && row.status == ContactStatus::stick && row.friction &&
-              !row.friction->carried)
-            result.gap = std::max(result.gap, row.friction->slip.norm() / row.size);
+          if (row.friction && !row.friction->carried && !row.dropped())
+            result.gap = std::max(result.gap, slip_off_direction(row) / row.size);
           const Wish next = wish(row, gap_tolerance);
           if (next.strength > 0. && next.strength >= threshold &&
               (only.empty() || only == order(row)))

@@ -37,7 +37,10 @@ namespace Touchstone
 
 
 
-  Contact::Contact(const Scene &scene, const Forest &forest, const Solid &solid)
+  Contact::Contact(const Scene   &scene,
+                   const Forest  &forest,
+                   const Solid   &solid,
+                   const Mirrors &mirrors)
     : solid(solid)
     , scene(scene)
     , ghosted(solid.owned, solid.relevant, solid.communicator)
@@ -101,6 +104,8 @@ namespace Touchstone
               {
                 row.friction.emplace();
                 row.friction->law   = parameters.friction.get();
+                if (const auto found = mirrors.find(node.node); found != mirrors.end())
+                  row.friction->mirrors = found->second;
                 row.friction->exact = (scene.contact.friction == "exact");
                 row.friction->alpha = 10. * scene.contact.tangential_factor * row.stiffness;
               }

@@ -1,5 +1,4 @@
-#include <touchstone/contact/balance.h>
-#include <touchstone/contact/enforcement.h>
+#include <touchstone/contact/exact_enforcement.h>
 #include <touchstone/contact/row_terms.h>
 
 #include <deal.II/base/mpi.h>
@@ -13,42 +12,12 @@ namespace Touchstone
 
   namespace
   {
-    /** Each condition determines one displacement component of its slave node,
-     * which is condensed out; forces come from the residual. */
-    class Elimination : public Enforcement
+    /** Each condition determines one displacement component of its slave node, which is
+     * condensed out; the forces follow from the residual of the linear system. */
+    class Elimination : public ExactEnforcement
     {
     public:
       explicit Elimination(const ContactParameters &)
-      {
-      }
-
-      void
-      recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override
-      {
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            if (row.friction)
-              choose_friction(row);
-
-        balance_slave_nodes(contact, unbalanced, graph, [](const ContactRow &) { return true; });
-      }
-
-      void
-      enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
-      {
-        const auto active = active_slaves(contact, system.rhs.get_mpi_communicator());
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            {
-              if (system.keep_symmetric)
-                lag_friction(row, row.lambda);
-              for (Condition &condition : start_row(row, system.keep_symmetric))
-                offer(row, condition, active, graph);
-            }
-      }
-
-      void
-      update(Contact &, const std::vector<double> &) override
       {
       }
 
@@ -59,14 +28,27 @@ namespace Touchstone
         return 1e-12;
       }
 
-    private:
-      using Slaves = std::set<std::pair<unsigned int, Index>>;
+    protected:
+      ConstraintGraph::Treatment
+      treatment() const override
+      {
+        return ConstraintGraph::Treatment::eliminate;
+      }
 
-      /** Offer a condition to the graph. Slave nodes whose conditions refer to each
-       * other cannot all be eliminated: each takes its neighbours to move like
-       * itself. */
-      static void
-      offer(ContactRow &row, Condition &condition, const Slaves &active, ConstraintGraph &graph)
+      void
+      prepare(Contact &contact, const LinearSystem &system) override
+      {
+        active = active_slaves(contact, system.rhs.get_mpi_communicator());
+        if (system.keep_symmetric)
+          for (auto &pair_rows : contact.rows)
+            for (ContactRow &row : pair_rows)
+              lag_friction(row, row.lambda);
+      }
+
+      /** Slave nodes whose conditions refer to each other cannot all be eliminated: each
+       * takes its neighbours to move like itself. */
+      void
+      adjust(const ContactRow &row, Condition &condition) const override
       {
         Tensor<1, dim> lagged;
         for (auto &[node, coefficients] : condition.gradient)
@@ -77,8 +59,22 @@ namespace Touchstone
             }
         if (lagged.norm_square() > 0.)
           condition.gradient.emplace_back(row.slave, lagged);
-        row.take(graph.accept(condition));
       }
+
+      std::vector<double>
+      multipliers(const std::vector<Accepted> &accepted,
+                  const LinearSolution        &solution) const override
+      {
+        // Contact comes last in the graph, in the order in which it was accepted.
+        const std::vector<double> all =
+          solution.graph.forces(solution.system.residual(solution.increment, solution.extra),
+                                solution.condense);
+        return {all.end() - accepted.size(), all.end()};
+      }
+
+    private:
+      using Slaves = std::set<std::pair<unsigned int, Index>>;
+      Slaves active;
 
       /** Pairs and slave nodes of all active rows, if any of this rank's rows has a
        * derivative. Collective. */

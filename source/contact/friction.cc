@@ -18,9 +18,32 @@ namespace Touchstone
 
 
   void
+  FrictionState::find_tangents(const Vec &normal)
+  {
+    tangential = tangential_projector(normal);
+    tangents.assign(frame.begin(), frame.end());
+    for (const Vec &mirror : mirrors)
+      {
+        // What of the plane's normal is tangential, and not taken out by another plane.
+        Vec          out    = tangential * mirror;
+        const double length = out.norm();
+        if (length < 1e-3)
+          continue;
+        out /= length;
+        tangential -= outer_product(out, out);
+        tangents.resize(tangents.size() - 1);
+        if (tangents.size() == 1)
+          tangents[0] = cross_product_3d(normal, out);
+      }
+  }
+
+
+
+  void
   FrictionState::clear_force()
   {
     base = direction = last_direction = rest = coupling = turn = Vec();
+    unheld.clear();
     slope = last_slope = Mat();
     limit = excess = 0.;
   }
@@ -91,7 +114,7 @@ namespace Touchstone
     using Mat                      = FrictionState::Mat;
     FrictionState      &f          = *row.friction;
     const bool          slipped    = row.status == ContactStatus::slip;
-    const Mat           tangential = tangential_projector(row.normal);
+    const Mat          &tangential = f.tangential;
     const FrictionLimit limit      = f.cone(row.lambda, slipped);
 
     // An exact slip force has no state of its own but its direction: that of the

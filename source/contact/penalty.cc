@@ -1,4 +1,3 @@
-#include <touchstone/contact/balance.h>
 #include <touchstone/contact/enforcement.h>
 #include <touchstone/contact/row_terms.h>
 
@@ -29,18 +28,25 @@ namespace Touchstone
       }
 
       void
-      recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override
+      begin_step() override
+      {
+        solved = false;
+      }
+
+      void
+      recover(Contact &contact, const Vector &, const ConstraintGraph &) override
       {
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
             {
               if (!row.active() || row.dropped())
                 continue;
-              evaluate(row);
+              if (solved && !by_gap(row))
+                respond(row); // the force of the linear solve
+              else
+                evaluate(row);
               grant(row, solved);
             }
-        if (solved)
-          augment(contact, unbalanced, graph);
         solved = false;
       }
 
@@ -68,14 +74,14 @@ namespace Touchstone
                   lag_friction(row, balancing_force(row, residual, graph));
               }
 
+        springs.clear();
         RowTerms terms(system);
         for (auto &pair_rows : contact.rows)
           for (ContactRow &row : pair_rows)
             for (const Condition &condition : start_row(row, system.keep_symmetric))
               {
-                const bool accepted = graph.accept(condition, ConstraintGraph::Treatment::spring);
-                row.take(accepted);
-                if (!accepted)
+                if (!row.take(condition,
+                              graph.accept(condition, ConstraintGraph::Treatment::spring)))
                   continue;
                 if (!condition.symmetric())
                   system.symmetric = false;
@@ -85,15 +91,29 @@ namespace Touchstone
                 const Tensor<1, dim> direction = condition.force();
                 const double         augmented =
                   row.tied ? row.augmented * direction : row.augmented_lambda;
-                terms.add_load(row, (augmented + epsilon * condition.value) * direction);
+                const double force = augmented + epsilon * condition.value;
+                terms.add_load(row, force * direction);
                 terms.add_stiffness(row, epsilon * direction, condition.motion_form());
+                if (!by_gap(row))
+                  springs.push_back({&row, condition, force, epsilon});
               }
         terms.finish();
       }
 
       void
-      update(Contact &, const std::vector<double> &) override
+      update(Contact &, const LinearSolution &solution) override
       {
+        std::vector<LinearForm> forms;
+        for (const Spring &spring : springs)
+          forms.push_back(by_unknowns(spring.condition.motion_form()));
+        const std::vector<double> elongations = evaluate_forms(forms, solution.increment);
+        for (const Spring &spring : springs)
+          spring.row->force = Tensor<1, dim>();
+        for (std::size_t k = 0; k < springs.size(); ++k)
+          springs[k].row->force +=
+            (springs[k].force - springs[k].epsilon * elongations[k]) * springs[k].condition.direction;
+        for (const Spring &spring : springs)
+          spring.row->lambda = spring.row->force * spring.row->normal;
         solved = true;
       }
 
@@ -117,17 +137,12 @@ namespace Touchstone
       virtual void
       grant(ContactRow &row, bool solved) const = 0;
 
-      /** Whether the force of the row is judged as that of its spring. */
+      /** Whether the force of the row is that of its spring at the present gap, and not that
+       * which the spring had in the last linear solve. */
       virtual bool
       by_gap(const ContactRow &) const
       {
         return true;
-      }
-
-      /** Augment forces by what a solve has shown. */
-      virtual void
-      augment(Contact &, const Vector &, const ConstraintGraph &) const
-      {
       }
 
       /** Decide what the friction of the row starts from; @p epsilon is the
@@ -136,8 +151,17 @@ namespace Touchstone
       choose_friction(ContactRow &row, double epsilon) const = 0;
 
     private:
-      const double factor;
-      bool         solved = false;
+      /** A condition that a spring meets: its force before the solve, and its stiffness. */
+      struct Spring
+      {
+        ContactRow *row;
+        Condition   condition;
+        double      force, epsilon;
+      };
+
+      const double        factor;
+      std::vector<Spring> springs; // of rows that do not go by_gap()
+      bool                solved = false;
 
       /**
        * The normal force that would balance the slave node: what the last linear
@@ -228,33 +252,17 @@ namespace Touchstone
       grant(ContactRow &row, const bool solved) const override
       {
         row.granted_gap = 0.;
-        if (merged && solved && by_gap(row))
+        if (merged && solved)
           augment(row);
       }
 
+      /** Without friction the force is that of the linearised gap. One of the gap itself would
+       * turn the change of normals and contact points into forces, the larger the stiffer the
+       * springs. */
       bool
       by_gap(const ContactRow &row) const override
       {
         return !merged || row.friction;
-      }
-
-      /** Without friction the force is that of the linearised gap. One of the gap
-       * itself would turn the change of normals and contact points into forces,
-       * the larger the stiffer the springs. */
-      void
-      augment(Contact               &contact,
-              const Vector          &unbalanced,
-              const ConstraintGraph &graph) const override
-      {
-        if (!merged)
-          return;
-        balance_slave_nodes(contact, unbalanced, graph, [this](const ContactRow &row) {
-          return !by_gap(row);
-        });
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            if (row.active() && !row.dropped() && !by_gap(row))
-              augment(row);
       }
 
       void

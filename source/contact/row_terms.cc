@@ -68,7 +68,7 @@ namespace Touchstone
   {
     std::vector<Condition> conditions;
     if (row.friction && row.status == ContactStatus::stick && !row.held() && !row.dropped())
-      for (const Tensor<1, dim> &tangent : row.friction->frame)
+      for (const Tensor<1, dim> &tangent : row.friction->tangents)
         {
           conditions.push_back(blank_condition(row));
           conditions.back().direction = tangent;
@@ -83,11 +83,14 @@ namespace Touchstone
   {
     row.accepted = row.refused = 0;
     row.normal_accepted        = true;
+    if (row.friction)
+      row.friction->unheld.clear();
     if (!row.active())
       return {};
     if (row.closes_circle)
       {
-        row.take(false);
+        row.refused         = 1;
+        row.normal_accepted = false;
         return {};
       }
     Condition              condition = blank_condition(row);
@@ -112,7 +115,7 @@ namespace Touchstone
       condition.force_direction = row.normal + row.friction->coupling;
     conditions.push_back(condition);
     if (row.held())
-      for (const Tensor<1, dim> &tangent : row.friction->frame)
+      for (const Tensor<1, dim> &tangent : row.friction->tangents)
         {
           condition.direction       = tangent;
           condition.force_direction = Tensor<1, dim>();
@@ -210,6 +213,8 @@ namespace Touchstone
   void
   RowTerms::add_row(ContactRow &row)
   {
+    if (row.active() && row.dropped())
+      row.clear_force();
     if (!row.active() || row.dropped())
       return;
     if (row.derivative && !system.keep_symmetric)
@@ -222,19 +227,28 @@ namespace Touchstone
     FrictionState &f = *row.friction;
     f.last_direction = f.direction;
     f.last_slope     = f.slope;
-    add_load(row, f.rest);
-    if (f.slope.norm_square() > 0.)
+    Tensor<1, dim> rest  = f.rest;
+    Tensor<2, dim> slope = f.slope;
+    if (row.held())
+      for (const Tensor<1, dim> &tangent : f.unheld)
+        {
+          const double spring = FrictionState::unheld_stiffness(row.stiffness);
+          rest += (f.base * tangent - spring * (f.slip * tangent)) * tangent;
+          slope += spring * outer_product(tangent, tangent);
+        }
+    add_load(row, rest);
+    if (slope.norm_square() > 0.)
       {
         NodalMatrices change;
         if (f.slip_gradient.empty() || system.keep_symmetric)
           {
-            change.emplace_back(row.slave, f.slope);
+            change.emplace_back(row.slave, slope);
             for (const StencilEntry &entry : row.stencil)
-              change.emplace_back(entry.node, -entry.weight * f.slope);
+              change.emplace_back(entry.node, -entry.weight * slope);
           }
         else
           for (const auto &[node, matrix] : f.slip_gradient)
-            change.emplace_back(node, f.slope * matrix);
+            change.emplace_back(node, slope * matrix);
         add_stiffness(row, change);
       }
     if (!f.spin_gradient.empty() && !system.keep_symmetric && f.turn.norm_square() > 0.)

@@ -57,15 +57,16 @@ namespace Touchstone
           direction  = tangential * direction;
           f.frame[0] = direction / direction.norm();
           f.frame[1] = cross_product_3d(row.normal, f.frame[0]);
-          f.start    = f.carry(f.stored);
+          f.find_tangents(row.normal);
+          f.start = f.tangential * f.carry(f.stored);
           f.slip_gradient.clear();
           f.spin_gradient.clear();
 
           if (f.has_anchor)
-            f.slip = tangential * way_from_anchor(row) - f.carry(f.anchor_way);
+            f.slip = f.tangential * (way_from_anchor(row) - f.carry(f.anchor_way));
           else
             {
-              f.slip = tangential * relative_displacement(row);
+              f.slip = f.tangential * relative_displacement(row);
               f.area = row.area;
             }
         }
@@ -204,7 +205,7 @@ namespace Touchstone
   {
     FrictionState                      &f          = *row.friction;
     const RowDerivative                &d          = *row.derivative;
-    const Tensor<2, dim>                tangential = tangential_projector(row.normal);
+    const Tensor<2, dim>               &tangential = f.tangential;
     std::map<Index, FrictionState::Mat> slip;
     std::map<Index, FrictionState::Vec> spin;
 
@@ -217,7 +218,7 @@ namespace Touchstone
       }
     for (std::size_t a = 0; a < d.nodes.size(); ++a)
       spin[d.nodes[a]] -= (row.normal * q) * (f.frame[1] * d.normal[a]);
-    const double length = (tangential * q).norm();
+    const double length = (tangential_projector(row.normal) * q).norm();
     for (auto &entry : spin)
       entry.second /= length;
 
@@ -239,7 +240,7 @@ namespace Touchstone
       slip[d.nodes[a]] -= (row.normal * way) * (tangential * d.normal[a]);
     if (f.has_anchor && turned.norm() > 1e-12 * row.size)
       for (const auto &[node, rate] : spin)
-        slip[node] -= outer_product(turned, rate);
+        slip[node] -= outer_product(tangential * turned, rate);
 
     f.slip_gradient.assign(slip.begin(), slip.end());
     f.spin_gradient.assign(spin.begin(), spin.end());

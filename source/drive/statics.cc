@@ -11,7 +11,7 @@ namespace Touchstone
     class Statics : public TimeIntegration
     {
     public:
-      Statics(const Scene &scene, const Solid &solid, const Vector &committed_u)
+      Statics(const Solid &solid, const Vector &committed_u)
         : solid(solid)
         , committed_u(committed_u)
         // With friction the stick and slip of a step begin where the last one ended;
@@ -143,6 +143,6 @@ namespace Touchstone
   {
     if (scene.time_integration.dynamic())
       return std::make_unique<Dynamics>(scene, solid, slaves, committed_u);
-    return std::make_unique<Statics>(scene, solid, committed_u);
+    return std::make_unique<Statics>(solid, committed_u);
   }
 } // namespace Touchstone

@@ -36,7 +36,7 @@ namespace Touchstone
     , solid(solid)
     , timer(timer)
     , boundary_conditions(scene, forest, solid)
-    , contact(scene, forest, solid)
+    , contact(scene, forest, solid, boundary_conditions.mirrors())
     , enforcement(EnforcementRegistry::make(scene.contact.enforcement, scene.contact))
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
     , u(solid.owned, solid.communicator)
@@ -46,6 +46,7 @@ namespace Touchstone
     , applied(u)
     , unbalanced(u)
     , increment(u)
+    , solved_increment(u)
     , before_increment(u)
   {
     {
@@ -129,6 +130,7 @@ namespace Touchstone
   StepProblem::begin_step(const double t)
   {
     time = t;
+    enforcement->begin_step();
     integration->begin_step(time, u);
     touch_unknown = integration->dynamic();
     last_residual = 0.;
@@ -532,7 +534,7 @@ namespace Touchstone
     Epetra_Vector      solution(condensed->rows());
     solver->solve(*condensed, modes->motions(), solution);
     const Index n = solid.owned.n_elements();
-    condensed->expand(solution, increment);
+    condensed->expand(solution, solved_increment);
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
     condensed.reset();
     const unsigned int iterations = solver->counts().iterations - before;
@@ -549,6 +551,7 @@ namespace Touchstone
     if (scene.newton.line_search != "none")
       before_rows = contact.rows;
     admissible_part = 1.;
+    increment       = solved_increment;
     Vector trial(u);
     trial += increment;
     for (unsigned int halvings = 0; !solid.admissible(trial); ++halvings)
@@ -563,7 +566,17 @@ namespace Touchstone
       }
     before_increment = u;
     u                = trial;
-    enforcement->update(contact, extra);
+    update_contact();
+  }
+
+
+
+  void
+  StepProblem::update_contact()
+  {
+    enforcement->update(contact, {*system, graph, solved_increment, extra, [this](Vector &force) {
+                                    solid.condense(force);
+                                  }});
   }
 
 
@@ -576,7 +589,7 @@ namespace Touchstone
     // Forces that are unknowns go the same part of their way. Springs and
     // elimination make forces from the displacement, from the rows as they were.
     contact.rows = before_rows;
-    enforcement->update(contact, extra);
+    update_contact();
     const double part =
       fraction < 1. ? fraction * admissible_part : 1.; // all of it: as update() had it
     for (unsigned int p = 0; p < contact.rows.size(); ++p)

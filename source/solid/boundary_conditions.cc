@@ -67,7 +67,10 @@ namespace Touchstone
           {
             const auto id = forest.boundary_id(b, name, section, "Symmetry");
             supports.push_back({body.name, name, Tensor<1, dim>()});
+            const std::size_t before = prescribed.size();
             prescribe_on(id, plane_normal(id, section, name), nullptr, b, supports.size() - 1);
+            for (std::size_t k = before; k < prescribed.size(); ++k)
+              symmetry[prescribed[k].node].push_back(prescribed[k].direction);
           }
         for (const std::string &name : body.conditions)
           {

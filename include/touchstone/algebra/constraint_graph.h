@@ -1,6 +1,7 @@
 #ifndef touchstone_algebra_constraint_graph_h
 #define touchstone_algebra_constraint_graph_h
 
+#include <touchstone/algebra/vector.h>
 #include <touchstone/contact/stencil.h>
 #include <touchstone/types.h>
 
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <boost/container/flat_map.hpp>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -165,6 +167,22 @@ namespace Touchstone
                  const dealii::IndexSet                  &relevant,
                  MPI_Comm                                 communicator) const;
 
+    /**
+     * @brief The forces of the conditions that are eliminated, in the order of accepted();
+     * zero for others.
+     *
+     * With the residual r = b - A x of the solution x, without these forces, they are the
+     * solution of r_p + sum_k mu_k F_kp = 0 for the unknowns p that are eliminated, where F_k
+     * is what condition k acts on. Conditions that refer to unknowns which others eliminate
+     * are solved one after the other; that ends, since such references never lead back.
+     *
+     * @param residual Out-of-balance forces of this rank's unknowns.
+     * @param condense Adds the forces on hanging nodes to the nodes that these follow.
+     * Collective.
+     */
+    std::vector<double>
+    forces(const Vector &residual, const std::function<void(Vector &)> &condense) const;
+
     /** @brief Whether all conditions to be eliminated are symmetric: then both
      * kinds of constraints are the same. Of this rank only. */
     bool
@@ -177,6 +195,9 @@ namespace Touchstone
       dealii::Tensor<1, dim>                    direction;
       boost::container::flat_map<Index, double> others;
       double                                    value = 0.;
+      /** Of which conditions at the node it is a combination, in the order in which these
+       * were accepted. */
+      dealii::Tensor<1, dim> origin;
 
       Side() = default;
       Side(Index node, const NodalForm &form, double value);
@@ -200,6 +221,8 @@ namespace Touchstone
 
     std::vector<Condition>                         conditions;
     std::map<Index, std::vector<ReducedCondition>> nodes;
+    /** Number of each condition among those of its node. */
+    std::vector<unsigned int> numbers;
 
     /** Substitute the conditions of the same node into @p reduced. */
     void

@@ -17,6 +17,10 @@ namespace Touchstone
    * coefficients of equal number add up. */
   using LinearForm = std::vector<std::pair<Index, double>>;
 
+  /** @brief Values of linear forms of the unknowns @p x (owned). Collective. */
+  std::vector<double>
+  evaluate_forms(const std::vector<LinearForm> &forms, const Vector &x);
+
   /**
    * @brief A matrix of rank one, left right^T: a force along @p left that grows with
    * @p right of the displacement, as that of a spring does.
@@ -69,6 +73,13 @@ namespace Touchstone
     bool definite = true;
     /** Relative residual that an iterative solution needs. */
     double tolerance = 1e-8;
+
+    /** @brief b - A x without the conditions and their forces, of this rank's displacement
+     * unknowns; force. Collective.
+     * @param displacement x, all of it.
+     * @param extra        Extra unknowns of this rank. */
+    Vector
+    residual(const Vector &displacement, const std::vector<double> &extra) const;
 
     /** @brief x = T y + g for the displacement part of a solution y of the condensed
      * system, in place. Collective. */

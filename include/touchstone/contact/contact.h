@@ -8,6 +8,7 @@
 #include <touchstone/scene/scene.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -40,9 +41,16 @@ namespace Touchstone
   class Contact
   {
   public:
-    /** @throws InputError for boundaries that do not exist, surfaces without
+    /** Normals of the planes of symmetry that nodes lie on. */
+    using Mirrors = std::map<Index, std::vector<dealii::Tensor<1, dim>>>;
+
+    /** @param mirrors Of owned nodes, by node.
+     * @throws InputError for boundaries that do not exist, surfaces without
      * faces, and pairs whose roles form a circle. */
-    Contact(const Scene &scene, const Forest &forest, const Solid &solid);
+    Contact(const Scene   &scene,
+            const Forest  &forest,
+            const Solid   &solid,
+            const Mirrors &mirrors = Mirrors());
 
     /** @brief Rows of this rank, pair after pair. */
     std::vector<std::vector<ContactRow>> rows;

@@ -6,10 +6,25 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/registry.h>
 
+#include <functional>
 #include <vector>
 
 namespace Touchstone
 {
+  /** @brief What a linear solve has found. */
+  struct LinearSolution
+  {
+    /** The system, and the graph with its conditions. */
+    const LinearSystem    &system;
+    const ConstraintGraph &graph;
+    /** Displacement increment of this rank's unknowns, all of it. */
+    const Vector &increment;
+    /** Extra unknowns of this rank. */
+    const std::vector<double> &extra;
+    /** Adds the forces on hanging nodes to the nodes that these follow. */
+    std::function<void(Vector &)> condense;
+  };
+
   /**
    * @brief Turns active rows into parts of the linear system, and its solution
    * into contact forces. Never asks where a row came from. Registered by name.
@@ -22,6 +37,12 @@ namespace Touchstone
   {
   public:
     virtual ~Enforcement() = default;
+
+    /** @brief A step begins, or begins again: no linear solve has come before. */
+    virtual void
+    begin_step()
+    {
+    }
 
     /**
      * @brief Bring the contact forces of the rows up to date before they are
@@ -62,9 +83,9 @@ namespace Touchstone
       return 0.;
     }
 
-    /** @brief Take the values of this rank's extra unknowns. */
+    /** @brief Take from the solution what contact forces are made of. Collective. */
     virtual void
-    update(Contact &contact, const std::vector<double> &extra) = 0;
+    update(Contact &contact, const LinearSolution &solution) = 0;
   };
 
   using EnforcementRegistry = Registry<Enforcement, const ContactParameters &>;

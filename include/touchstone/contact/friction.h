@@ -42,6 +42,9 @@ namespace Touchstone
     using Mat = dealii::Tensor<2, dim>;
 
     const FrictionLaw *law = nullptr;
+    /** Normals of the planes of symmetry that the node lies on: the other half of the body
+     * cancels what friction there is along them. */
+    std::vector<Vec> mirrors;
     /** No elastic slip, where the enforcement can do without. */
     bool exact = true;
     /** Stiffness of regularised stick alpha_t, force per length. */
@@ -75,6 +78,10 @@ namespace Touchstone
     Vec slip;
     /** Unit tangents; the first one is carried along with the slave surface. */
     std::array<Vec, 2> frame;
+    /** Projector onto the directions that friction can act along, which are tangential and
+     * lie in the planes of symmetry, and an orthonormal basis of them. */
+    Mat              tangential;
+    std::vector<Vec> tangents;
     /** The stored force in the present frame. */
     Vec start;
     /** d slip / d x_a, and the rate at which the frame turns about the normal,
@@ -86,8 +93,11 @@ namespace Touchstone
     /** @name Formulation, chosen by the enforcement */
     /** @{ */
     /** Conditions hold the node while it sticks. */
-    bool   hold = false;
-    double c    = 1.;
+    bool hold = false;
+    /** Tangents along which no condition holds it, because a support or another pair
+     * determines its displacement there: springs with an augmented force do. */
+    std::vector<Vec> unheld;
+    double           c = 1.;
     Vec    base;
     /** The base is the force that is carried along with the slave surface. */
     bool carried = false;
@@ -110,6 +120,10 @@ namespace Touchstone
     void
     clear_force();
 
+    /** @brief Set the directions that friction can act along, from the frame. */
+    void
+    find_tangents(const Vec &normal);
+
     /** @brief A tangential vector from its components in the moving frame. */
     Vec
     carry(const std::array<double, 2> &components) const
@@ -126,6 +140,23 @@ namespace Touchstone
      * @param force The present tangential force. */
     Vec
     irreversible_slip(const Vec &force) const;
+
+    /** @brief Force per length of the springs along unheld tangents.
+     * @param stiffness ContactRow::stiffness. */
+    static double
+    unheld_stiffness(const double stiffness)
+    {
+      return 100. * stiffness;
+    }
+
+    /** @brief Let the springs along unheld tangents take the force that the present slip
+     * asks for. */
+    void
+    augment_unheld(const double stiffness)
+    {
+      for (const Vec &tangent : unheld)
+        base -= unheld_stiffness(stiffness) * (slip * tangent) * tangent;
+    }
 
     /** @brief Take the regularised formulation. */
     void

@@ -1,6 +1,7 @@
 #ifndef touchstone_contact_row_h
 #define touchstone_contact_row_h
 
+#include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/contact/friction.h>
 #include <touchstone/contact/stencil.h>
 #include <touchstone/types.h>
@@ -142,13 +143,17 @@ namespace Touchstone
       return accepted == 0 && refused > 0;
     }
 
-    /** @brief Take note of what the constraint graph said to a condition. */
-    void
-    take(const bool was_accepted)
+    /** @brief Take note of whether the constraint graph accepted a condition, the one
+     * along the normal first; returns that. */
+    bool
+    take(const Condition &condition, const bool was_accepted)
     {
       if (accepted + refused == 0)
         normal_accepted = was_accepted;
+      else if (!was_accepted && held() && friction)
+        friction->unheld.push_back(condition.direction);
       ++(was_accepted ? accepted : refused);
+      return was_accepted;
     }
   };
 } // namespace Touchstone

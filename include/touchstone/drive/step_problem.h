@@ -176,7 +176,9 @@ namespace Touchstone
     double time = 0., committed_time = 0.;
     /** Displacements, and forces on the nodes; applied are all but those of contact, as
      * the time integration weighs them. */
-    Vector u, committed_u, external, internal, applied, unbalanced, increment;
+    Vector u, committed_u, external, internal, applied, unbalanced;
+    /** Of the last linear solve: what was taken of it, and all. */
+    Vector increment, solved_increment;
     std::unique_ptr<TimeIntegration> integration;
     /** Part of the step after which the first guess of its end has bodies meet. */
     double touch         = 1.;
@@ -209,6 +211,9 @@ namespace Touchstone
 
     void
     check_supports();
+    /** Let contact forces follow from the last linear solve. */
+    void
+    update_contact();
     /** Take from the forces on nodes what their supports carry. */
     void
     remove_supported(Vector &force) const;

@@ -67,6 +67,13 @@ namespace Touchstone
     std::vector<PrescribedDisplacement>
     displacements(double t) const;
 
+    /** @brief Normals of the planes of symmetry that owned nodes lie on, by node. */
+    const std::map<Index, std::vector<dealii::Tensor<1, dim>>> &
+    mirrors() const
+    {
+      return symmetry;
+    }
+
     /**
      * @brief Forces that the supports exert on the bodies.
      * @param unbalanced Internal minus external minus contact forces at each
@@ -104,6 +111,8 @@ namespace Touchstone
 
     const Solid            &solid;
     std::vector<Prescribed> prescribed;
+    /** Of owned nodes. */
+    std::map<Index, std::vector<dealii::Tensor<1, dim>>> symmetry;
     std::vector<Load>       loads;
     /** Force per reference volume, by body; empty if there is none at all. */
     std::vector<std::array<Function, dim>> body_forces;

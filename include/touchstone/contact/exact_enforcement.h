@@ -1,0 +1,78 @@
+#ifndef touchstone_contact_exact_enforcement_h
+#define touchstone_contact_exact_enforcement_h
+
+#include <touchstone/contact/enforcement.h>
+
+namespace Touchstone
+{
+  /**
+   * @brief What enforcements have in common that meet the conditions of active rows exactly
+   * and find the contact forces as the multipliers of these conditions.
+   *
+   * The forces are those of the last linear solve. The normal force follows the present
+   * normal, friction in slip the present slip. Where a support or another pair determines
+   * the tangential displacement of a slave node, a condition on it would be refused: stick
+   * is then enforced on the master surface, by a spring whose force is augmented in each
+   * iteration until it leaves no slip.
+   * Alart and Curnier (1991), Comput. Methods Appl. Mech. Engng 92.
+   */
+  class ExactEnforcement : public Enforcement
+  {
+  public:
+    void
+    begin_step() override
+    {
+      solved = false;
+    }
+
+    void
+    recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override;
+
+    void
+    enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override;
+
+    void
+    update(Contact &contact, const LinearSolution &solution) override;
+
+  protected:
+    /** A condition of a row that the graph has accepted. */
+    struct Accepted
+    {
+      ContactRow *row;
+      Condition   condition;
+    };
+
+    /** @brief How the conditions are met. */
+    virtual ConstraintGraph::Treatment
+    treatment() const = 0;
+
+    /** @brief Add what the conditions need to the system. Collective. */
+    virtual void
+    add_to_system(const std::vector<Accepted> & /*accepted*/, LinearSystem & /*system*/)
+    {
+    }
+
+    /** @brief A last change of a condition before it is offered to the graph. */
+    virtual void
+    adjust(const ContactRow & /*row*/, Condition & /*condition*/) const
+    {
+    }
+
+    /** @brief Conditions are about to be offered. Collective. */
+    virtual void
+    prepare(Contact & /*contact*/, const LinearSystem & /*system*/)
+    {
+    }
+
+    /** @brief The forces of the accepted conditions, along their directions. Collective. */
+    virtual std::vector<double>
+    multipliers(const std::vector<Accepted> &accepted, const LinearSolution &solution) const = 0;
+
+  private:
+    std::vector<Accepted> accepted;
+    /** A linear solve has come after the last recover(). */
+    bool solved = false;
+  };
+} // namespace Touchstone
+
+#endif

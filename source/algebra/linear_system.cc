@@ -1,0 +1,90 @@
+#include <touchstone/algebra/linear_system.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A copy of @p x with the entries of other ranks that @p for_each_form refers to. */
+    template <class ForEachForm>
+    Vector
+    with_ghosts(const Vector &x, const ForEachForm &for_each_form)
+    {
+      const IndexSet     owned = x.locally_owned_elements();
+      std::vector<Index> far;
+      for_each_form([&](const LinearForm &form) {
+        for (const auto &[unknown, value] : form)
+          if (unknown < x.size() && !owned.is_element(unknown))
+            far.push_back(unknown);
+      });
+      std::sort(far.begin(), far.end());
+      IndexSet known(owned);
+      known.add_indices(far.begin(), std::unique(far.begin(), far.end()));
+      known.compress();
+      Vector result(owned, known, x.get_mpi_communicator());
+      result = x;
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<double>
+  evaluate_forms(const std::vector<LinearForm> &forms, const Vector &x)
+  {
+    const Vector ghosted = with_ghosts(x, [&](const auto &visit) {
+      for (const LinearForm &form : forms)
+        visit(form);
+    });
+    std::vector<double> result;
+    for (const LinearForm &form : forms)
+      {
+        double sum = 0.;
+        for (const auto &[unknown, value] : form)
+          sum += value * ghosted(unknown);
+        result.push_back(sum);
+      }
+    return result;
+  }
+
+
+
+  Vector
+  LinearSystem::residual(const Vector &displacement, const std::vector<double> &extra) const
+  {
+    Vector result(rhs), part(rhs);
+    stiffness->vmult(part, displacement);
+    result -= part;
+    if (diagonal_shift.size() > 0)
+      {
+        part = displacement;
+        part.scale(diagonal_shift);
+        result -= part;
+      }
+
+    const Vector        ghosted = with_ghosts(displacement, [&](const auto &visit) {
+      for (const RankOneTerm &term : terms)
+        visit(term.right);
+    });
+    std::vector<Index>  unknowns;
+    std::vector<double> values;
+    for (const RankOneTerm &term : terms)
+      {
+        double amount = 0.;
+        for (const auto &[column, value] : term.right)
+          amount += value * (column < rhs.size() ? ghosted(column) : extra[column - first_extra]);
+        for (const auto &[row, value] : term.left)
+          if (row < rhs.size())
+            {
+              unknowns.push_back(row);
+              values.push_back(-value * amount);
+            }
+      }
+    result.add(unknowns, values);
+    result.compress(VectorOperation::add);
+    return result;
+  }
+} // namespace Touchstone
