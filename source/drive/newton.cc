@@ -95,11 +95,15 @@ namespace Touchstone
     int                     linear  = 0;
     NewtonState             state;
     double                  best  = std::numeric_limits<double>::max();
-    unsigned int            stuck = 0;
+    unsigned int            stuck = 0, n_iterations = 0;
     LineSearch              line_search(parameters);
-    for (unsigned int iteration = 0; iteration <= parameters.maximum_iterations; ++iteration)
+    // Where stick gives way to slip node by node, as under a belt, each iteration brings the
+    // front one node further: that is progress and may take twice as long.
+    const unsigned int longest = 2 * parameters.maximum_iterations;
+    for (unsigned int iteration = 0; iteration <= longest; ++iteration)
       {
-        state = problem.residual(caution);
+        state        = problem.residual(caution);
+        n_iterations = iteration;
         if (iteration > 0 && line_search.failed(state))
           state = line_search.shorten(problem, caution);
         if (iteration > 0)
@@ -118,7 +122,8 @@ namespace Touchstone
         best  = all_else ? std::min(best, state.residual) : std::numeric_limits<double>::max();
         if (stuck >= 3 && state.residual <= 100. * parameters.residual_tolerance)
           return iteration;
-        if (iteration == parameters.maximum_iterations)
+        if (iteration == longest ||
+            (iteration >= parameters.maximum_iterations && state.changes == 0))
           break;
 
         // A set that was left and comes back would come back for ever. Changing
@@ -133,7 +138,7 @@ namespace Touchstone
         problem.update();
       }
     std::ostringstream text;
-    text << "no convergence in " << parameters.maximum_iterations << " Newton iterations: residual "
+    text << "no convergence in " << n_iterations << " Newton iterations: residual "
          << state.residual << ", gap " << state.gap << ", " << state.changes
          << " contact rows changed"
          << (state.prescribed ? "" : ", prescribed displacements not met");
