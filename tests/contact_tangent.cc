@@ -233,22 +233,10 @@ end
     void
     evaluate()
     {
-      if (enforcement_name == "elimination")
-        {
-          // Without the balance: the normal force and that of stick stay.
-          for (ContactRow &row : rows())
-            if (row.active())
-              {
-                if (row.friction)
-                  choose_friction(row);
-                respond(row);
-              }
-        }
-      else
-        enforcement->recover(contact,
-                             made.displacement(
-                               [](const Point<dim> &, unsigned int) { return Tensor<1, dim>(); }),
-                             graph);
+      enforcement->recover(contact,
+                           made.displacement(
+                             [](const Point<dim> &, unsigned int) { return Tensor<1, dim>(); }),
+                           graph);
     }
 
     /** Contact forces at the nodes; exact slip against the present slip. */

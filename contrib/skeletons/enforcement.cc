@@ -55,10 +55,8 @@ namespace Touchstone
               {
                 // Not eliminated, but known to the graph: it refuses what supports
                 // decide already, and sees which bodies contact holds.
-                const bool accepted =
-                  graph.accept(condition, ConstraintGraph::Treatment::multiplier);
-                row.take(accepted);
-                if (!accepted)
+                if (!row.take(condition,
+                              graph.accept(condition, ConstraintGraph::Treatment::multiplier)))
                   continue;
                 if (!condition.symmetric())
                   system.symmetric = false;
@@ -73,9 +71,9 @@ namespace Touchstone
       }
 
       void
-      update(Contact &, const std::vector<double> &) override
+      update(Contact &) override
       {
-        // TODO: take the values of unknowns of your own, if there are any.
+        // TODO: what the forces are made of, as unknowns of your own, comes with take().
         solved = true;
       }
 

@@ -187,10 +187,10 @@ namespace Touchstone
   ConstraintGraph::accept(const Condition &condition, const Treatment treatment)
   {
     ReducedCondition reduced;
-    reduced.treatment = treatment;
-    reduced.symmetric = condition.symmetric();
-    reduced.motion    = Side(condition.node, condition.motion_form(), condition.value);
-    reduced.force     = Side(condition.node, condition.force_form(), 0.);
+    reduced.treatment         = treatment;
+    reduced.symmetric         = condition.symmetric();
+    reduced.motion            = Side(condition.node, condition.motion_form(), condition.value);
+    reduced.force             = Side(condition.node, condition.force_form(), 0.);
     const auto         found  = nodes.find(condition.node);
     const unsigned int number = found == nodes.end() ? 0 : found->second.size();
     if (number >= dim)
@@ -242,7 +242,7 @@ namespace Touchstone
                           const std::function<void(Vector &)> &condense) const
   {
     // References between conditions are no longer than a few; more would be a cycle.
-    constexpr unsigned int longest = 1000;
+    constexpr unsigned int longest   = 1000;
     constexpr double       round_off = 1e-14;
 
     Vector rest(residual);

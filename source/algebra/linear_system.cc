@@ -35,7 +35,7 @@ namespace Touchstone
   std::vector<double>
   evaluate_forms(const std::vector<LinearForm> &forms, const Vector &x)
   {
-    const Vector ghosted = with_ghosts(x, [&](const auto &visit) {
+    const Vector        ghosted = with_ghosts(x, [&](const auto &visit) {
       for (const LinearForm &form : forms)
         visit(form);
     });

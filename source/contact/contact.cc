@@ -103,7 +103,7 @@ namespace Touchstone
             if (parameters.friction)
               {
                 row.friction.emplace();
-                row.friction->law   = parameters.friction.get();
+                row.friction->law = parameters.friction.get();
                 if (const auto found = mirrors.find(node.node); found != mirrors.end())
                   row.friction->mirrors = found->second;
                 row.friction->exact = (scene.contact.friction == "exact");

@@ -42,9 +42,8 @@ namespace Touchstone
 
 
   void
-  ExactEnforcement::update(Contact &, const LinearSolution &solution)
+  ExactEnforcement::update(Contact &)
   {
-    const std::vector<double> forces = multipliers(accepted, solution);
     for (const Accepted &entry : accepted)
       entry.row->force = Tensor<1, dim>();
     for (std::size_t k = 0; k < accepted.size(); ++k)

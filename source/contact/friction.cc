@@ -153,7 +153,8 @@ namespace Touchstone
                                 : stiffest * row.stiffness;
         const Mat    across = tangential - outer_product(direction, direction);
         f.slope             = kappa * across;
-        if (!f.carried && f.last_direction.norm() > 0. && f.c * f.slip.norm() <= nothing * row.stiffness * row.size)
+        if (!f.carried && f.last_direction.norm() > 0. &&
+            f.c * f.slip.norm() <= nothing * row.stiffness * row.size)
           f.slope = Mat();
         if (!f.carried)
           f.rest -= f.slope * f.slip;

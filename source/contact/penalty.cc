@@ -101,17 +101,23 @@ namespace Touchstone
       }
 
       void
-      update(Contact &, const LinearSolution &solution) override
+      take(const LinearSolution &solution) override
       {
         std::vector<LinearForm> forms;
         for (const Spring &spring : springs)
           forms.push_back(by_unknowns(spring.condition.motion_form()));
         const std::vector<double> elongations = evaluate_forms(forms, solution.increment);
+        for (std::size_t k = 0; k < springs.size(); ++k)
+          springs[k].force -= springs[k].epsilon * elongations[k];
+      }
+
+      void
+      update(Contact &) override
+      {
         for (const Spring &spring : springs)
           spring.row->force = Tensor<1, dim>();
-        for (std::size_t k = 0; k < springs.size(); ++k)
-          springs[k].row->force +=
-            (springs[k].force - springs[k].epsilon * elongations[k]) * springs[k].condition.direction;
+        for (const Spring &spring : springs)
+          spring.row->force += spring.force * spring.condition.direction;
         for (const Spring &spring : springs)
           spring.row->lambda = spring.row->force * spring.row->normal;
         solved = true;
@@ -151,7 +157,8 @@ namespace Touchstone
       choose_friction(ContactRow &row, double epsilon) const = 0;
 
     private:
-      /** A condition that a spring meets: its force before the solve, and its stiffness. */
+      /** A condition that a spring meets: its force before a solve, then after it; its stiffness.
+       */
       struct Spring
       {
         ContactRow *row;

@@ -224,9 +224,9 @@ namespace Touchstone
       }
     if (!row.friction)
       return;
-    FrictionState &f = *row.friction;
-    f.last_direction = f.direction;
-    f.last_slope     = f.slope;
+    FrictionState &f     = *row.friction;
+    f.last_direction     = f.direction;
+    f.last_slope         = f.slope;
     Tensor<1, dim> rest  = f.rest;
     Tensor<2, dim> slope = f.slope;
     if (row.held())

@@ -537,6 +537,8 @@ namespace Touchstone
     condensed->expand(solution, solved_increment);
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
     condensed.reset();
+    enforcement->take(
+      {*system, graph, solved_increment, extra, [this](Vector &force) { solid.condense(force); }});
     const unsigned int iterations = solver->counts().iterations - before;
     return iterations == 0 ? -1 : static_cast<int>(iterations);
   }
@@ -566,17 +568,7 @@ namespace Touchstone
       }
     before_increment = u;
     u                = trial;
-    update_contact();
-  }
-
-
-
-  void
-  StepProblem::update_contact()
-  {
-    enforcement->update(contact, {*system, graph, solved_increment, extra, [this](Vector &force) {
-                                    solid.condense(force);
-                                  }});
+    enforcement->update(contact);
   }
 
 
@@ -589,7 +581,7 @@ namespace Touchstone
     // Forces that are unknowns go the same part of their way. Springs and
     // elimination make forces from the displacement, from the rows as they were.
     contact.rows = before_rows;
-    update_contact();
+    enforcement->update(contact);
     const double part =
       fraction < 1. ? fraction * admissible_part : 1.; // all of it: as update() had it
     for (unsigned int p = 0; p < contact.rows.size(); ++p)

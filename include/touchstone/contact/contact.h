@@ -247,7 +247,7 @@ namespace Touchstone
     Vector stencil_values;
     /** With friction: positions of all nodes in the reference state (owned), and
      * at present for those that stencils and anchors refer to. */
-    Vector           reference_positions, owned_positions, positions;
+    Vector reference_positions, owned_positions, positions;
     /** The same when the step began. */
     Vector           owned_start_positions, start_positions;
     dealii::IndexSet positions_known;

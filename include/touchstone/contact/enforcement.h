@@ -31,7 +31,7 @@ namespace Touchstone
    *
    * In each Newton iteration: recover() with the prescribed displacements in the
    * graph, then the active set is updated, then enforce(), then the system is
-   * solved, then update().
+   * solved, then take() and update().
    */
   class Enforcement
   {
@@ -83,9 +83,16 @@ namespace Touchstone
       return 0.;
     }
 
-    /** @brief Take from the solution what contact forces are made of. Collective. */
+    /** @brief Take from a solution what contact forces are made of. Collective. */
     virtual void
-    update(Contact &contact, const LinearSolution &solution) = 0;
+    take(const LinearSolution & /*solution*/)
+    {
+    }
+
+    /** @brief Set the forces of the rows to those of the last solution; called again, with the
+     * rows as they were before, where a part of the increment is taken back. */
+    virtual void
+    update(Contact &contact) = 0;
   };
 
   using EnforcementRegistry = Registry<Enforcement, const ContactParameters &>;

@@ -32,7 +32,13 @@ namespace Touchstone
     enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override;
 
     void
-    update(Contact &contact, const LinearSolution &solution) override;
+    take(const LinearSolution &solution) override
+    {
+      forces = multipliers(accepted, solution);
+    }
+
+    void
+    update(Contact &contact) override;
 
   protected:
     /** A condition of a row that the graph has accepted. */
@@ -69,7 +75,9 @@ namespace Touchstone
     multipliers(const std::vector<Accepted> &accepted, const LinearSolution &solution) const = 0;
 
   private:
+    /** Of the last system, and what its solution has made of them. */
     std::vector<Accepted> accepted;
+    std::vector<double>   forces;
     /** A linear solve has come after the last recover(). */
     bool solved = false;
   };

@@ -98,7 +98,7 @@ namespace Touchstone
      * determines its displacement there: springs with an augmented force do. */
     std::vector<Vec> unheld;
     double           c = 1.;
-    Vec    base;
+    Vec              base;
     /** The base is the force that is carried along with the slave surface. */
     bool carried = false;
     /** @} */

@@ -211,9 +211,6 @@ namespace Touchstone
 
     void
     check_supports();
-    /** Let contact forces follow from the last linear solve. */
-    void
-    update_contact();
     /** Take from the forces on nodes what their supports carry. */
     void
     remove_supported(Vector &force) const;
