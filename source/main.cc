@@ -59,7 +59,8 @@ namespace
     const RunSummary summary = simulation.run();
     if (first)
       {
-        summary.print_results(std::cout);
+        // Round-off decides how many iterations a run takes, and not its results.
+        summary.print_results(std::cout, /*with_iterations=*/!line.results_only);
         if (!line.results_only)
           {
             for (const std::string &text : simulation.comparison())

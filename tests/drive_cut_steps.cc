@@ -106,7 +106,11 @@ main(int argc, char **argv)
   const std::string                pairing = "Contact pair contact/Pairing=";
   for (const std::string enforcement :
        {"elimination", "lagrange multipliers", "augmented lagrange", "penalty"})
-    compare({"Contact/Enforcement=" + enforcement, pairing + "pointwise"});
+    // A step that is tried again starts from another guess: what is converged must not show it.
+    compare({"Contact/Enforcement=" + enforcement,
+             pairing + "pointwise",
+             "Newton/Residual tolerance=1e-12",
+             "Newton/Gap tolerance=1e-10"});
   compare(
     {"Contact/Enforcement=elimination", pairing + "pointwise", "Contact/Friction=regularised"});
   compare({"Contact/Enforcement=elimination", pairing + "averaged"});

@@ -169,7 +169,7 @@ namespace Touchstone
 
 
   void
-  RunSummary::print_results(std::ostream &out) const
+  RunSummary::print_results(std::ostream &out, const bool with_iterations) const
   {
     double force_scale = 0., moment_scale = 0.;
     for (const auto &[name, result] : contact)
@@ -181,9 +181,10 @@ namespace Touchstone
       for (const auto &[boundary, force] : boundaries)
         force_scale = std::max(force_scale, largest_component(force));
 
-    out << (converged ? "Converged" : "NOT CONVERGED") << ": " << steps << " steps, "
-        << iterations.newton << " Newton iterations";
-    if (iterations.damped > 0)
+    out << (converged ? "Converged" : "NOT CONVERGED") << ": " << steps << " steps";
+    if (with_iterations)
+      out << ", " << iterations.newton << " Newton iterations";
+    if (with_iterations && iterations.damped > 0)
       out << ", " << iterations.damped << " with a shorter increment";
     out << '\n';
     if (!failure.empty())

@@ -116,7 +116,7 @@ namespace Touchstone
      * 1e-9 of the largest force (moment) counts as zero.
      */
     void
-    print_results(std::ostream &out) const;
+    print_results(std::ostream &out, bool with_iterations = true) const;
   };
 } // namespace Touchstone
 
