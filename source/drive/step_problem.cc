@@ -628,6 +628,8 @@ namespace Touchstone
     if (!stabilised.empty())
       text +=
         std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
+    for (const std::string &remark : solver->take_remarks())
+      text += (text.empty() ? "" : "\n") + remark;
     return text;
   }
 } // namespace Touchstone
