@@ -15,7 +15,7 @@ namespace Touchstone
     /**
      * Iterations with multigrid where the system is large and has no multipliers, conjugate
      * gradients if it is symmetric and GMRES otherwise; else MUMPS: also
-     * for the rest of the run where an iteration has once failed.
+     * for the rest of the run where iterations have failed for good.
      */
     class AutomaticSolver : public LinearSolver
     {
@@ -41,7 +41,7 @@ namespace Touchstone
       void
       forget() override
       {
-        failed = false;
+        strikes.succeeded();
         for (Method *method : {&cg, &gmres})
           if (method->solver)
             method->solver->forget();
@@ -56,12 +56,13 @@ namespace Touchstone
       };
       Method                              cg{"Belos CG", nullptr}, gmres{"Belos GMRES", nullptr};
       const std::shared_ptr<LinearSolver> direct;
-      bool                                failed = false;
+      Strikes                             strikes;
+      bool                                told_of_one = false, told_of_all = false;
 
       bool
       iterates(const int n_unknowns) const
       {
-        return !failed && n_unknowns >= many_unknowns;
+        return !strikes.out() && n_unknowns >= many_unknowns;
       }
 
       /** The size decides how many iterations are worth while, and does not change. */
@@ -104,6 +105,17 @@ namespace Touchstone
             }
       }
 
+      /** One remark for the first solve that falls back, and one for all that follow. */
+      void
+      tell(const std::string &reason)
+      {
+        if (strikes.out() && !told_of_all)
+          remark("linear solver: MUMPS from now on (" + reason + ")");
+        else if (!strikes.out() && !told_of_one)
+          remark("linear solver: MUMPS where iterations fail (" + reason + ")");
+        (strikes.out() ? told_of_all : told_of_one) = true;
+      }
+
       /** @return Whether it succeeded. */
       bool
       try_to_iterate(const CondensedSystem &system,
@@ -118,12 +130,13 @@ namespace Touchstone
         try
           {
             delegate(iterative, system, motions, solution);
+            strikes.succeeded();
             return true;
           }
         catch (const LinearSolverFailure &failure)
           {
-            remark("linear solver: MUMPS from now on (" + std::string(failure.what()) + ")");
-            failed = true;
+            strikes.failed(system.symmetric);
+            tell(failure.what());
             iterative.forget();
             solution.PutScalar(0.);
             return false;

@@ -5,6 +5,7 @@
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/algebra/multigrid.h>
 #include <touchstone/algebra/non_convergence.h>
+#include <touchstone/algebra/watched_iteration.h>
 
 #include <BelosBlockCGSolMgr.hpp>
 #include <BelosBlockGmresSolMgr.hpp>
@@ -15,6 +16,7 @@
 #include <Teuchos_RCP.hpp>
 #include <Teuchos_oblackholestream.hpp>
 #include <memory>
+#include <utility>
 
 namespace Touchstone
 {
@@ -22,7 +24,6 @@ namespace Touchstone
   {
     using Problem = Belos::LinearProblem<double, Epetra_MultiVector, Epetra_Operator>;
     using Manager = Belos::SolverManager<double, Epetra_MultiVector, Epetra_Operator>;
-    using Test    = Belos::StatusTest<double, Epetra_MultiVector, Epetra_Operator>;
 
     /** Multigrid that would take more iterations than ConvergenceWatch::patience() is replaced by
      * factors in systems of up to so many unknowns, of which they need some GB. */
@@ -46,71 +47,6 @@ namespace Touchstone
 
     private:
       const std::shared_ptr<Epetra_CrsMatrix> matrix;
-    };
-
-    /** Watches conjugate gradients, which apply the preconditioner to their residual. */
-    class WatchedPreconditioner : public SquareOperator
-    {
-    public:
-      WatchedPreconditioner(const Epetra_Operator &inner, ConvergenceWatch &watch)
-        : SquareOperator(inner.OperatorDomainMap(), "watched preconditioner")
-        , inner(inner)
-        , watch(watch)
-      {
-      }
-
-      int
-      ApplyInverse(const Epetra_MultiVector &rhs, Epetra_MultiVector &result) const override
-      {
-        if (watch.wants_next())
-          {
-            double residual = 0.;
-            rhs(0)->Norm2(&residual);
-            watch.next(residual);
-          }
-        else
-          watch.skip();
-        return inner.ApplyInverse(rhs, result);
-      }
-
-    private:
-      const Epetra_Operator &inner;
-      ConvergenceWatch      &watch;
-    };
-
-    /** Watches GMRES, which knows its residual. */
-    class WatchingTest : public Test
-    {
-    public:
-      explicit WatchingTest(ConvergenceWatch &watch)
-        : watch(watch)
-      {
-      }
-
-      Belos::StatusType
-      checkStatus(Belos::Iteration<double, Epetra_MultiVector, Epetra_Operator> *solver) override
-      {
-        std::vector<double> norms(1);
-        solver->getNativeResiduals(&norms);
-        watch.next(norms[0]);
-        return Belos::Failed;
-      }
-      Belos::StatusType
-      getStatus() const override
-      {
-        return Belos::Failed;
-      }
-      void
-      reset() override
-      {
-      }
-      void
-      print(std::ostream &, int) const override
-      {
-      }
-
-    private:
-      ConvergenceWatch &watch;
     };
 
     /**
@@ -142,13 +78,15 @@ namespace Touchstone
       forget() override
       {
         preconditioner.reset();
+        strikes.succeeded();
         slow = false;
       }
 
     private:
       std::unique_ptr<Epetra_Operator> preconditioner;
       /** Multigrid would take too many iterations, factors are kept instead. */
-      bool slow = false;
+      bool    slow = false, told = false;
+      Strikes strikes;
       /** Constrained unknowns of its matrix, and those of changed basis. */
       std::vector<char> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
@@ -304,8 +242,15 @@ namespace Touchstone
         for (int i = 0; i < near_kernel.MyLength(); ++i)
           if (system.constrained[i] || system.changed[i])
             near_kernel[v][i] = 0.;
-      return std::make_unique<Multigrid>(
-        system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
+      try
+        {
+          return std::make_unique<Multigrid>(
+            system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
+        }
+      catch (const LinearSolverFailure &failure)
+        {
+          throw SlowConvergence(failure.what());
+        }
     }
 
 
@@ -433,16 +378,19 @@ namespace Touchstone
         }
       catch (const SlowConvergence &slowness)
         {
-          if (parameters.patience > 0)
+          if (parameters.patience > 0 || system.rows().NumGlobalElements() > factorisable)
             throw LinearSolverFailure(parameters.type + ": " + slowness.what());
-          remark(
-            parameters.type + ": " + slowness.what() +
-            "; from now on factors of MUMPS, kept while the contact rows stay, take its place");
+          if (!std::exchange(told, true))
+            remark(parameters.type + ": " + slowness.what() +
+                   "; factors of MUMPS take its place where it does");
           slow = true;
+          strikes.failed(system.symmetric);
           set_up(system, motions);
           solution.PutScalar(0.);
           iterations = iterate(system, solution);
         }
+      if (!slow)
+        strikes.succeeded();
       if (iterations < 0)
         throw LinearSolverFailure(parameters.type + " did not converge in " +
                                   std::to_string(parameters.maximum_iterations) + " iterations");
@@ -450,6 +398,11 @@ namespace Touchstone
         fresh_iterations = std::max(iterations, 1);
       else if (iterations > fresh_iterations * 3 / 2 + 5)
         preconditioner.reset();
+      if (slow && !strikes.out())
+        {
+          preconditioner.reset();
+          slow = false;
+        }
     }
   } // namespace
 } // namespace Touchstone

@@ -60,6 +60,35 @@ namespace Touchstone
     unsigned int n_residuals = 0;
     double       first = 0., smallest = 0.;
   };
+
+  /**
+   * @brief Whether multigrid has failed for good: at once in a symmetric system, where the bodies
+   * are to blame, and after three solves on end in unsymmetric ones, where a Newton iterate
+   * with wild forces of friction may be.
+   */
+  class Strikes
+  {
+  public:
+    void
+    failed(const bool symmetric)
+    {
+      n += symmetric ? most : 1;
+    }
+    void
+    succeeded()
+    {
+      n = 0;
+    }
+    bool
+    out() const
+    {
+      return n >= most;
+    }
+
+  private:
+    static constexpr unsigned int most = 3;
+    unsigned int                  n    = 0;
+  };
 } // namespace Touchstone
 
 #endif
