@@ -82,9 +82,10 @@ namespace Touchstone
   friction_springs(const ContactRow &row)
   {
     std::vector<Condition> conditions = elastic_stick(row);
-    // Friction that turns with the slip resists across it like a spring.
+    // Friction that turns with the slip resists across it like a spring. A soft one is not worth
+    // an unknown that multigrid keeps out of its coarse spaces.
     if (row.friction && row.status == ContactStatus::slip && !row.dropped() &&
-        row.friction->slope.norm_square() > 0.)
+        row.friction->slope.norm() > 10. * row.stiffness)
       {
         conditions.push_back(blank_condition(row));
         conditions.back().direction = cross_product_3d(row.normal, row.friction->direction);
