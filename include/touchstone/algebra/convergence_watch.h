@@ -28,7 +28,7 @@ namespace Touchstone
      */
     ConvergenceWatch(double tolerance, double patience);
 
-    /** @brief Iterations with multigrid that cost about as much as a factorisation, of a system of
+    /** @brief Iterations with multigrid above which a factorisation is preferred, of a system of
      * that size (doc/benchmarks.md). */
     static double
     patience(int n_unknowns);
