@@ -1,3 +1,4 @@
+#include <touchstone/algebra/convergence_watch.h>
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/algebra/non_convergence.h>
 
@@ -7,21 +8,20 @@ namespace Touchstone
 {
   namespace
   {
-    /** From this number of unknowns on, conjugate gradients with multigrid are faster than
-     * a factorisation (doc/benchmarks.md), unless they take more iterations than these. */
-    constexpr int          many_unknowns = 10000;
-    constexpr unsigned int patience      = 300;
+    /** From this number of unknowns on, iterations with multigrid are faster than
+     * a factorisation (doc/benchmarks.md), unless they are many. */
+    constexpr int many_unknowns = 10000;
 
     /**
-     * Conjugate gradients where the system is large and allows it, else MUMPS: also
-     * for the rest of the run where the iteration has once failed.
+     * Iterations with multigrid where the system is large and has no multipliers, conjugate
+     * gradients if it is symmetric and GMRES otherwise; else MUMPS: also
+     * for the rest of the run where iterations have failed for good.
      */
     class AutomaticSolver : public LinearSolver
     {
     public:
       explicit AutomaticSolver(const LinearSolverParameters &parameters)
         : LinearSolver(parameters)
-        , iterative(LinearSolverRegistry::make("Belos CG", with_patience(parameters)))
         , direct(LinearSolverRegistry::make("MUMPS", parameters))
       {
       }
@@ -29,32 +29,57 @@ namespace Touchstone
       bool
       wants_basis_change(const int n_unknowns) const override
       {
-        return !failed && n_unknowns >= many_unknowns;
+        return iterates(n_unknowns);
       }
 
       bool
       applies_operator(const int n_unknowns) const override
       {
-        return !failed && n_unknowns >= many_unknowns && iterative->applies_operator(n_unknowns);
+        return iterates(n_unknowns) && parameters.contact_operator == "applied";
       }
 
       void
       forget() override
       {
-        failed = false;
-        iterative->forget();
+        strikes.succeeded();
+        for (Method *method : {&cg, &gmres})
+          if (method->solver)
+            method->solver->forget();
         direct->forget();
       }
 
     private:
-      const std::shared_ptr<LinearSolver> iterative, direct;
-      bool                                failed = false;
-
-      static LinearSolverParameters
-      with_patience(LinearSolverParameters parameters)
+      struct Method
       {
-        parameters.maximum_iterations = std::min(parameters.maximum_iterations, patience);
-        return parameters;
+        const std::string             name;
+        std::shared_ptr<LinearSolver> solver;
+      };
+      Method                              cg{"Belos CG", nullptr}, gmres{"Belos GMRES", nullptr};
+      const std::shared_ptr<LinearSolver> direct;
+      Strikes                             strikes;
+      bool                                told_of_one = false, told_of_all = false;
+
+      bool
+      iterates(const int n_unknowns) const
+      {
+        return !strikes.out() && n_unknowns >= many_unknowns;
+      }
+
+      /** The size decides how many iterations are worth while, and does not change. */
+      LinearSolver &
+      make(Method &method, const int n_unknowns) const
+      {
+        if (!method.solver)
+          {
+            LinearSolverParameters with_patience = parameters;
+            with_patience.type                   = method.name;
+            with_patience.patience =
+              static_cast<unsigned int>(ConvergenceWatch::patience(n_unknowns));
+            with_patience.maximum_iterations =
+              std::min(parameters.maximum_iterations, with_patience.patience);
+            method.solver = LinearSolverRegistry::make(method.name, with_patience);
+          }
+        return *method.solver;
       }
 
       void
@@ -62,27 +87,64 @@ namespace Touchstone
                const RigidMotions    &motions,
                Epetra_Vector         &solution) override
       {
-        const bool try_iterations = !failed && system.symmetric && system.definite &&
-                                    system.rows().NumGlobalElements() >= many_unknowns;
-        if (try_iterations)
-          try
-            {
-              delegate(*iterative, system, motions, solution);
-            }
-          catch (const LinearSolverFailure &)
-            {
-              failed = true;
-              iterative->forget();
-            }
-        if (!try_iterations || failed)
+        const int n_unknowns = system.rows().NumGlobalElements();
+        bool      solved     = false;
+        if (!system.definite && n_unknowns >= many_unknowns)
+          remark("linear solver: MUMPS, for multigrid cannot solve a system with multipliers");
+        else if (iterates(n_unknowns))
+          solved = try_to_iterate(system, motions, solution);
+        if (!solved)
           delegate(*direct, system, motions, solution);
-        count.iterations            = iterative->counts().iterations;
-        count.preconditioner_setups = iterative->counts().preconditioner_setups;
-        count.factorisations        = direct->counts().factorisations;
+        count.factorisations = direct->counts().factorisations;
+        count.iterations = count.preconditioner_setups = 0;
+        for (const Method *method : {&cg, &gmres})
+          if (method->solver)
+            {
+              count.iterations += method->solver->counts().iterations;
+              count.preconditioner_setups += method->solver->counts().preconditioner_setups;
+            }
+      }
+
+      /** One remark for the first solve that falls back, and one for all that follow. */
+      void
+      tell(const std::string &reason)
+      {
+        if (strikes.out() && !told_of_all)
+          remark("linear solver: MUMPS from now on (" + reason + ")");
+        else if (!strikes.out() && !told_of_one)
+          remark("linear solver: MUMPS where iterations fail (" + reason + ")");
+        (strikes.out() ? told_of_all : told_of_one) = true;
+      }
+
+      /** @return Whether it succeeded. */
+      bool
+      try_to_iterate(const CondensedSystem &system,
+                     const RigidMotions    &motions,
+                     Epetra_Vector         &solution)
+      {
+        // What one keeps is of no use for the other.
+        Method &method = system.symmetric ? cg : gmres, &other = system.symmetric ? gmres : cg;
+        if (other.solver)
+          other.solver->forget();
+        LinearSolver &iterative = make(method, system.rows().NumGlobalElements());
+        try
+          {
+            delegate(iterative, system, motions, solution);
+            strikes.succeeded();
+            return true;
+          }
+        catch (const LinearSolverFailure &failure)
+          {
+            strikes.failed(system.symmetric);
+            tell(failure.what());
+            iterative.forget();
+            solution.PutScalar(0.);
+            return false;
+          }
       }
     };
 
     const LinearSolverRegistry::Entry<AutomaticSolver>
-      entry("automatic", "Belos CG for large symmetric positive definite systems, else MUMPS");
+      entry("automatic", "Belos CG or GMRES for large systems without multipliers, else MUMPS");
   } // namespace
 } // namespace Touchstone

@@ -1,7 +1,11 @@
+#include <touchstone/algebra/block_diagonal.h>
 #include <touchstone/algebra/condensation.h>
+#include <touchstone/algebra/convergence_watch.h>
+#include <touchstone/algebra/kept_factors.h>
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/algebra/multigrid.h>
 #include <touchstone/algebra/non_convergence.h>
+#include <touchstone/algebra/watched_iteration.h>
 
 #include <BelosBlockCGSolMgr.hpp>
 #include <BelosBlockGmresSolMgr.hpp>
@@ -10,7 +14,9 @@
 #include <Ifpack_PointRelaxation.h>
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_RCP.hpp>
+#include <Teuchos_oblackholestream.hpp>
 #include <memory>
+#include <utility>
 
 namespace Touchstone
 {
@@ -18,6 +24,10 @@ namespace Touchstone
   {
     using Problem = Belos::LinearProblem<double, Epetra_MultiVector, Epetra_Operator>;
     using Manager = Belos::SolverManager<double, Epetra_MultiVector, Epetra_Operator>;
+
+    /** Multigrid that would take more iterations than ConvergenceWatch::patience() is replaced by
+     * factors in systems of up to so many unknowns, of which they need some GB. */
+    constexpr int factorisable = 200000;
 
     /** One symmetric sweep, of each rank for itself. */
     class GaussSeidel : public Ifpack_PointRelaxation
@@ -68,10 +78,15 @@ namespace Touchstone
       forget() override
       {
         preconditioner.reset();
+        strikes.succeeded();
+        slow = false;
       }
 
     private:
       std::unique_ptr<Epetra_Operator> preconditioner;
+      /** Multigrid would take too many iterations, factors are kept instead. */
+      bool    slow = false, told = false;
+      Strikes strikes;
       /** Constrained unknowns of its matrix, and those of changed basis. */
       std::vector<char> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
@@ -80,9 +95,29 @@ namespace Touchstone
       void
       set_up(const CondensedSystem &system, const RigidMotions &motions);
 
-      /** One run of the method. @return iterations, -1 if it failed. */
+      /** Multigrid, or what does without where inertia makes all else superfluous. */
+      std::unique_ptr<Epetra_Operator>
+      make_multigrid(const CondensedSystem &system, const RigidMotions &motions) const;
+
+      /** Whether the preconditioner still serves. Collective. */
+      bool
+      fits(const CondensedSystem &system) const;
+
+      /** Iterations above which multigrid is too slow for the system. */
+      double
+      patience(const CondensedSystem &system) const;
+
+      /** One run of the method. @return iterations, -1 if it failed.
+       * @throws SlowConvergence if it would take more iterations than patience(). */
       int
       iterate(const CondensedSystem &system, Epetra_Vector &solution);
+
+      /** Iterate, with the preconditioner that there is or a new one. @return iterations, -1 if
+       * it failed. */
+      int
+      iterate_or_renew(const CondensedSystem &system,
+                       const RigidMotions    &motions,
+                       Epetra_Vector         &solution);
 
       void
       do_solve(const CondensedSystem &system,
@@ -90,11 +125,12 @@ namespace Touchstone
                Epetra_Vector         &solution) override;
 
       /** Make the method for @p problem, with @p preconditioner where it
-       * belongs. */
+       * belongs and @p watch where it sees the residual. */
       virtual std::unique_ptr<Manager>
       method(const Teuchos::RCP<Problem>                &problem,
              const Teuchos::RCP<Teuchos::ParameterList> &list,
-             const Teuchos::RCP<Epetra_Operator>        &multigrid) const = 0;
+             const Epetra_Operator                      &preconditioner,
+             ConvergenceWatch                           &watch) const = 0;
     };
 
 
@@ -115,11 +151,13 @@ namespace Touchstone
       std::unique_ptr<Manager>
       method(const Teuchos::RCP<Problem>                &problem,
              const Teuchos::RCP<Teuchos::ParameterList> &list,
-             const Teuchos::RCP<Epetra_Operator>        &multigrid) const override
+             const Epetra_Operator                      &preconditioner,
+             ConvergenceWatch                           &watch) const override
       {
         // In this order, or the problem applies the preconditioner once for nothing.
         problem->setProblem();
-        problem->setLeftPrec(multigrid);
+        const auto watched = Teuchos::rcp(new WatchedPreconditioner(preconditioner, watch));
+        problem->setLeftPrec(Teuchos::rcp(new Belos::EpetraPrecOp(watched)));
         return std::make_unique<Belos::BlockCGSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(
           problem, list);
       }
@@ -140,16 +178,21 @@ namespace Touchstone
       std::unique_ptr<Manager>
       method(const Teuchos::RCP<Problem>                &problem,
              const Teuchos::RCP<Teuchos::ParameterList> &list,
-             const Teuchos::RCP<Epetra_Operator>        &multigrid) const override
+             const Epetra_Operator                      &preconditioner,
+             ConvergenceWatch                           &watch) const override
       {
-        problem->setRightPrec(multigrid);
+        problem->setRightPrec(Teuchos::rcp(new Belos::EpetraPrecOp(
+          Teuchos::rcpFromRef(const_cast<Epetra_Operator &>(preconditioner)))));
         problem->setProblem();
         const int basis = std::min(parameters.restart, parameters.maximum_iterations);
         list->set("Num Blocks", basis);
         list->set("Maximum Restarts", static_cast<int>(parameters.maximum_iterations) / basis);
         list->set("Flexible Gmres", true);
-        return std::make_unique<
-          Belos::BlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(problem, list);
+        auto result =
+          std::make_unique<Belos::BlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(
+            problem, list);
+        result->setDebugStatusTest(Teuchos::rcp(new WatchingTest(watch)));
+        return result;
       }
     };
 
@@ -187,26 +230,76 @@ namespace Touchstone
 
 
 
+    std::unique_ptr<Epetra_Operator>
+    BelosSolver::make_multigrid(const CondensedSystem &system, const RigidMotions &motions) const
+    {
+      // With much inertia it alone bounds the condition number: coarse spaces have nothing
+      // to do, and the aggregates that weak couplings leave would hardly be fewer.
+      if (stiffness_of_motions(system, motions) >= 0.15)
+        return std::make_unique<GaussSeidel>(system.matrix());
+      Epetra_MultiVector near_kernel(motions.columns);
+      for (int v = 0; v < near_kernel.NumVectors(); ++v)
+        for (int i = 0; i < near_kernel.MyLength(); ++i)
+          if (system.constrained[i] || system.changed[i])
+            near_kernel[v][i] = 0.;
+      try
+        {
+          return std::make_unique<Multigrid>(
+            system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
+        }
+      catch (const LinearSolverFailure &failure)
+        {
+          throw SlowConvergence(failure.what());
+        }
+    }
+
+
+
     void
     BelosSolver::set_up(const CondensedSystem &system, const RigidMotions &motions)
     {
       preconditioner.reset();
       constrained = system.constrained;
       changed     = system.changed;
-      Epetra_MultiVector near_kernel(motions.columns);
-      for (int v = 0; v < near_kernel.NumVectors(); ++v)
-        for (int i = 0; i < near_kernel.MyLength(); ++i)
-          if (system.constrained[i] || system.changed[i])
-            near_kernel[v][i] = 0.;
-      // With much inertia it alone bounds the condition number: coarse spaces have nothing
-      // to do, and the aggregates that weak couplings leave would hardly be fewer.
-      if (stiffness_of_motions(system, motions) < 0.15)
-        preconditioner = std::make_unique<Multigrid>(
-          system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
+      if (parameters.preconditioner == "diagonal")
+        preconditioner = std::make_unique<BlockDiagonal>(system.rows(), *system.block_rows());
+      else if (slow)
+        {
+          preconditioner = std::make_unique<KeptFactors>(system);
+          ++count.factorisations;
+        }
       else
-        preconditioner = std::make_unique<GaussSeidel>(system.matrix());
+        preconditioner = make_multigrid(system, motions);
       ++count.preconditioner_setups;
       fresh_iterations = 0;
+    }
+
+
+
+    double
+    BelosSolver::patience(const CondensedSystem &system) const
+    {
+      if (parameters.preconditioner == "diagonal" || slow)
+        return ConvergenceWatch::endless;
+      if (parameters.patience > 0)
+        return parameters.patience;
+      const int n = system.rows().NumGlobalElements();
+      return n <= factorisable ? ConvergenceWatch::patience(n) : ConvergenceWatch::endless;
+    }
+
+
+
+    bool
+    BelosSolver::fits(const CondensedSystem &system) const
+    {
+      // It serves until the active set changes (other unknowns are
+      // condensed then: multigrid of an earlier set cost up to six times the
+      // iterations, and factors near incompressibility up to a thousand times), or until it
+      // costs half as many iterations again; a set-up of multigrid costs about ten.
+      int same = preconditioner && constrained == system.constrained && changed == system.changed;
+      int all_same = 0;
+      system.rows().Comm().MinAll(&same, &all_same, 1);
+      return all_same == 1;
     }
 
 
@@ -218,26 +311,53 @@ namespace Touchstone
         Teuchos::rcp(new Problem(Teuchos::rcpFromRef<Epetra_Operator>(system.product()),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(solution),
                                  Teuchos::rcpFromRef<Epetra_MultiVector>(*system.rhs)));
-      const Teuchos::RCP<Epetra_Operator> multigrid = Teuchos::rcp(
-        new Belos::EpetraPrecOp(Teuchos::rcpFromRef<Epetra_Operator>(*preconditioner)));
       const auto list = Teuchos::rcp(new Teuchos::ParameterList());
       list->set("Maximum Iterations", static_cast<int>(parameters.maximum_iterations));
       list->set("Convergence Tolerance", system.tolerance);
       list->set("Verbosity", static_cast<int>(Belos::Errors));
-      const std::unique_ptr<Manager> solver    = method(problem, list, multigrid);
+      // It prints exceptions before it throws them.
+      list->set("Output Stream", Teuchos::RCP<std::ostream>(new Teuchos::oblackholestream()));
+      ConvergenceWatch               watch(system.tolerance, patience(system));
+      const std::unique_ptr<Manager> solver    = method(problem, list, *preconditioner, watch);
       bool                           converged = false;
       try
         {
           converged = solver->solve() == Belos::Converged;
         }
+      catch (const SlowConvergence &)
+        {
+          count.iterations += watch.iterations();
+          throw;
+        }
       // An indefinite matrix or preconditioner shows as a failed factorisation of
       // a 1 x 1 block; Belos derives its exceptions from logic_error.
-      catch (const std::logic_error &error)
+      catch (const std::logic_error &)
         {
-          throw LinearSolverFailure(parameters.type + " broke down: " + error.what());
+          throw LinearSolverFailure(
+            parameters.type + " broke down: the matrix or its preconditioner is " +
+            (symmetric_only() ? "not positive definite" : "singular, or not finite"));
         }
       count.iterations += solver->getNumIters();
       return converged ? solver->getNumIters() : -1;
+    }
+
+
+
+    int
+    BelosSolver::iterate_or_renew(const CondensedSystem &system,
+                                  const RigidMotions    &motions,
+                                  Epetra_Vector         &solution)
+    {
+      if (!fits(system))
+        set_up(system, motions);
+      int iterations = iterate(system, solution);
+      if (iterations < 0 && fresh_iterations > 0)
+        {
+          set_up(system, motions);
+          solution.PutScalar(0.);
+          iterations = iterate(system, solution);
+        }
+      return iterations;
     }
 
 
@@ -251,23 +371,26 @@ namespace Touchstone
         throw LinearSolverFailure(parameters.type + " needs a symmetric positive definite system");
       if (motions.columns.Map().NumGlobalElements() != system.rows().NumGlobalElements())
         throw LinearSolverFailure(parameters.type + " cannot solve a system with multipliers");
-      // The preconditioner serves until the active set changes (other unknowns are
-      // condensed then, and one of an earlier set cost up to six times the
-      // iterations), or until it costs half as many iterations again; a set-up
-      // costs about ten.
-      int same = preconditioner && constrained == system.constrained && changed == system.changed;
-      int all_same = 0;
-      system.rows().Comm().MinAll(&same, &all_same, 1);
-      const bool fits = all_same == 1;
-      if (!fits)
-        set_up(system, motions);
-      int iterations = iterate(system, solution);
-      if (iterations < 0 && fresh_iterations > 0)
+      int iterations = 0;
+      try
         {
+          iterations = iterate_or_renew(system, motions, solution);
+        }
+      catch (const SlowConvergence &slowness)
+        {
+          if (parameters.patience > 0 || system.rows().NumGlobalElements() > factorisable)
+            throw LinearSolverFailure(parameters.type + ": " + slowness.what());
+          if (!std::exchange(told, true))
+            remark(parameters.type + ": " + slowness.what() +
+                   "; factors of MUMPS take its place where it does");
+          slow = true;
+          strikes.failed(system.symmetric);
           set_up(system, motions);
           solution.PutScalar(0.);
           iterations = iterate(system, solution);
         }
+      if (!slow)
+        strikes.succeeded();
       if (iterations < 0)
         throw LinearSolverFailure(parameters.type + " did not converge in " +
                                   std::to_string(parameters.maximum_iterations) + " iterations");
@@ -275,6 +398,11 @@ namespace Touchstone
         fresh_iterations = std::max(iterations, 1);
       else if (iterations > fresh_iterations * 3 / 2 + 5)
         preconditioner.reset();
+      if (slow && !strikes.out())
+        {
+          preconditioner.reset();
+          slow = false;
+        }
     }
   } // namespace
 } // namespace Touchstone

@@ -263,7 +263,8 @@ namespace Touchstone
     row.erase(std::remove_if(row.begin(),
                              row.end(),
                              [&](const auto &entry) {
-                               return std::abs(entry.second) <= 1e-14 * largest;
+                               return std::isfinite(entry.second) &&
+                                      std::abs(entry.second) <= 1e-14 * largest;
                              }),
               row.end());
     return row;

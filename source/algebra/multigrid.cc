@@ -3,6 +3,7 @@
 
 #include <Amesos.h>
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -66,10 +67,9 @@ namespace Touchstone
     while (rows->numbers()->size() > few)
       {
         levels.push_back(std::make_unique<Level>(*rows, symmetric));
-        Level       &level = *levels.back();
-        const double largest =
-          level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
-        auto prolongation =
+        Level       &level   = *levels.back();
+        const double largest = largest_eigenvalue(level);
+        auto         prolongation =
           std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
         const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
         if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
@@ -89,6 +89,31 @@ namespace Touchstone
         level.prolongation = std::move(prolongation);
       }
     make_coarsest(*rows);
+  }
+
+
+
+  double
+  Multigrid::largest_eigenvalue(const Level &level)
+  {
+    const auto fail = [](const std::string &reason) {
+      throw LinearSolverFailure("multigrid cannot be set up: the largest eigenvalue of a level "
+                                "cannot be estimated, " +
+                                reason);
+    };
+    // Sums over all ranks decide: all throw or none.
+    double largest = 0.;
+    try
+      {
+        largest = level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
+      }
+    catch (const ExceptionBase &)
+      {
+        fail("for the matrix is indefinite, singular or not finite");
+      }
+    if (!std::isfinite(largest) || !(largest > 0.))
+      fail("for it comes out as " + std::to_string(largest));
+    return largest;
   }
 
 

@@ -79,6 +79,26 @@ namespace Touchstone
 
 
   std::vector<Condition>
+  friction_springs(const ContactRow &row)
+  {
+    std::vector<Condition> conditions = elastic_stick(row);
+    // Friction that turns with the slip resists across it like a spring. A soft one is not worth
+    // an unknown that multigrid keeps out of its coarse spaces.
+    if (row.friction && row.status == ContactStatus::slip && !row.dropped() &&
+        row.friction->slope.norm() > 10. * row.stiffness)
+      {
+        conditions.push_back(blank_condition(row));
+        conditions.back().direction = cross_product_3d(row.normal, row.friction->direction);
+      }
+    for (Condition &condition : conditions)
+      if (!row.friction->slip_gradient.empty())
+        condition.gradient = slip_form(row, condition.direction);
+    return conditions;
+  }
+
+
+
+  std::vector<Condition>
   start_row(ContactRow &row, const bool keep_symmetric)
   {
     row.accepted = row.refused = 0;

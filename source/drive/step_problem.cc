@@ -459,8 +459,15 @@ namespace Touchstone
       }
     system->symmetric = everywhere(system->symmetric);
     if (solver->wants_basis_change(static_cast<int>(u.size())))
-      system->basis_change =
-        graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
+      {
+        // After all conditions, for these decide nothing.
+        for (const auto &rows : contact.rows)
+          for (const ContactRow &row : rows)
+            for (const Condition &spring : friction_springs(row))
+              graph.accept(spring, ConstraintGraph::Treatment::spring);
+        system->basis_change =
+          graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
+      }
     condensed =
       std::make_unique<CondensedSystem>(*system,
                                         solver->applies_operator(static_cast<int>(u.size())));
@@ -633,6 +640,8 @@ namespace Touchstone
     if (!stabilised.empty())
       text +=
         std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
+    for (const std::string &remark : solver->take_remarks())
+      text += (text.empty() ? "" : "\n") + remark;
     return text;
   }
 } // namespace Touchstone

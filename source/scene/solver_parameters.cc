@@ -229,9 +229,10 @@ namespace Touchstone
                       type,
                       "'MUMPS' factorises; 'Belos CG' and 'Belos GMRES' iterate with "
                       "multigrid, for large models without multipliers: CG takes "
-                      "symmetric systems, GMRES also unsymmetric ones. 'automatic' takes "
-                      "CG from 10,000 unknowns on if the system is symmetric and positive "
-                      "definite, and MUMPS otherwise or if CG fails.",
+                      "symmetric systems, GMRES also unsymmetric ones. 'automatic' takes, from "
+                      "10,000 unknowns on and without multipliers, CG for symmetric systems and "
+                      "GMRES for unsymmetric ones, and MUMPS otherwise or if these would take "
+                      "longer, which the log says.",
                       Patterns::Selection("automatic|MUMPS|Belos CG|Belos GMRES"));
     prm.add_parameter("Tolerance",
                       tolerance,
@@ -248,6 +249,13 @@ namespace Touchstone
                       "GMRES starts anew after this many iterations. It keeps two vectors "
                       "for each of them.",
                       Patterns::Integer(1));
+    prm.add_parameter("Preconditioner",
+                      preconditioner,
+                      "Of Belos CG or GMRES: 'multigrid' by smoothed aggregation, in whose place "
+                      "they keep the factors of a matrix where it would be slow; 'diagonal' "
+                      "multiplies by the inverse 3 x 3 diagonal blocks of the nodes, many times "
+                      "as slow, to compare with published work.",
+                      Patterns::Selection("multigrid|diagonal"));
     prm.add_parameter("Contact operator",
                       contact_operator,
                       "How an iterative solver multiplies: 'applied' applies constraints and "
@@ -279,6 +287,12 @@ namespace Touchstone
                    "Tolerance",
                    tolerance,
                    "two to four digits a Newton iteration are usual: 1e-3");
+    if (preconditioner != "multigrid" && !iterative())
+      throw InputError(section,
+                       "Preconditioner",
+                       preconditioner,
+                       "is for solvers that iterate, but 'Type' is '" + type + "'",
+                       "remove it, or set 'Type' to 'Belos CG' or 'Belos GMRES'");
     if (iterative())
       for (const auto &[key, set, value] :
            {std::make_tuple("Low rank tolerance",

@@ -1,6 +1,7 @@
 #!/bin/sh
 # solver_choice.sh PROGRAM PROJECT FOLDER: the solver that the program chooses by itself,
-# and what multigrid needs on finer meshes, with stiff springs and on two ranks.
+# and what multigrid needs on finer meshes, with stiff springs and on two ranks,
+# and what takes its place where it is slow.
 set -eu
 . "$(dirname -- "$0")/common.sh"
 tubes=$source/prm/two_tubes.prm
@@ -28,6 +29,7 @@ tubes factorised 1 1.5 --set "Linear solver/Type=MUMPS"
 tubes fallen_back 1 1.5 --set "Linear solver/Maximum iterations=3"
 [ "$(count fallen_back preconditioner_setups)" -eq 1 ] || fail "tried again after it failed"
 [ "$(count fallen_back factorisations)" -gt 0 ] || fail "MUMPS does not take over"
+[ "$(grep -c "MUMPS from now on" fallen_back/log)" -eq 1 ] || fail "the log does not say once why"
 [ "$(count fallen_back steps)" -eq 1 ] || fail "the step is cut where MUMPS takes over"
 same large factorised 1e-7
 same large fallen_back 1e-7
@@ -44,5 +46,29 @@ for name in large two_ranks finer; do
 done
 tubes springs 1 1.5 --set "Contact/Enforcement=augmented lagrange" --set "Contact/Penalty factor=1000"
 below springs iterations "$(value springs /iterations/linear_mean)" 10
+
+# Friction makes systems unsymmetric: GMRES.
+tubes friction 1 1 --set "Contact pair cone/Behaviour=coulomb" \
+  --set "Contact pair cone/Friction/Coefficient=0.2"
+[ "$(count friction factorisations)" -eq 0 ] || fail "large systems with friction are factorised"
+below friction iterations "$(value friction /iterations/linear_mean)" 15
+
+# Near incompressibility multigrid would take 462 iterations a solve.
+thick() {
+  run "$1" 1 "$source/tests/nearly_incompressible_degree_2.prm" --set "Linear solver/Type=$2"
+}
+thick thick_mumps MUMPS
+for solver in CG GMRES; do
+  thick "thick_$solver" "Belos $solver"
+  below "thick_$solver" iterations "$(value "thick_$solver" /iterations/linear_mean)" 60
+  grep -q "multigrid would take" "thick_$solver/log" || fail "the log of $solver does not say why"
+  same "thick_$solver" thick_mumps 1e-7
+done
+
+# The diagonal has the same solution, of many more iterations.
+tubes diagonal 1 0.75 --set "Linear solver/Type=Belos CG" \
+  --set "Linear solver/Preconditioner=diagonal"
+same diagonal small 1e-7
+[ "$(count diagonal factorisations)" -eq 0 ] || fail "the diagonal is factorised"
 
 finish

@@ -6,6 +6,8 @@
 #include <touchstone/scene/solver_parameters.h>
 
 #include <Epetra_MultiVector.h>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace Touchstone
@@ -49,8 +51,9 @@ namespace Touchstone
      * @param motions  Of the bodies.
      * @param solution Result, over the rows of the matrix; CondensedSystem::scale is
      *                 taken out of it.
-     * @throws LinearSolverFailure if the residual stays above the tolerance,
-     *         SingularSystem if the matrix turns out singular.
+     * @throws LinearSolverFailure if the residual stays above the tolerance, the system is not
+     *         finite, or a library fails in any way;
+     *         SingularSystem if the matrix turns out singular; on all ranks.
      */
     void
     solve(const CondensedSystem &system, const RigidMotions &motions, Epetra_Vector &solution);
@@ -91,24 +94,43 @@ namespace Touchstone
       return count;
     }
 
+    /** @brief What the user should know of its choices, each remark once: lines that have not
+     * been asked for yet. The same on all ranks. */
+    std::vector<std::string>
+    take_remarks();
+
   protected:
     const LinearSolverParameters parameters;
     LinearSolverCounts           count;
 
-    /** @brief Let @p other solve: the part of solve() that is its own. */
+    /** @brief Have @p text told once, whatever forget() forgets. */
+    void
+    remark(const std::string &text);
+
+    /** @brief Let @p other solve: the part of solve() that is its own. @throws as solve() */
     static void
     delegate(LinearSolver          &other,
              const CondensedSystem &system,
              const RigidMotions    &motions,
              Epetra_Vector         &solution)
     {
-      other.do_solve(system, motions, solution);
+      other.guarded_solve(system, motions, solution);
     }
 
     virtual void
     do_solve(const CondensedSystem &system,
              const RigidMotions    &motions,
              Epetra_Vector         &solution) = 0;
+
+  private:
+    std::vector<std::string> remarks;
+    std::set<std::string>    known_remarks;
+
+    /** @brief do_solve(), with what libraries throw turned into a LinearSolverFailure. */
+    void
+    guarded_solve(const CondensedSystem &system,
+                  const RigidMotions    &motions,
+                  Epetra_Vector         &solution);
   };
 
   using LinearSolverRegistry = Registry<LinearSolver, const LinearSolverParameters &>;

@@ -35,7 +35,8 @@ namespace Touchstone
      *                    able to represent, zero at constrained unknowns.
      * @param body        Body of each row of this rank: aggregates() are within one.
      * @param symmetric   The matrix is, and half of it is enough.
-     * @throws LinearSolverFailure if the coarsest level is singular, on all ranks.
+     * @throws LinearSolverFailure if the coarsest level is singular, or a level is indefinite or
+     *         not finite, on all ranks.
      */
     Multigrid(const Epetra_Map                &map,
               std::unique_ptr<BlockRows>       rows,
@@ -71,6 +72,11 @@ namespace Touchstone
     std::unique_ptr<Epetra_Vector>     coarsest_rhs, coarsest_solution;
     Epetra_LinearProblem               coarsest_problem;
     std::unique_ptr<Amesos_BaseSolver> coarsest;
+
+    /** @brief Of the matrix of a level over its diagonal. @throws LinearSolverFailure if there is
+     * none, on all ranks. */
+    static double
+    largest_eigenvalue(const Level &level);
 
     void
     make_coarsest(BlockRows &rows);

@@ -33,6 +33,12 @@ namespace Touchstone
   std::vector<Condition>
   elastic_stick(const ContactRow &row);
 
+  /** @brief The directions in which friction resists an increment like a spring: along the surface
+   * where the row sticks elastically, across the slip where it slips. As conditions without
+   * value, for a change of basis that takes their elongations for unknowns. */
+  std::vector<Condition>
+  friction_springs(const ContactRow &row);
+
   /**
    * @brief Let the friction of a row stay what it is at the normal force @p lambda,
    * so that it changes with its slip only and the system stays symmetric.

@@ -106,6 +106,11 @@ namespace Touchstone
     unsigned int maximum_iterations = 2000;
     /** Iterations of GMRES after which it starts anew, to save memory. */
     unsigned int restart = 100;
+    /** Of iterative solvers: "multigrid" or "diagonal". */
+    std::string preconditioner = "multigrid";
+    /** No key: an iterative solver fails at once if it would take more iterations than these;
+     * 0: it goes on. */
+    unsigned int patience = 0;
     /** Of iterative solvers: "applied" or "assembled". */
     std::string contact_operator = "applied";
     /** Of MUMPS: relative size of what is left out of the blocks of its factors; 0

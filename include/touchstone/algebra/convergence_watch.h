@@ -1,0 +1,94 @@
+#ifndef touchstone_algebra_convergence_watch_h
+#define touchstone_algebra_convergence_watch_h
+
+#include <limits>
+#include <stdexcept>
+
+namespace Touchstone
+{
+  /** @brief An iteration would take more steps than its solution is worth. */
+  class SlowConvergence : public std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
+  /**
+   * @brief Looks at the residuals of an iteration and foresees how many steps it would take.
+   *
+   * Residuals are the same on all ranks, and so is what is thrown.
+   */
+  class ConvergenceWatch
+  {
+  public:
+    static constexpr double endless = std::numeric_limits<double>::max();
+
+    /**
+     * @param tolerance Relative residual that is asked for; no unit.
+     * @param patience  Iterations that may be taken; endless: any.
+     */
+    ConvergenceWatch(double tolerance, double patience);
+
+    /** @brief Iterations with multigrid above which a factorisation is preferred, of a system of
+     * that size (doc/benchmarks.md). */
+    static double
+    patience(int n_unknowns);
+
+    /** @brief Whether the next residual matters. */
+    bool
+    wants_next() const;
+
+    /** @brief The next residual, the first one before the first iteration.
+     * @throws SlowConvergence */
+    void
+    next(double residual);
+
+    /** @brief The next residual is not known. */
+    void
+    skip()
+    {
+      ++n_residuals;
+    }
+
+    unsigned int
+    iterations() const
+    {
+      return n_residuals > 0 ? n_residuals - 1 : 0;
+    }
+
+  private:
+    const double tolerance, limit;
+    unsigned int n_residuals = 0;
+    double       first = 0., smallest = 0.;
+  };
+
+  /**
+   * @brief Whether multigrid has failed for good: at once in a symmetric system, where the bodies
+   * are to blame, and after three solves on end in unsymmetric ones, where a Newton iterate
+   * with wild forces of friction may be.
+   */
+  class Strikes
+  {
+  public:
+    void
+    failed(const bool symmetric)
+    {
+      n += symmetric ? most : 1;
+    }
+    void
+    succeeded()
+    {
+      n = 0;
+    }
+    bool
+    out() const
+    {
+      return n >= most;
+    }
+
+  private:
+    static constexpr unsigned int most = 3;
+    unsigned int                  n    = 0;
+  };
+} // namespace Touchstone
+
+#endif

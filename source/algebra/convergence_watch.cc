@@ -1,0 +1,64 @@
+#include <touchstone/algebra/convergence_watch.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** Iterations before the first judgement, and between judgements: the first ones say
+     * little of those that follow. */
+    constexpr unsigned int enough = 30, interval = 5;
+  } // namespace
+
+
+
+  ConvergenceWatch::ConvergenceWatch(const double tolerance, const double patience)
+    : tolerance(tolerance)
+    , limit(patience)
+  {
+  }
+
+
+
+  double
+  ConvergenceWatch::patience(const int n_unknowns)
+  {
+    return std::clamp(n_unknowns / 130., 75., 300.);
+  }
+
+
+
+  bool
+  ConvergenceWatch::wants_next() const
+  {
+    return limit < endless && n_residuals % interval == 0;
+  }
+
+
+
+  void
+  ConvergenceWatch::next(const double residual)
+  {
+    const bool wanted = wants_next();
+    ++n_residuals;
+    if (!wanted)
+      return;
+    if (iterations() == 0)
+      first = smallest = residual;
+    smallest = std::min(smallest, residual);
+    if (iterations() < enough)
+      return;
+    const double digits = -std::log(smallest / first);
+    const double expected =
+      digits > 0. ? iterations() * std::log(1. / tolerance) / digits : endless;
+    if (expected > limit)
+      throw SlowConvergence(
+        "multigrid would take " +
+        (expected < 1e4 ? "about " + std::to_string(std::lround(expected / 10.) * 10)
+                        : std::string("more than 10,000")) +
+        " iterations; bodies may be nearly incompressible, slender or almost free");
+  }
+} // namespace Touchstone

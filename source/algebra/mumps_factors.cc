@@ -1,0 +1,243 @@
+#include <touchstone/algebra/mumps_factors.h>
+#include <touchstone/algebra/non_convergence.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_Import.h>
+#include <Epetra_Map.h>
+#include <Epetra_MpiComm.h>
+#include <algorithm>
+
+namespace Touchstone
+{
+  MumpsFactors::MumpsFactors(const double low_rank_tolerance, const bool out_of_core)
+    : low_rank_tolerance(low_rank_tolerance)
+    , out_of_core(out_of_core)
+  {
+  }
+
+
+
+  MumpsFactors::~MumpsFactors()
+  {
+    clear();
+  }
+
+
+
+  void
+  MumpsFactors::clear()
+  {
+    int finalized = 0;
+    MPI_Finalized(&finalized);
+    if (initialised && !finalized)
+      {
+        data.job = -2;
+        dmumps_c(&data);
+      }
+    initialised = factorised = false;
+    forget_matrix();
+  }
+
+
+
+  void
+  MumpsFactors::forget_matrix()
+  {
+    rows    = {};
+    columns = {};
+    values  = {};
+  }
+
+
+
+  std::string
+  MumpsFactors::reason(const int infog1, const int infog2)
+  {
+    std::string text;
+    switch (infog1)
+      {
+        case -5:
+        case -7:
+        case -13:
+          text = "not enough memory; try 'Out of core = true', more ranks, or an iterative solver";
+          break;
+        case -8:
+        case -9:
+        case -11:
+        case -14:
+        case -15:
+        case -17:
+        case -19:
+        case -20:
+          text = "its working space is too small";
+          break;
+        case -6:
+        case -10:
+          text = "the matrix is singular";
+          break;
+        case -40:
+          text = "the matrix is not positive definite";
+          break;
+        case -51:
+        case -52:
+          text = "the system is too large for integers of 32 bits";
+          break;
+        case -90:
+          text = "its files (out of core) could not be written or read";
+          break;
+        default:
+          text = "see the manual of MUMPS";
+      }
+    return text + " (INFOG(1) = " + std::to_string(infog1) +
+           ", INFOG(2) = " + std::to_string(infog2) + ")";
+  }
+
+
+
+  void
+  MumpsFactors::start(const Epetra_CrsMatrix &matrix, const Kind kind)
+  {
+    const auto &comm  = dynamic_cast<const Epetra_MpiComm &>(matrix.Comm());
+    data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.Comm()));
+    data.par          = 1; // rank 0 takes part in the factorisation
+    data.sym          = static_cast<MUMPS_INT>(kind);
+    data.job          = -1;
+    dmumps_c(&data);
+    initialised = true;
+    for (int i = 1; i <= 4; ++i)
+      icntl(i) = (i == 4 ? 0 : -1); // no printing of its own
+    icntl(14) = 40;                 // working space beyond the estimate, per cent
+    icntl(18) = 3;                  // rows distributed over the ranks
+    icntl(24) = 1;                  // detect null pivots
+    icntl(22) = out_of_core;
+    if (low_rank_tolerance > 0.)
+      {
+        // Amestoy, Buttari, L'Excellent and Mary (2019), ACM Trans. Math. Softw. 45.
+        icntl(35)        = 2; // factors stay compressed for the solution
+        data.cntl[7 - 1] = low_rank_tolerance;
+      }
+  }
+
+
+
+  void
+  MumpsFactors::read(const Epetra_CrsMatrix &matrix)
+  {
+    rows.clear();
+    columns.clear();
+    values.clear();
+    for (int i = 0; i < matrix.NumMyRows(); ++i)
+      {
+        int     n;
+        double *value;
+        int    *column;
+        matrix.ExtractMyRowView(i, n, value, column);
+        const int row = matrix.GRID(i);
+        for (int k = 0; k < n; ++k)
+          {
+            const int j = matrix.GCID(column[k]);
+            if (data.sym != static_cast<MUMPS_INT>(Kind::unsymmetric) && j > row)
+              continue;
+            rows.push_back(row + 1);
+            columns.push_back(j + 1);
+            values.push_back(value[k]);
+          }
+      }
+    data.n       = matrix.NumGlobalRows();
+    data.nnz_loc = static_cast<MUMPS_INT8>(values.size());
+    data.irn_loc = rows.data();
+    data.jcn_loc = columns.data();
+    data.a_loc   = values.data();
+  }
+
+
+
+  bool
+  MumpsFactors::factorise(const Epetra_CrsMatrix &matrix, const Kind kind)
+  {
+    if (initialised && data.sym != static_cast<MUMPS_INT>(kind))
+      clear();
+    if (!initialised)
+      start(matrix, kind);
+    std::vector<int>    old_rows, old_columns;
+    std::vector<double> old_values;
+    rows.swap(old_rows);
+    columns.swap(old_columns);
+    values.swap(old_values);
+    rows.reserve(old_rows.size());
+    columns.reserve(old_rows.size());
+    values.reserve(old_rows.size());
+    read(matrix);
+    // What has not changed since the last call is not done again: nothing where
+    // a linear scene repeats itself, the pattern where only normals turn.
+    int same[2] = {rows == old_rows && columns == old_columns, values == old_values};
+    int all_same[2];
+    matrix.Comm().MinAll(same, all_same, 2);
+    if (factorised && all_same[0] && all_same[1])
+      return false;
+    data.job   = factorised && all_same[0] ? 2 : 4; // 4: with a new analysis
+    factorised = false;
+    dmumps_c(&data);
+    // Working space too small: the estimate does not know of delayed pivots.
+    while ((infog(1) == -8 || infog(1) == -9) && icntl(14) < 1000)
+      {
+        icntl(14) *= 2;
+        data.job = 2;
+        dmumps_c(&data);
+      }
+    if (infog(1) == -6 || infog(1) == -10)
+      throw SingularSystem("MUMPS: " + reason(infog(1), infog(2)));
+    if (infog(1) < 0)
+      throw LinearSolverFailure("MUMPS: the factorisation failed: " + reason(infog(1), infog(2)));
+    check_pivots();
+    factorised = true;
+    return true;
+  }
+
+
+
+  void
+  MumpsFactors::check_pivots() const
+  {
+    if (infog(28) == 0)
+      return;
+    // The list of null pivots is on rank 0 only.
+    std::string text;
+    int         rank;
+    MPI_Comm    communicator = MPI_Comm_f2c(data.comm_fortran);
+    MPI_Comm_rank(communicator, &rank);
+    if (rank == 0)
+      for (int i = 0; i < std::min(infog(28), 5); ++i)
+        {
+          const int unknown = data.pivnul_list[i] - 1;
+          text += std::string(i == 0 ? "" : ", ") + "node " + std::to_string(unknown / 3) + " in " +
+                  "xyz"[unknown % 3];
+        }
+    text = dealii::Utilities::MPI::broadcast(communicator, text);
+    throw SingularSystem("MUMPS found " + std::to_string(infog(28)) +
+                         " null pivot(s): something can move without resistance (" + text +
+                         "); give the body a support or a contact partner");
+  }
+
+
+
+  void
+  MumpsFactors::solve(const Epetra_Vector &rhs, Epetra_Vector &solution)
+  {
+    // The right-hand side is centralised: a vector is small beside the factors.
+    const Epetra_Comm &comm = rhs.Comm();
+    const Epetra_Map   root(-1, comm.MyPID() == 0 ? data.n : 0, 0, comm);
+    Epetra_Import      importer(root, rhs.Map());
+    Epetra_Vector      central(root);
+    central.Import(rhs, importer, Insert);
+    data.rhs  = central.Values();
+    data.nrhs = 1;
+    data.lrhs = data.n;
+    data.job  = 3;
+    dmumps_c(&data);
+    if (infog(1) < 0)
+      throw LinearSolverFailure("MUMPS: the solution failed: " + reason(infog(1), infog(2)));
+    solution.Export(central, importer, Insert);
+  }
+} // namespace Touchstone
