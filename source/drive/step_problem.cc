@@ -74,6 +74,9 @@ namespace Touchstone
   StepProblem::start()
   {
     u = committed_u = integration->initial_displacement();
+    // What has no value at time 0 is an error before the run, not within it.
+    boundary_conditions.external_force(0., u, external);
+    boundary_conditions.displacements(0.);
     {
       TimerOutput::Scope scope(timer, "search");
       contact.update(u, 0.);
@@ -81,7 +84,6 @@ namespace Touchstone
     }
     if (integration->dynamic())
       {
-        boundary_conditions.external_force(0., u, external);
         solid.internal_force(u, internal);
         graph.clear();
         boundary_conditions.prescribe(0., u, graph);

@@ -1,4 +1,3 @@
-#include <touchstone/scene/expression.h>
 #include <touchstone/scene/input_error.h>
 #include <touchstone/solid/boundary_conditions.h>
 
@@ -14,25 +13,11 @@ namespace Touchstone
 
   namespace
   {
-    /** Null for an empty expression. */
-    std::shared_ptr<FunctionParser<dim>>
-    parse(const std::string &expression)
-    {
-      if (expression.find_first_not_of(" \t") == std::string::npos)
-        return nullptr;
-      return make_function(expression);
-    }
-
     /** Zero for no function. */
     double
-    evaluate(const std::shared_ptr<FunctionParser<dim>> &function,
-             const Point<dim>                           &x,
-             const double                                t)
+    evaluate(const std::shared_ptr<const Formula> &function, const Point<dim> &x, const double t)
     {
-      if (!function)
-        return 0.;
-      function->set_time(t);
-      return function->value(x);
+      return function ? function->value(x, t) : 0.;
     }
 
     Tensor<1, dim>
@@ -72,29 +57,35 @@ namespace Touchstone
         for (const std::string &name : body.conditions)
           {
             const auto id = forest.boundary_id(b, name, section, "Boundary conditions");
-            const BoundaryParameters       &condition    = body.boundaries.at(name);
-            const std::array<Function, dim> displacement = {{parse(condition.displacement_x),
-                                                             parse(condition.displacement_y),
-                                                             parse(condition.displacement_z)}};
+            const BoundaryParameters       &condition = body.boundaries.at(name);
+            const auto parse = [&, where = section + "/Boundary " + name](const std::string &key,
+                                                                          const std::string &text) {
+              return formulas.add(where, key, text);
+            };
+            const std::array<Function, dim> displacement = {
+              {parse("Displacement x", condition.displacement_x),
+               parse("Displacement y", condition.displacement_y),
+               parse("Displacement z", condition.displacement_z)}};
             if (displacement[0] || displacement[1] || displacement[2])
               supports.push_back({body.name, name, Tensor<1, dim>()});
             for (unsigned int d = 0; d < dim; ++d)
               if (displacement[d])
                 prescribe_on(id, axis(d), displacement[d], b, supports.size() - 1);
-            const auto pressure = parse(condition.pressure);
+            const auto pressure = parse("Pressure", condition.pressure);
             const bool follows  = pressure && condition.follows(body.material);
             if (follows)
               following.add(id, pressure);
             const Load load{id,
-                            {{parse(condition.traction_x),
-                              parse(condition.traction_y),
-                              parse(condition.traction_z)}},
+                            {{parse("Traction x", condition.traction_x),
+                              parse("Traction y", condition.traction_y),
+                              parse("Traction z", condition.traction_z)}},
                             follows ? nullptr : pressure};
             if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
               loads.push_back(load);
           }
-        body_forces.push_back(
-          {{parse(body.body_force[0]), parse(body.body_force[1]), parse(body.body_force[2])}});
+        body_forces.push_back({{formulas.add(section, "Body force x", body.body_force[0]),
+                                formulas.add(section, "Body force y", body.body_force[1]),
+                                formulas.add(section, "Body force z", body.body_force[2])}});
       }
     if (std::none_of(body_forces.begin(), body_forces.end(), [](const auto &force) {
           return force[0] || force[1] || force[2];
@@ -181,10 +172,7 @@ namespace Touchstone
   double
   BoundaryConditions::Prescribed::displacement(const double t) const
   {
-    if (!value)
-      return 0.;
-    value->set_time(t);
-    return value->value(position);
+    return evaluate(value, position, t);
   }
 
 
@@ -198,6 +186,7 @@ namespace Touchstone
                         p.direction,
                         p.displacement(t),
                         supports[p.support].body + "/" + supports[p.support].boundary});
+    formulas.check(solid.communicator);
     return result;
   }
 
@@ -206,10 +195,16 @@ namespace Touchstone
   double
   BoundaryConditions::prescribe(const double t, const Vector &u, ConstraintGraph &graph) const
   {
-    double mismatch = 0.;
+    // Before the graph takes what is no number.
+    std::vector<double> values;
+    for (const Prescribed &p : prescribed)
+      values.push_back(p.displacement(t));
+    formulas.check(solid.communicator);
+    double      mismatch = 0.;
+    auto        next     = values.begin();
     for (const Prescribed &p : prescribed)
       {
-        double value = p.displacement(t);
+        double value = *next++;
         for (unsigned int d = 0; d < dim; ++d)
           if (p.direction[d] != 0.)
             value -= p.direction[d] * u(dim * p.node + d);
@@ -233,6 +228,15 @@ namespace Touchstone
     force = 0.;
     following.add_force(t, u, force);
     add_body_forces(t, force);
+    add_tractions(t, force);
+    formulas.check(solid.communicator);
+  }
+
+
+
+  void
+  BoundaryConditions::add_tractions(const double t, Vector &force) const
+  {
     if (loads.empty())
       return;
     FEFaceValues<dim>  values(solid.mapping,
