@@ -1,8 +1,8 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/contact/row_terms.h>
 #include <touchstone/drive/step_problem.h>
-#include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
+#include <touchstone/solid/bodies.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -65,7 +65,12 @@ namespace Touchstone
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
-    extent = Utilities::MPI::max(extent, solid.communicator);
+    extent                 = Utilities::MPI::max(extent, solid.communicator);
+    const auto       boxes = body_boxes(scene, solid);
+    BoundingBox<dim> all(boxes.front());
+    for (const auto &box : boxes)
+      all.merge_with(box);
+    diameter = all.get_boundary_points().first.distance(all.get_boundary_points().second);
   }
 
 
@@ -81,6 +86,7 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "search");
       contact.update(u, 0.);
       contact.commit();
+      remember_contact();
     }
     if (integration->dynamic())
       {
@@ -134,6 +140,7 @@ namespace Touchstone
     integration->begin_step(time, u);
     touch_unknown = integration->dynamic();
     last_residual = 0.;
+    loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
   }
@@ -175,6 +182,8 @@ namespace Touchstone
     committed_time = time;
     solid.commit();
     contact.commit();
+    largest_force_scale = std::max(largest_force_scale, force_scale);
+    remember_contact();
   }
 
 
@@ -288,8 +297,9 @@ namespace Touchstone
   void
   StepProblem::count_on(const StepProblem &before)
   {
-    earlier        = before.linear_counts();
-    committed_time = before.committed_time;
+    earlier             = before.linear_counts();
+    largest_force_scale = before.largest_force_scale;
+    committed_time      = before.committed_time;
     // At time 0 the energies are those that the first velocities mean on this mesh.
     if (committed_time > 0.)
       integration->resume(committed_time, before.integration->committed_energies());
@@ -325,8 +335,8 @@ namespace Touchstone
     touch_unknown = false;
     NewtonState state;
     graph.clear();
-    state.prescribed =
-      boundary_conditions.prescribe(time, u, graph) <= scene.newton.gap_tolerance * length;
+    missed           = boundary_conditions.prescribe(time, u, graph);
+    state.prescribed = missed <= scene.newton.gap_tolerance * length;
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
@@ -350,12 +360,20 @@ namespace Touchstone
       {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
     state.force    = free.l2_norm();
     state.residual = scale > 0. ? state.force / scale : 0.;
+    force_scale    = scale;
     if (scale > 0.)
-      state.round_off =
-        (solid.round_off(u) + integration->round_off(u) +
-         std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
-                                       solid.communicator))) /
-        scale;
+      {
+        double allowed =
+          solid.round_off(u) + integration->round_off(u) +
+          std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
+                                        solid.communicator));
+        // Where forces vanish round-off can be as large as they are, but never more than a
+        // small part of those that have acted before.
+        constexpr double largest_round_off = 1e-6;
+        if (largest_force_scale > 0.)
+          allowed = std::min(allowed, largest_round_off * std::max(scale, largest_force_scale));
+        state.round_off = allowed / scale;
+      }
 
     const Contact::ActiveSetUpdate set =
       contact.update_active_set(scene.newton.gap_tolerance, caution);
@@ -522,6 +540,7 @@ namespace Touchstone
     system->diagonal_shift =
       modes->stabilisation(motion, unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
     stabilised = motion.description;
+    loose_bodies.insert(motion.bodies.begin(), motion.bodies.end());
   }
 
 
@@ -535,6 +554,7 @@ namespace Touchstone
     solver->solve(*condensed, modes->motions(), solution);
     const Index n = solid.owned.n_elements();
     condensed->expand(solution, increment);
+    check_increment();
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
     condensed.reset();
     const unsigned int iterations = solver->counts().iterations - before;

@@ -27,6 +27,31 @@ namespace Touchstone
       e[d] = 1.;
       return e;
     }
+
+    /** Refuse entries of a boundary that 'Fixed' or 'Symmetry' would override. The
+     * normal of the symmetry plane is zero where there is none. */
+    void
+    check_not_held(const std::string        &section,
+                   const BoundaryParameters &condition,
+                   const bool                fixed,
+                   const Tensor<1, dim>     &plane)
+    {
+      // Along a plane that is oblique to the axes every component can be prescribed.
+      constexpr double parallel = 0.999;
+      for (const auto &[key, text] : condition.formulas())
+        {
+          const std::size_t d      = std::string("xyz").find(key.back());
+          const bool        across = d != std::string::npos ? std::abs(plane[d]) > parallel
+                                                            : plane.norm() > 0.; // the pressure
+          if (!text.empty() && (fixed || across))
+            throw InputError(section,
+                             key,
+                             text,
+                             std::string("this boundary is held in this direction by '") +
+                               (fixed ? "Fixed" : "Symmetry") + "' of the body",
+                             "remove this entry or take the boundary from that list");
+        }
+    }
   } // namespace
 
 
@@ -41,23 +66,43 @@ namespace Touchstone
       {
         const BodyParameters &body    = scene.bodies[b];
         const std::string     section = "Body " + body.name;
-        for (const std::string &name : body.fixed)
+        // Each list once, under whatever name: a name and a number can mean the same.
+        const auto fixed    = forest.boundary_ids(b, body.fixed, section, "Fixed"),
+                   symmetry = forest.boundary_ids(b, body.symmetry, section, "Symmetry"),
+                   condition_ids =
+                     forest.boundary_ids(b, body.conditions, section, "Boundary conditions");
+        for (std::size_t k = 0; k < fixed.size(); ++k)
           {
-            const auto id = forest.boundary_id(b, name, section, "Fixed");
+            const std::string &name = body.fixed[k];
+            const auto         id   = fixed[k];
             supports.push_back({body.name, name, Tensor<1, dim>()});
             for (unsigned int d = 0; d < dim; ++d)
               prescribe_on(id, axis(d), nullptr, b, supports.size() - 1);
           }
-        for (const std::string &name : body.symmetry)
+        std::map<types::boundary_id, Tensor<1, dim>> planes;
+        for (std::size_t k = 0; k < symmetry.size(); ++k)
           {
-            const auto id = forest.boundary_id(b, name, section, "Symmetry");
+            const std::string &name = body.symmetry[k];
+            const auto         id   = symmetry[k];
+            if (std::count(fixed.begin(), fixed.end(), id) > 0)
+              throw InputError(section,
+                               "Symmetry",
+                               name,
+                               "this boundary is also in the list 'Fixed'",
+                               "name it once: a fixed boundary needs no symmetry");
             supports.push_back({body.name, name, Tensor<1, dim>()});
-            prescribe_on(id, plane_normal(id, section, name), nullptr, b, supports.size() - 1);
+            planes[id] = plane_normal(id, section, name);
+            prescribe_on(id, planes[id], nullptr, b, supports.size() - 1);
           }
-        for (const std::string &name : body.conditions)
+        for (std::size_t k = 0; k < condition_ids.size(); ++k)
           {
-            const auto id = forest.boundary_id(b, name, section, "Boundary conditions");
-            const BoundaryParameters       &condition = body.boundaries.at(name);
+            const std::string &name = body.conditions[k];
+            const auto         id   = condition_ids[k];
+            check_not_held(section + "/Boundary " + name,
+                           body.boundaries.at(name),
+                           std::count(fixed.begin(), fixed.end(), id) > 0,
+                           planes.count(id) > 0 ? planes[id] : Tensor<1, dim>());
+            const BoundaryParameters &condition = body.boundaries.at(name);
             const auto parse = [&, where = section + "/Boundary " + name](const std::string &key,
                                                                           const std::string &text) {
               return formulas.add(where, key, text);
@@ -200,8 +245,8 @@ namespace Touchstone
     for (const Prescribed &p : prescribed)
       values.push_back(p.displacement(t));
     formulas.check(solid.communicator);
-    double      mismatch = 0.;
-    auto        next     = values.begin();
+    double mismatch = 0.;
+    auto   next     = values.begin();
     for (const Prescribed &p : prescribed)
       {
         double value = *next++;
