@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace Touchstone
 {
@@ -40,6 +41,27 @@ namespace Touchstone
     normal(const Place &place)
     {
       return Point<dim>(place[3], place[4], place[5]);
+    }
+
+    /** A point a little below the centre of a face, so that bodies that only touch do not
+     * seem to overlap, and its normal. */
+    Place
+    place_below(const Surface &surface, const Face &face, const Vector &u)
+    {
+      constexpr double below = 1e-3;
+      Point<dim>       centre;
+      Tensor<1, dim>   n;
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            centre[d] +=
+              (face.reference[m][d] + u(dim * face.nodes[m] + d)) / double(face.n_nodes());
+          n += surface.normal(face.nodes[m]);
+        }
+      if (n.norm() > 0.)
+        n /= n.norm();
+      centre -= below * face.reference[0].distance(face.reference[1]) * n;
+      return {{centre[0], centre[1], centre[2], n[0], n[1], n[2]}};
     }
 
     /** The places of all ranks, one rank after the other. */
@@ -195,17 +217,31 @@ namespace Touchstone
   {
     if (master == nullptr || slave_body == master_body)
       return 0.;
-    std::vector<Place> alone;
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (rows[k].status == ContactStatus::no_partner)
-        alone.push_back(place(slave, slave.owned_nodes()[k], u));
+    std::set<Index> nodes;
+    for (const ContactRow &row : rows)
+      if (row.status == ContactStatus::no_partner)
+        nodes.insert(row.slave);
+    std::vector<Place> alone, masters;
+    for (const Face &face : slave.owned_faces())
+      if (std::any_of(face.nodes.begin(),
+                      face.nodes.begin() + face.n_nodes(),
+                      [&](const Index node) { return nodes.count(node) > 0; }))
+        alone.push_back(place_below(slave, face, u));
     alone = gather(alone, solid.communicator);
     if (alone.empty())
       return 0.;
-    const std::vector<Place> masters = all_places(*master, u, solid.communicator);
-    double                   depth   = deepest(alone, masters, solid, master_body, u);
+    double depth =
+      deepest(alone, all_places(*master, u, solid.communicator), solid, master_body, u);
     if (depth == 0. && nothing_found())
-      depth = deepest(masters, alone, solid, slave_body, u);
+      {
+        for (const Face &face : master->owned_faces())
+          masters.push_back(place_below(*master, face, u));
+        depth = deepest(gather(masters, solid.communicator),
+                        all_places(slave, u, solid.communicator),
+                        solid,
+                        slave_body,
+                        u);
+      }
     return depth;
   }
 

@@ -161,41 +161,46 @@ namespace Touchstone
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
     const std::vector<unsigned int> body = bodies_of_unknowns(solid);
 
-    // Force, place, body, pair and state of the worst node; the first of equals by its place.
+    // Force, place, body and number of the worst node; the first of equals by its place.
     std::vector<double> worst;
-    std::size_t         worst_node = 0;
     for (std::size_t k = 0; k < body.size() / dim; ++k)
       {
         Tensor<1, dim> force;
         for (unsigned int d = 0; d < dim; ++d)
           force[d] = free.begin()[dim * k + d];
         const double *x = positions.begin() + dim * k;
-        if (!(force.norm() > 0.))
-          continue;
-        const std::vector<double> mine = {
-          force.norm(), x[0], x[1], x[2], static_cast<double>(body[dim * k]), -1.};
-        if (worst.empty() || mine[0] > worst[0])
-          {
-            worst      = mine;
-            worst_node = solid.owned.nth_index_in_set(dim * k) / dim;
-          }
+        if (force.norm() > 0. && (worst.empty() || force.norm() > worst[0]))
+          worst = {force.norm(),
+                   x[0],
+                   x[1],
+                   x[2],
+                   static_cast<double>(body[dim * k]),
+                   static_cast<double>(solid.owned.nth_index_in_set(dim * k) / dim)};
       }
-    if (!worst.empty())
-      for (unsigned int p = 0; p < contact.rows.size(); ++p)
-        for (const ContactRow &row : contact.rows[p])
-          if (row.slave == worst_node && row.status != ContactStatus::no_partner)
-            worst[5] = p;
     for (const auto &other : Utilities::MPI::all_gather(solid.communicator, worst))
       if (!other.empty() &&
           (worst.empty() || other[0] > worst[0] || (other[0] == worst[0] && other < worst)))
         worst = other;
     if (worst.empty())
       return "";
+
+    // The pair that the node belongs to: as a slave rather than as a master.
+    const auto node     = static_cast<Index>(worst[5]);
+    int        pairs[2] = {-1, -1};
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (const ContactRow &row : contact.rows[p])
+        if (row.slave == node && row.status != ContactStatus::no_partner)
+          pairs[0] = p;
+        else if (row.active() && std::any_of(row.stencil.begin(),
+                                             row.stencil.end(),
+                                             [&](const StencilEntry &e) { return e.node == node; }))
+          pairs[1] = p;
     std::string text = "body '" + scene.bodies[static_cast<unsigned int>(worst[4])].name + "' at " +
                        readable(worst.data() + 1);
-    if (worst[5] >= 0.)
-      text +=
-        ", a slave node of pair '" + scene.pairs[static_cast<unsigned int>(worst[5])].name + "'";
+    for (unsigned int role = 0; role < 2; ++role)
+      if (const int p = Utilities::MPI::max(pairs[role], solid.communicator); p >= 0)
+        return text + (role == 0 ? ", a slave node of pair '" : ", a master node of pair '") +
+               scene.pairs[p].name + "'";
     return text;
   }
 } // namespace Touchstone

@@ -356,24 +356,24 @@ namespace Touchstone
     // Only what supports do not carry is out of balance.
     Vector free(unbalanced);
     remove_supported(free);
-    const double scale = std::max(
+    // Where forces vanish, at the end of contact for example, what is left of them is
+    // round-off, and no scale: then a small part of the forces that have acted before is.
+    constexpr double small_force = 1e-3;
+    force_scale                  = std::max(
       {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
-    state.force    = free.l2_norm();
-    state.residual = scale > 0. ? state.force / scale : 0.;
-    force_scale    = scale;
+    const double scale = std::max(force_scale, small_force * largest_force_scale);
+    state.force        = free.l2_norm();
+    state.residual     = scale > 0. ? state.force / scale : 0.;
     if (scale > 0.)
-      {
-        double allowed =
-          solid.round_off(u) + integration->round_off(u) +
-          std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
-                                        solid.communicator));
-        // Where forces vanish round-off can be as large as they are, but never more than a
-        // small part of those that have acted before.
-        constexpr double largest_round_off = 1e-6;
-        if (largest_force_scale > 0.)
-          allowed = std::min(allowed, largest_round_off * std::max(scale, largest_force_scale));
-        state.round_off = allowed / scale;
-      }
+      state.round_off =
+        (solid.round_off(u) + integration->round_off(u) +
+         std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
+                                       solid.communicator))) /
+        scale;
+    // Only before the first forces act round-off can be as large as they are.
+    constexpr double largest_round_off = 1e-6;
+    if (largest_force_scale > 0.)
+      state.round_off = std::min(state.round_off, largest_round_off);
 
     const Contact::ActiveSetUpdate set =
       contact.update_active_set(scene.newton.gap_tolerance, caution);

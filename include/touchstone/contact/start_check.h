@@ -33,9 +33,9 @@ namespace Touchstone
                const std::vector<ContactRow> &rows);
 
     /**
-     * @brief The distance at which slave nodes that lie within the master body find its
-     * surface, and slave nodes that the search found nothing for are looked at only; if
-     * it found nothing at all also master nodes within the slave body.
+     * @brief The distance at which slave faces that lie within the master body find its
+     * surface. Only faces with a node that the search found nothing for are looked at; if it
+     * found nothing at all, also master faces within the slave body.
      * @return zero if there are none; length. Collective.
      */
     double
