@@ -356,22 +356,22 @@ namespace Touchstone
     // Only what supports do not carry is out of balance.
     Vector free(unbalanced);
     remove_supported(free);
+    const double present = std::max(
+      {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
+    const double round_off =
+      solid.round_off(u) + integration->round_off(u) +
+      std::sqrt(
+        Utilities::MPI::sum(enforcement->round_off_squared(contact, extent), solid.communicator));
     // Where forces vanish, at the end of contact for example, what is left of them is
     // round-off, and no scale: then a small part of the forces that have acted before is.
-    constexpr double small_force = 1e-3;
-    force_scale                  = std::max(
-      {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
-    const double scale = std::max(force_scale, small_force * largest_force_scale);
+    // Those of a body in free flight are round-off from the start, and no such forces.
+    constexpr double small_force = 1e-3, largest_round_off = 1e-6;
+    force_scale        = largest_round_off * present > round_off ? present : 0.;
+    const double scale = std::max(present, small_force * largest_force_scale);
     state.force        = free.l2_norm();
     state.residual     = scale > 0. ? state.force / scale : 0.;
-    if (scale > 0.)
-      state.round_off =
-        (solid.round_off(u) + integration->round_off(u) +
-         std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
-                                       solid.communicator))) /
-        scale;
+    state.round_off    = scale > 0. ? round_off / scale : 0.;
     // Only before the first forces act round-off can be as large as they are.
-    constexpr double largest_round_off = 1e-6;
     if (largest_force_scale > 0.)
       state.round_off = std::min(state.round_off, largest_round_off);
 

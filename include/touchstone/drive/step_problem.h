@@ -219,7 +219,8 @@ namespace Touchstone
     /** Of the committed state: active rows and the obstacle's motion, by pair. */
     std::vector<unsigned int>           committed_active;
     std::vector<dealii::Tensor<1, dim>> committed_shift;
-    /** Forces that act, at present and the largest of all committed states. */
+    /** Forces that act, at present and the largest of all committed states; zero where they
+     * are no more than round-off. */
     double force_scale = 0., largest_force_scale = 0.;
     /** Diagonal of the box around all bodies, and the largest prescribed displacement that
      * the present state misses; length. */
