@@ -10,8 +10,9 @@ using namespace Touchstone;
 int
 main()
 {
-  RepeatedFailure failures;
-  const auto      add = [&](const char           *what,
+  const NewtonParameters parameters;
+  RepeatedFailure        failures(parameters);
+  const auto             add = [&](const char           *what,
                        const NonConvergence &failure,
                        const double          residual,
                        const unsigned int    changes,
@@ -32,6 +33,8 @@ main()
   add("the same cycle", ActiveSetCycle("a cycle"), 0.5e-3, 7, "b");
   failures.forget();
   add("after a step that converged", ActiveSetCycle("a cycle"), 0.5e-3, 7, "b");
+  add("round-off", newton, 2e-12, 4, "c");
+  add("other round-off", newton, 3e-12, 4, "c");
   const double none = std::numeric_limits<double>::quiet_NaN();
   add("before any iteration", InvertedCells("inverted"), none, 0, "");
   add("again", InvertedCells("inverted"), none, 0, "");

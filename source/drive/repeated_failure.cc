@@ -32,7 +32,9 @@ namespace Touchstone
                        const std::string    &place)
   {
     const Attempt now{typeid(failure), place, last};
-    const bool    same_state = before && unchanged(before->last.residual, last.residual) &&
+    const bool    same_state = before &&
+                            (unchanged(before->last.residual, last.residual) ||
+                             (balanced(before->last, parameters) && balanced(last, parameters))) &&
                             before->last.changes == last.changes &&
                             before->last.active == last.active;
     const bool same = same_state && before->type == now.type && before->place == now.place;

@@ -67,6 +67,7 @@ namespace Touchstone
     , contact_output(folder)
     , reference(make_reference(scene))
     , checkpoints(folder, origin.checkpoint)
+    , repeated_failure(scene.newton)
   {
     folder.write_file_atomically("parameters.prm", complete_parameters(scene));
     summary.title    = scene.title;

@@ -153,8 +153,31 @@ namespace Touchstone
 
 
   std::string
+  StepProblem::changing_place() const
+  {
+    // The first by its place, which does not depend on the partition.
+    std::vector<double> first;
+    for (const auto &row : changed_rows)
+      if (first.empty() ||
+          std::lexicographical_compare(row.begin(), row.end(), first.begin(), first.end()))
+        first.assign(row.begin(), row.end());
+    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, first))
+      if (!other.empty() && (first.empty() || other < first))
+        first = other;
+    if (first.empty())
+      return "";
+    const auto &pair = scene.pairs[static_cast<unsigned int>(first[dim])];
+    return "rows of pair '" + pair.name + "' that change, one of them at " +
+           readable(first.data()) + " of body '" + pair.slave_body + "'";
+  }
+
+
+
+  std::string
   StepProblem::worst_place() const
   {
+    if (const std::string changing = changing_place(); !changing.empty())
+      return changing;
     Vector free(unbalanced);
     remove_supported(free);
     Vector positions(solid.owned, solid.communicator);

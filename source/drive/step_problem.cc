@@ -375,8 +375,23 @@ namespace Touchstone
     if (largest_force_scale > 0.)
       state.round_off = std::min(state.round_off, largest_round_off);
 
+    std::vector<std::vector<ContactStatus>> before(contact.rows.size());
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (const ContactRow &row : contact.rows[p])
+        before[p].push_back(row.status);
     const Contact::ActiveSetUpdate set =
       contact.update_active_set(scene.newton.gap_tolerance, caution);
+    changed_rows.clear();
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (std::size_t k = 0; k < before[p].size(); ++k)
+        if (const ContactRow &row = contact.rows[p][k]; row.status != before[p][k])
+          {
+            std::array<double, dim + 1> place;
+            for (unsigned int d = 0; d < dim; ++d)
+              place[d] = row.position[d] - u(dim * row.slave + d);
+            place[dim] = p;
+            changed_rows.push_back(place);
+          }
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;

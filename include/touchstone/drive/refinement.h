@@ -53,9 +53,9 @@ namespace Touchstone
   private:
     using Values = dealii::Vector<double>;
 
-    const Scene                                 &scene;
-    Forest                                      &forest;
-    Solid                                       &solid;
+    const Scene                   &scene;
+    Forest                        &forest;
+    Solid                         &solid;
     Formulas                       formulas;
     std::shared_ptr<const Formula> region;
     /** Of the last estimate(), by cells: squared error, and the squared variation of

@@ -17,6 +17,12 @@ namespace Touchstone
   class RepeatedFailure
   {
   public:
+    /** @param parameters A residual that they take for met does not tell attempts apart. */
+    explicit RepeatedFailure(const NewtonParameters &parameters)
+      : parameters(parameters)
+    {
+    }
+
     /** @brief A step has converged: what failed before does not count any more. */
     void
     forget();
@@ -39,7 +45,8 @@ namespace Touchstone
       std::string     place;
       NewtonState     last;
     };
-    std::optional<Attempt> before;
+    const NewtonParameters &parameters;
+    std::optional<Attempt>  before;
   };
 } // namespace Touchstone
 

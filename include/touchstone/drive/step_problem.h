@@ -12,6 +12,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <array>
 #include <memory>
 #include <set>
 #include <string>
@@ -64,7 +65,8 @@ namespace Touchstone
     std::vector<std::string>
     check_loose_bodies() const;
 
-    /** @brief Where the present state is farthest from a solution: body, place and pair.
+    /** @brief Where the present state is farthest from a solution: the contact row that
+     * changes, or else the node that is farthest out of balance, with body, place and pair.
      * Collective. */
     std::string
     worst_place() const;
@@ -214,6 +216,9 @@ namespace Touchstone
     LinearSolverCounts earlier;
     unsigned int       earlier_searches = 0;
     std::string        stabilised;
+    /** Reference positions and pairs of this rank's rows that changed in the last residual(), as
+     * (x, y, z, pair). */
+    std::vector<std::array<double, dim + 1>> changed_rows;
     /** Bodies that only contact holds, and how they can move. */
     std::set<unsigned int> loose_bodies;
     /** Of the committed state: active rows and the obstacle's motion, by pair. */
@@ -237,6 +242,9 @@ namespace Touchstone
 
     void
     check_supports();
+    /** See worst_place(); empty if no row changed. */
+    std::string
+    changing_place() const;
     /** @throws ExcessiveIncrement */
     void
     check_increment() const;
