@@ -83,7 +83,8 @@ namespace Touchstone
                                        scene.obstacles.empty() ? nullptr : &scene.obstacles[0],
                                        &solid,
                                        slave.get(),
-                                       master.get()});
+                                       master.get(),
+                                       parameters.search_distance});
       for (const SurfaceNode &node : slave->owned_nodes())
         {
           ContactRow row;

@@ -29,6 +29,9 @@ end
 
 subsection Body upper
   set Fixed = top
+  subsection Geometry
+    set Type = box
+  end
   subsection Material
     set Young modulus = 1e3
     set Poisson ratio = 0.2

@@ -9,7 +9,7 @@ main()
   try_scene("nothing wrong", good_scene);
   try_scene("Windows line ends, tabs, comments, capitals and continued lines",
             "\xEF\xBB\xBFSET\tBodies = a # only one\r\n"
-            "SUBSECTION  Body  a\r\nsubsection Material\r\n"
+            "SUBSECTION  Body  a\r\nsubsection Geometry\r\nend\r\nsubsection Material\r\n"
             "# nothing\r\nset Young  modulus = \\\r\n  2\r\nend\r\nEND\r\n");
 
   try_change("misspelt key", "set Young modulus = 210000", "set Young modulos = 1");

@@ -6,6 +6,7 @@
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -23,6 +24,22 @@ namespace Touchstone
       Tensor<1, dim> e;
       e[k % dim] = 1.;
       return k < dim ? e : cross_product_3d(e, x);
+    }
+
+    /** Whether the eigenvalues of a symmetric 6 x 6 matrix are all larger than
+     * @p threshold. */
+    bool
+    positive_definite(const double *entries, const double threshold)
+    {
+      LAPACKFullMatrix<double> matrix(6, 6);
+      for (unsigned int i = 0; i < 6; ++i)
+        for (unsigned int j = 0; j < 6; ++j)
+          matrix(i, j) = entries[6 * i + j];
+      dealii::Vector<double> eigenvalues;
+      FullMatrix<double>     eigenvectors;
+      matrix.compute_eigenvalues_symmetric(
+        -threshold, threshold, 1e-3 * threshold, eigenvalues, eigenvectors);
+      return eigenvalues.size() == 0;
     }
   } // namespace
 
@@ -78,7 +95,7 @@ namespace Touchstone
   {
     const unsigned int  n_bodies = scene.bodies.size();
     const unsigned int  n        = 6 * n_bodies;
-    std::vector<double> gram(n * n, 0.);
+    std::vector<double> gram(n * n, 0.), own(36 * n_bodies, 0.);
     for (const Condition &condition : conditions)
       {
         std::vector<std::pair<unsigned int, double>> row;
@@ -92,9 +109,29 @@ namespace Touchstone
           add(condition.master_body, condition.master_position, -1.);
         for (const auto &[i, vi] : row)
           for (const auto &[j, vj] : row)
-            gram[i * n + j] += vi * vj;
+            {
+              gram[i * n + j] += vi * vj;
+              if (condition.stencil.empty())
+                own[36 * condition.body + 6 * (i % 6) + j % 6] += vi * vj;
+            }
       }
     Utilities::MPI::sum(gram, solid.communicator, gram);
+    Utilities::MPI::sum(own, solid.communicator, own);
+
+    // A body that its own supports hold takes part in no free motion, however few its
+    // supports are beside the many conditions of contact.
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        const double *block   = &own[36 * b];
+        const double  highest = *std::max_element(block, block + 36);
+        if (highest == 0. || !positive_definite(block, 1e-8 * highest))
+          continue;
+        double all = 0.;
+        for (unsigned int i = 0; i < n * n; ++i)
+          all = std::max(all, std::abs(gram[i]));
+        for (unsigned int k = 0; k < 6; ++k)
+          gram[(6 * b + k) * n + 6 * b + k] += all;
+      }
 
     // A motion counts as free if the conditions resist it by less than one part
     // in 1e8 of the best-resisted one (a resistance over a hundredth of a body's

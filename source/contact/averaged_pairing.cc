@@ -36,8 +36,8 @@ namespace Touchstone
       explicit AveragedPairing(const PairingInput &input)
         : Pairing(input)
         , search(*input.master,
-                 input.parameters->search_distance > 0.
-                   ? input.parameters->search_distance
+                 input.search_distance > 0.
+                   ? input.search_distance
                    : std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
                  master_normal(input.parameters->master_normal),

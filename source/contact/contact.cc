@@ -1,4 +1,5 @@
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/start_check.h>
 #include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -53,11 +54,13 @@ namespace Touchstone
         const auto        make    = [&](const std::string              &body,
                               const std::vector<std::string> &boundaries,
                               const std::string              &key) {
-          std::set<types::boundary_id> ids;
-          for (const std::string &name : boundaries)
-            ids.insert(forest.boundary_id(scene.body_index(body), name, section, key));
-          auto surface =
-            std::make_unique<Surface>(solid, forest, scene.body_index(body), ids, exact);
+          const auto ids = forest.boundary_ids(scene.body_index(body), boundaries, section, key);
+          auto       surface =
+            std::make_unique<Surface>(solid,
+                                      forest,
+                                      scene.body_index(body),
+                                      std::set<types::boundary_id>(ids.begin(), ids.end()),
+                                      exact);
           if (surface->largest_face() == 0.)
             throw InputError(section, key, "", "these boundaries have no faces", "check the mesh.");
           return surface;
@@ -82,11 +85,23 @@ namespace Touchstone
               std::min(pair.modulus, scene.bodies[pair.master_body].material.young_modulus);
             pair.master =
               make(parameters.master_body, parameters.master_boundaries, "Master boundaries");
+            for (const types::boundary_id id : pair.master->boundaries())
+              if (pair.slave->boundaries().count(id) > 0)
+                throw InputError(section,
+                                 "Master boundaries",
+                                 forest.boundary_name(id),
+                                 "this boundary of '" + parameters.master_body +
+                                   "' is slave and master at the same time",
+                                 "let different boundaries be slave and master");
           }
         pair.small   = pair.tied || (obstacle == nullptr && parameters.sliding == "small");
-        pair.pairing = PairingRegistry::make(
-          obstacle ? "obstacle" : parameters.pairing,
-          {&parameters, obstacle, &solid, pair.slave.get(), pair.master.get()});
+        pair.pairing = PairingRegistry::make(obstacle ? "obstacle" : parameters.pairing,
+                                             {&parameters,
+                                              obstacle,
+                                              &solid,
+                                              pair.slave.get(),
+                                              pair.master.get(),
+                                              parameters.search_distance});
 
         std::vector<ContactRow> pair_rows;
         for (const SurfaceNode &node : pair.slave->owned_nodes())
@@ -148,6 +163,7 @@ namespace Touchstone
       pair.master->move(zero);
     pair.pairing->update(zero, time, pair_rows);
     ++searches;
+    check_start(pair, pair_rows, zero, time);
     pair.reference = pair_rows;
 
     // Stencils may refer to unknowns that are not in the ghost layer.
@@ -158,6 +174,38 @@ namespace Touchstone
           needed.add_range(dim * entry.node, dim * entry.node + dim);
     needed.compress();
     stencil_values.reinit(solid.owned, needed, solid.communicator);
+  }
+
+
+
+  void
+  Contact::check_start(Pair                    &pair,
+                       std::vector<ContactRow> &pair_rows,
+                       const Vector            &u,
+                       const double             time)
+  {
+    const StartCheck check(solid,
+                           *pair.parameters,
+                           *pair.slave,
+                           pair.master.get(),
+                           pair.slave_body,
+                           pair.master_body,
+                           u,
+                           pair_rows);
+    // An interference deeper than the distance that the size of the faces suggests.
+    const double depth = pair.parameters->search_distance > 0. ? 0. : check.depth_of_overlap();
+    const double face =
+      pair.master ? std::max(pair.slave->largest_face(), pair.master->largest_face()) : 0.;
+    if (depth > face)
+      {
+        const double distance = std::max(depth + 2. * face, 4. * face);
+        pair.pairing          = PairingRegistry::make(
+          pair.parameters->pairing,
+          {pair.parameters, nullptr, &solid, pair.slave.get(), pair.master.get(), distance});
+        pair.pairing->update(u, time, pair_rows);
+        ++searches;
+      }
+    check.check_facing();
   }
 
 
@@ -204,6 +252,8 @@ namespace Touchstone
               pair.master->move(ghosted);
             pair.pairing->update(ghosted, time, rows[p]);
             ++searches;
+            if (!started)
+              check_start(pair, rows[p], ghosted, time);
           }
       }
     for (unsigned int p = 0; p < pairs.size(); ++p)

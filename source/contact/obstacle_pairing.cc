@@ -1,7 +1,7 @@
 #include <touchstone/contact/pairing.h>
 #include <touchstone/contact/row_derivative.h>
+#include <touchstone/scene/formula.h>
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/base/symmetric_tensor.h>
 
 #include <array>
@@ -31,10 +31,8 @@ namespace Touchstone
             make_cone(Point<dim>(o.point), o.direction / o.direction.norm(), o.radius, 0., outside);
         const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            motion[d] = std::make_unique<FunctionParser<1>>(1);
-            motion[d]->initialize("t", *motions[d], {{"pi", numbers::PI}}, false);
-          }
+          motion[d] =
+            formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
       }
 
       void
@@ -94,12 +92,14 @@ namespace Touchstone
       {
         Tensor<1, dim> shift;
         for (unsigned int d = 0; d < dim; ++d)
-          shift[d] = motion[d]->value(Point<1>(time));
+          shift[d] = motion[d] ? motion[d]->value(Point<dim>(), time) : 0.;
+        formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
         return shift;
       }
 
-      std::shared_ptr<const AnalyticSurface>              surface;
-      std::array<std::unique_ptr<FunctionParser<1>>, dim> motion;
+      std::shared_ptr<const AnalyticSurface>          surface;
+      Formulas                                        formulas;
+      std::array<std::shared_ptr<const Formula>, dim> motion;
     };
 
     const PairingRegistry::Entry<ObstaclePairing>

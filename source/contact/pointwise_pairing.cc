@@ -19,8 +19,8 @@ namespace Touchstone
         , search(*input.master,
                  // A node that has gone deeper than its neighbours are apart must
                  // still find its way out.
-                 input.parameters->search_distance > 0.
-                   ? input.parameters->search_distance
+                 input.search_distance > 0.
+                   ? input.search_distance
                    : 4. * std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
                  master_normal(input.parameters->master_normal),

@@ -1,6 +1,6 @@
 #include <touchstone/drive/dynamics.h>
 #include <touchstone/drive/impact.h>
-#include <touchstone/scene/expression.h>
+#include <touchstone/scene/formula.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -21,8 +21,10 @@ namespace Touchstone
     Vector
     interpolate(const Scene               &scene,
                 const Solid               &solid,
+                const std::string         &key,
                 std::array<std::string, 3> BodyParameters::*const formulas)
     {
+      Formulas                      all;
       Vector                        result(solid.owned, solid.communicator);
       const std::vector<Point<dim>> unit = solid.fe.get_unit_support_points();
       std::vector<Index>            dofs(solid.fe.n_dofs_per_cell());
@@ -32,7 +34,8 @@ namespace Touchstone
             const std::string &formula = (scene.bodies[b].*formulas)[d];
             if (formula.empty())
               continue;
-            const auto function = make_function(formula);
+            const auto function =
+              all.add(scene.bodies[b].section(), key + std::string(1, "xyz"[d]), formula);
             for (const auto &cell : solid.dof_handler.active_cell_iterators())
               if (cell->is_locally_owned() && cell->material_id() == b)
                 {
@@ -41,9 +44,11 @@ namespace Touchstone
                     if (solid.fe.system_to_component_index(i).first == d &&
                         solid.owned.is_element(dofs[i]))
                       result(dofs[i]) =
-                        function->value(solid.mapping.transform_unit_to_real_cell(cell, unit[i]));
+                        function->value(
+                          solid.mapping.transform_unit_to_real_cell(cell, unit[i]), 0.);
                 }
           }
+      all.check(solid.communicator);
       result.compress(VectorOperation::insert);
       solid.hanging.distribute(result);
       return result;
@@ -93,7 +98,7 @@ namespace Touchstone
   Vector
   Dynamics::initial_displacement() const
   {
-    return interpolate(scene, solid, &BodyParameters::initial_displacement);
+    return interpolate(scene, solid, "Initial displacement ", &BodyParameters::initial_displacement);
   }
 
 
@@ -101,7 +106,7 @@ namespace Touchstone
   void
   Dynamics::start(const Vector &external, const Vector &internal, const Supports &supports)
   {
-    v = interpolate(scene, solid, &BodyParameters::initial_velocity);
+    v = interpolate(scene, solid, "Initial velocity ", &BodyParameters::initial_velocity);
     supports.set_velocity(v);
     // With all mass at the nodes the acceleration needs no solve, and is the same up to
     // the mesh size.

@@ -1,5 +1,4 @@
 #include <touchstone/drive/refinement.h>
-#include <touchstone/scene/expression.h>
 #include <touchstone/solid/error_estimator.h>
 #include <touchstone/solid/state_transfer.h>
 
@@ -81,8 +80,7 @@ namespace Touchstone
     , forest(forest)
     , solid(solid)
   {
-    if (!scene.refinement.region.empty())
-      region = make_function(scene.refinement.region);
+    region = formulas.add("Refinement", "Region", scene.refinement.region);
   }
 
 
@@ -316,14 +314,12 @@ namespace Touchstone
     // What is left over by the largest 98 % are the smallest 2 %.
     const double small = bulk_threshold(errors, 1. - parameters.coarsen_fraction),
                  low   = bulk_threshold(variation, 1. - parameters.coarsen_fraction);
-    if (region)
-      region->set_time(time);
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const unsigned int i = cell->active_cell_index();
           if (variation(i) >= high || errors(i) >= large ||
-              (region && region->value(cell->center()) > 0.))
+              (region && region->value(cell->center(), time) > 0.))
             {
               if (cell->level() < finest_level())
                 cell->set_refine_flag();
@@ -333,6 +329,7 @@ namespace Touchstone
                    static_cast<unsigned int>(cell->level()) > forest.first_level())
             cell->set_coarsen_flag();
         }
+    formulas.check(solid.communicator);
     // Slave faces that are finer than the master faces they meet have pressures that
     // oscillate. What the mesh adds to the marks may be slave faces, and so on.
     unsigned int sweep = 0;

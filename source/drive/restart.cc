@@ -91,6 +91,7 @@ namespace Touchstone
     archive.put("committed time", committed_time);
     archive.put("linear solver counts", counts);
     archive.put("assemblies", assemblies);
+    archive.put("largest force scale", largest_force_scale);
     archive.put("searches", n_searches());
     archive.put_field("displacement", committed_u);
     archive.put("energies", integration->committed_energies());
@@ -121,6 +122,9 @@ namespace Touchstone
         solid.exchange_cell_states();
       }
     contact.load(archive, u, time);
+    remember_contact();
+    if (archive.has("largest force scale")) // not in checkpoints of earlier versions
+      largest_force_scale = archive.get<double>("largest force scale");
     forget();
     // What this problem has done to come here was done before by the one that was saved.
     earlier          = archive.get<LinearSolverCounts>("linear solver counts");
@@ -181,6 +185,9 @@ namespace Touchstone
     archive.put("end time", scene.load_stepping.end_time);
     archive.put("nominal step size", scene.load_stepping.end_time / scene.load_stepping.steps);
     archive.put("summary", now);
+    archive.put("warnings", warnings.list());
+    archive.put("had contact", had_contact);
+    archive.put("mesh files", mesh_files);
     if (summary.motion)
       archive.put("motion", *summary.motion);
     archive.put("statistics", statistics.rows());
@@ -208,13 +215,31 @@ namespace Touchstone
 
 
 
+  void
+  Simulation::check_mesh_files(const ArchiveReader &archive) const
+  {
+    if (!archive.has("mesh files")) // not in checkpoints of earlier versions
+      return;
+    const auto before = archive.get<std::vector<std::string>>("mesh files");
+    for (unsigned int b = 0; b < mesh_files.size(); ++b)
+      if (b >= before.size() || before[b] != mesh_files[b])
+        throw InputError(scene.bodies[b].section() + "/Geometry",
+                         "File",
+                         "",
+                         "the mesh file is not the one that the checkpoint was written with",
+                         "restore it, or run the scene from its beginning without --resume");
+  }
+
+
+
   std::vector<std::string>
   Simulation::resume()
   {
     const Checkpoint &checkpoint = *origin.checkpoint;
     ArchiveReader     archive([&checkpoint](const unsigned int i) { return checkpoint.piece(i); },
                           checkpoint.n_pieces);
-    const auto        refined = archive.refined_cells(forest.first_level());
+    check_mesh_files(archive);
+    const auto refined = archive.refined_cells(forest.first_level());
     if (!refined.empty())
       {
         problem.reset();
@@ -265,7 +290,12 @@ namespace Touchstone
     statistics.restore(archive.get<TableHandler>("statistics"));
     volume_output.series().restore(archive.get<PictureSeries::List>("volume pictures"));
     contact_output.series().restore(archive.get<PictureSeries::List>("contact pictures"));
-    last_picture    = archive.get<unsigned int>("last picture");
+    last_picture = archive.get<unsigned int>("last picture");
+    if (archive.has("warnings")) // not in checkpoints of earlier versions
+      {
+        warnings.restore(archive.get<std::vector<std::string>>("warnings"));
+        had_contact = archive.get<std::map<std::string, double>>("had contact");
+      }
     last_checkpoint = start.step;
 
     std::vector<std::string> lines = origin.skipped;

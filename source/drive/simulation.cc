@@ -1,5 +1,6 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/drive/simulation.h>
+#include <touchstone/mesh/geometry.h>
 #include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
 #include <touchstone/scene/parameter_changes.h>
@@ -7,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace Touchstone
@@ -54,6 +56,7 @@ namespace Touchstone
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , folder(scene.output.directory, communicator)
     , log(folder, terminal, resume)
+    , warnings(log)
     , forest(scene, folder_of_scene, communicator)
     , solid(scene, forest, communicator)
     , problem(std::make_unique<StepProblem>(scene, forest, solid, timer))
@@ -64,6 +67,7 @@ namespace Touchstone
     , contact_output(folder)
     , reference(make_reference(scene))
     , checkpoints(folder, origin.checkpoint)
+    , repeated_failure(scene.newton)
   {
     folder.write_file_atomically("parameters.prm", complete_parameters(scene));
     summary.title    = scene.title;
@@ -73,6 +77,8 @@ namespace Touchstone
     summary.unknowns = solid.dof_handler.n_dofs();
     if (scene.time_integration.dynamic())
       summary.motion.emplace();
+    for (const BodyParameters &body : scene.bodies)
+      mesh_files.push_back(body.geometry->fingerprint(folder_of_scene));
   }
 
 
@@ -80,11 +86,14 @@ namespace Touchstone
   unsigned int
   Simulation::solve_step(const double time)
   {
+    last_state          = NewtonState();
+    last_state.residual = std::numeric_limits<double>::quiet_NaN();
     problem->begin_step(time);
     const Newton newton(scene.newton);
     // Iterations of attempts that fail count as well.
     return newton.solve(
       *problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
+        last_state = state;
         progress.iteration(
           {iteration, state.residual, state.gap, state.active, state.changes, linear});
         if (state.fraction < 1.)
@@ -179,7 +188,12 @@ namespace Touchstone
     record.cuts                     = cuts;
     summary.iterations.linear_total = problem->linear_counts().iterations;
     for (unsigned int p = 0; p < results.size(); ++p)
-      record.pairs[scene.pairs[p].name] = summary.contact[scene.pairs[p].name] = results[p];
+      {
+        const std::string &pair = scene.pairs[p].name;
+        record.pairs[pair] = summary.contact[pair] = results[p];
+        if (results[p].active > 0)
+          had_contact[pair] = time;
+      }
     summary.reactions.clear();
     for (const Reaction &reaction : problem->reactions())
       {
@@ -226,6 +240,53 @@ namespace Touchstone
 
 
 
+  std::string
+  Simulation::describe(const NonConvergence &failure, const bool repeated) const
+  {
+    std::string text = failure.what();
+    if (const std::string place = problem->worst_place(); !place.empty())
+      text += "; farthest from a solution: " + place;
+    text += problem->suspicion();
+    if (!repeated)
+      return text;
+    std::ostringstream more;
+    more << "; the attempt with twice the step failed in the same way, with residual "
+         << last_state.residual << ", gap " << last_state.gap << ", " << last_state.active
+         << " active rows and " << last_state.changes
+         << " that changed, so that smaller steps cannot help. Other choices take other paths: "
+            "'Contact/Enforcement', 'Pairing' of the pair, another mesh, slave and master "
+            "exchanged";
+    if (scene.has_friction())
+      more << ", 'Contact/Friction = regularised'";
+    return text + more.str();
+  }
+
+
+
+  void
+  Simulation::stop(const std::string &reason, const Position &position)
+  {
+    summary.failure = reason;
+    write_pictures(position.step - 1, position.time);
+    write_last_checkpoint(position);
+  }
+
+
+
+  void
+  Simulation::check_lost_contact()
+  {
+    // In dynamics bodies come and go.
+    if (scene.time_integration.dynamic())
+      return;
+    for (const auto &[pair, time] : had_contact)
+      if (summary.contact[pair].active == 0)
+        warnings.add("contact pair '" + pair + "' had contact until t = " +
+                     Utilities::to_string(time) + " and has none at the end");
+  }
+
+
+
   void
   Simulation::load_stepping()
   {
@@ -252,6 +313,7 @@ namespace Touchstone
             unsigned int newton = solve_step(next);
             newton += adapt(step, next);
             const std::string remarks = problem->remarks();
+            const auto        loose   = problem->check_loose_bodies();
             part = problem->try_commit(scene.time_integration.smallest_step * nominal / now);
             if (part < 1.)
               {
@@ -263,7 +325,10 @@ namespace Touchstone
             if (!remarks.empty())
               log.line("  " + remarks);
             committed_time = time = next;
+            repeated_failure.forget();
             progress.end_step(newton);
+            for (const std::string &text : loose)
+              warnings.add(text);
             record_step(step, time, now, newton, cuts);
             log.check();
             summary.steps = step;
@@ -279,22 +344,28 @@ namespace Touchstone
           }
         catch (const NonConvergence &failure)
           {
-            const std::string reason = failure.what() + problem->suspicion();
+            const bool repeated = repeated_failure.add(failure, last_state, problem->worst_place());
+            const std::string reason = describe(failure, repeated);
             problem->rollback();
             part = 1.;
-            if (cuts >= parameters.maximum_cuts)
+            if (cuts >= parameters.maximum_cuts || repeated)
               {
-                summary.failure = reason + " (step " + std::to_string(step) + " at time " +
-                                  std::to_string(next) + ", cut " + std::to_string(cuts) +
-                                  " times)";
-                write_pictures(step - 1, time);
                 // With other parameters it may go on, from the size that the user asked for.
-                write_last_checkpoint({time, nominal, step, 0});
+                stop(reason + " (step " + std::to_string(step) + " at time " +
+                       std::to_string(next) + ", cut " + std::to_string(cuts) + " times)",
+                     {time, nominal, step, 0});
                 return;
               }
             ++cuts;
             size *= 0.5;
             progress.cut_step(reason, size);
+          }
+        catch (const InputError &error)
+          {
+            // Formulas that have no value here: what was computed before is kept.
+            problem->rollback();
+            stop(error.what(), {time, nominal, step, 0});
+            throw;
           }
       }
     if (scene.output.vtu_interval > 0)
@@ -318,14 +389,19 @@ namespace Touchstone
              scene.linear_solver.type);
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
-    load_stepping();
-    finish_summary();
-    if (summary.ranks > 1)
-      log.line(summary.balance_line());
-    {
-      TimerOutput::Scope scope(timer, "output");
-      folder.write_file_atomically("summary.json", summary.to_json().print());
-    }
+    try
+      {
+        load_stepping();
+      }
+    catch (const InputError &error)
+      {
+        write_summary();
+        log.line(error.what());
+        log.check();
+        throw;
+      }
+    write_summary();
+    warnings.repeat();
     if (!summary.converged)
       {
         log.line("The run did not converge: " + summary.failure);
@@ -334,6 +410,20 @@ namespace Touchstone
       }
     log.check();
     return summary;
+  }
+
+
+
+  void
+  Simulation::write_summary()
+  {
+    check_lost_contact();
+    finish_summary();
+    summary.warnings = warnings.list();
+    if (summary.ranks > 1)
+      log.line(summary.balance_line());
+    TimerOutput::Scope scope(timer, "output");
+    folder.write_file_atomically("summary.json", summary.to_json().print());
   }
 
 

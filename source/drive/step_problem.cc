@@ -1,8 +1,8 @@
 #include <touchstone/algebra/non_convergence.h>
 #include <touchstone/contact/row_terms.h>
 #include <touchstone/drive/step_problem.h>
-#include <touchstone/output/resources.h>
 #include <touchstone/scene/input_error.h>
+#include <touchstone/solid/bodies.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -66,7 +66,12 @@ namespace Touchstone
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
-    extent = Utilities::MPI::max(extent, solid.communicator);
+    extent                 = Utilities::MPI::max(extent, solid.communicator);
+    const auto       boxes = body_boxes(scene, solid);
+    BoundingBox<dim> all(boxes.front());
+    for (const auto &box : boxes)
+      all.merge_with(box);
+    diameter = all.get_boundary_points().first.distance(all.get_boundary_points().second);
   }
 
 
@@ -75,14 +80,17 @@ namespace Touchstone
   StepProblem::start()
   {
     u = committed_u = integration->initial_displacement();
+    // What has no value at time 0 is an error before the run, not within it.
+    boundary_conditions.external_force(0., u, external);
+    boundary_conditions.displacements(0.);
     {
       TimerOutput::Scope scope(timer, "search");
       contact.update(u, 0.);
       contact.commit();
+      remember_contact();
     }
     if (integration->dynamic())
       {
-        boundary_conditions.external_force(0., u, external);
         solid.internal_force(u, internal);
         graph.clear();
         boundary_conditions.prescribe(0., u, graph);
@@ -134,6 +142,7 @@ namespace Touchstone
     integration->begin_step(time, u);
     touch_unknown = integration->dynamic();
     last_residual = 0.;
+    loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
   }
@@ -175,6 +184,8 @@ namespace Touchstone
     committed_time = time;
     solid.commit();
     contact.commit();
+    largest_force_scale = std::max(largest_force_scale, force_scale);
+    remember_contact();
   }
 
 
@@ -288,8 +299,9 @@ namespace Touchstone
   void
   StepProblem::count_on(const StepProblem &before)
   {
-    earlier        = before.linear_counts();
-    committed_time = before.committed_time;
+    earlier             = before.linear_counts();
+    largest_force_scale = before.largest_force_scale;
+    committed_time      = before.committed_time;
     // At time 0 the energies are those that the first velocities mean on this mesh.
     if (committed_time > 0.)
       integration->resume(committed_time, before.integration->committed_energies());
@@ -325,8 +337,8 @@ namespace Touchstone
     touch_unknown = false;
     NewtonState state;
     graph.clear();
-    state.prescribed =
-      boundary_conditions.prescribe(time, u, graph) <= scene.newton.gap_tolerance * length;
+    missed           = boundary_conditions.prescribe(time, u, graph);
+    state.prescribed = missed <= scene.newton.gap_tolerance * length;
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
@@ -346,19 +358,42 @@ namespace Touchstone
     // Only what supports do not carry is out of balance.
     Vector free(unbalanced);
     remove_supported(free);
-    const double scale = std::max(
+    const double present = std::max(
       {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
-    state.force    = free.l2_norm();
-    state.residual = scale > 0. ? state.force / scale : 0.;
-    if (scale > 0.)
-      state.round_off =
-        (solid.round_off(u) + integration->round_off(u) +
-         std::sqrt(Utilities::MPI::sum(enforcement->round_off_squared(contact, extent),
-                                       solid.communicator))) /
-        scale;
+    const double round_off =
+      solid.round_off(u) + integration->round_off(u) +
+      std::sqrt(
+        Utilities::MPI::sum(enforcement->round_off_squared(contact, extent), solid.communicator));
+    // Where forces vanish, at the end of contact for example, what is left of them is
+    // round-off, and no scale: then a small part of the forces that have acted before is.
+    // Those of a body in free flight are round-off from the start, and no such forces.
+    constexpr double small_force = 1e-3, largest_round_off = 1e-6;
+    force_scale        = largest_round_off * present > round_off ? present : 0.;
+    const double scale = std::max(present, small_force * largest_force_scale);
+    state.force        = free.l2_norm();
+    state.residual     = scale > 0. ? state.force / scale : 0.;
+    state.round_off    = scale > 0. ? round_off / scale : 0.;
+    // Only before the first forces act round-off can be as large as they are.
+    if (largest_force_scale > 0.)
+      state.round_off = std::min(state.round_off, largest_round_off);
 
+    std::vector<std::vector<ContactStatus>> before(contact.rows.size());
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (const ContactRow &row : contact.rows[p])
+        before[p].push_back(row.status);
     const Contact::ActiveSetUpdate set =
       contact.update_active_set(scene.newton.gap_tolerance, caution);
+    changed_rows.clear();
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (std::size_t k = 0; k < before[p].size(); ++k)
+        if (const ContactRow &row = contact.rows[p][k]; row.status != before[p][k])
+          {
+            std::array<double, dim + 1> place;
+            for (unsigned int d = 0; d < dim; ++d)
+              place[d] = row.position[d] - u(dim * row.slave + d);
+            place[dim] = p;
+            changed_rows.push_back(place);
+          }
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;
@@ -529,6 +564,7 @@ namespace Touchstone
     system->diagonal_shift =
       modes->stabilisation(motion, unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
     stabilised = motion.description;
+    loose_bodies.insert(motion.bodies.begin(), motion.bodies.end());
   }
 
 
@@ -542,6 +578,7 @@ namespace Touchstone
     solver->solve(*condensed, modes->motions(), solution);
     const Index n = solid.owned.n_elements();
     condensed->expand(solution, solved_increment);
+    check_increment();
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
     condensed.reset();
     enforcement->take(

@@ -4,15 +4,36 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace Touchstone
 {
   using namespace dealii;
 
+  void
+  check_number_of_cells(const double n)
+  {
+    // Three unknowns per cell and more must have 32-bit numbers, and each rank keeps the
+    // coarse mesh, at some hundred bytes per cell.
+    const double numbers = std::numeric_limits<int>::max() / 3.;
+    const double memory  = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE);
+    if (n <= std::min(numbers, memory / 500.))
+      return;
+    std::ostringstream text;
+    text << "these are " << n << " cells, more than "
+         << (n > numbers ? "can be numbered" : "the memory of this machine can hold");
+    throw TooManyCells(text.str());
+  }
+
+
+
   unsigned int
   scaled_cells(const unsigned int n, const double factor)
   {
+    check_number_of_cells(n * factor);
     return std::max(1l, std::lround(n * factor));
   }
 
@@ -46,6 +67,7 @@ namespace Touchstone
       return i[0] + points[0] * (i[1] % points[1] + points[1] * i[2]);
     };
 
+    check_number_of_cells(static_cast<double>(n[0]) * n[1] * n[2]);
     BodyMesh mesh;
     for (unsigned int k = 0; k < points[2]; ++k)
       for (unsigned int j = 0; j < points[1]; ++j)

@@ -103,7 +103,10 @@ namespace Touchstone
         const auto colon = entry.find(':');
         if (colon == std::string::npos)
           throw std::runtime_error("'" + entry + "' has no colon after a name.");
-        result[Utilities::trim(entry.substr(0, colon))] = parse_one(entry.substr(colon + 1));
+        const std::string name = Utilities::trim(entry.substr(0, colon));
+        if (result.count(name) > 0)
+          throw std::runtime_error("'" + name + "' is named twice.");
+        result[name] = parse_one(entry.substr(colon + 1));
       }
     return result;
   }

@@ -7,6 +7,8 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <boost/crc.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -30,6 +32,8 @@ namespace Touchstone
       check(const std::string &section) const override;
       BodyMesh
       create(double factor, const std::string &section, const std::string &folder) const override;
+      std::string
+      fingerprint(const std::string &folder) const override;
 
     private:
       std::string                               file, volume, exact;
@@ -150,6 +154,22 @@ namespace Touchstone
 
 
 
+    std::string
+    FileGeometry::fingerprint(const std::string &folder) const
+    {
+      std::ifstream      in(std::filesystem::path(folder) / file, std::ios::binary);
+      boost::crc_32_type checksum;
+      std::size_t        size = 0;
+      for (std::array<char, 65536> part; in.read(part.data(), part.size()), in.gcount() > 0;)
+        {
+          checksum.process_bytes(part.data(), in.gcount());
+          size += in.gcount();
+        }
+      return std::to_string(size) + " bytes, checksum " + std::to_string(checksum.checksum());
+    }
+
+
+
     MeshFile
     FileGeometry::read(const std::string &section, const std::string &folder) const
     {
@@ -169,7 +189,18 @@ namespace Touchstone
                                                               : read_vtk(in);
           if (mesh.cells.empty())
             throw std::runtime_error("The file has no hexahedra.");
+          for (const Point<3> &x : mesh.vertices)
+            if (!std::isfinite(x.norm()))
+              throw std::runtime_error("A node has a coordinate that is not a finite number.");
           return mesh;
+        }
+      catch (const std::bad_alloc &)
+        {
+          throw InputError(section,
+                           "File",
+                           file,
+                           "the mesh file announces more nodes or cells than memory can hold",
+                           "save the mesh again; the file may be damaged");
         }
       catch (const std::exception &error)
         {
@@ -303,7 +334,14 @@ namespace Touchstone
                                Patterns::Tools::to_string(
                                  std::vector<unsigned int>(used.begin(), used.end())) +
                                ".");
-          mesh.boundary_names[name] = number;
+          const auto [known, is_new] = mesh.boundary_names.insert({name, number});
+          if (!is_new && known->second != number)
+            throw InputError(section,
+                             "Boundary names",
+                             name + ": " + std::to_string(number),
+                             "the file calls boundary " + std::to_string(known->second) +
+                               " by this name",
+                             "take another name");
         }
     }
 

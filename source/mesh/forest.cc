@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria.h>
 
+#include <cmath>
 #include <set>
 
 namespace Touchstone
@@ -27,6 +28,47 @@ namespace Touchstone
                          std::to_string(cells.negative + cells.distorted) + " of " +
                            std::to_string(mesh.cells.size()) + " cells are inverted or distorted",
                          "use more cells, or a geometry with blunter corners");
+    }
+
+
+
+    /** The coarse mesh of a body. */
+    BodyMesh
+    create(const Geometry    &geometry,
+           const double       factor,
+           const std::string &section,
+           const std::string &folder)
+    {
+      try
+        {
+          return geometry.create(factor, section, folder);
+        }
+      catch (const TooManyCells &error)
+        {
+          throw InputError(section, "Cells", "", error.what(), "ask for fewer cells");
+        }
+    }
+
+
+
+    /** Refuse a mesh that would have too many cells when it is refined. */
+    void
+    check_refined(const std::size_t               cells,
+                  const unsigned int              level,
+                  const DiscretisationParameters &parameters)
+    {
+      try
+        {
+          check_number_of_cells(cells * std::pow(8., level) * std::pow(parameters.degree, 3));
+        }
+      catch (const TooManyCells &error)
+        {
+          throw InputError("Discretisation",
+                           "Refinement factor",
+                           Patterns::Tools::to_string(parameters.refinement_factor),
+                           std::string(error.what()) + " (those of degree 2 count as 8)",
+                           "ask for fewer cells");
+        }
     }
 
 
@@ -101,7 +143,7 @@ namespace Touchstone
         const BodyParameters &parameters = scene.bodies[body];
         const std::string     section    = "Body " + parameters.name + "/Geometry";
 
-        const BodyMesh mesh = parameters.geometry->create(factor, section, scene_folder);
+        const BodyMesh mesh = create(*parameters.geometry, factor, section, scene_folder);
         check_cells(mesh, section);
         const auto ids = append(mesh, body, all);
 
@@ -115,6 +157,7 @@ namespace Touchstone
           if (ids.count(own) > 0)
             surfaces[ids.at(own)] = surface;
       }
+    check_refined(all.cells.size(), level, scene.discretisation);
 
     const auto contact_work = std::make_shared<ContactWork>();
     for (const ContactPairParameters &pair : scene.pairs)
@@ -122,10 +165,8 @@ namespace Touchstone
         const auto ids = [&](const std::string              &body,
                              const std::vector<std::string> &boundaries,
                              const std::string              &key) {
-          std::set<types::boundary_id> result;
-          for (const std::string &name : boundaries)
-            result.insert(boundary_id(scene.body_index(body), name, pair.section(), key));
-          return result;
+          const auto list = boundary_ids(scene.body_index(body), boundaries, pair.section(), key);
+          return std::set<types::boundary_id>(list.begin(), list.end());
         };
         const auto slaves = ids(pair.slave_body, pair.slave_boundaries, "Slave boundaries");
         contact_work->add_pair(all,
@@ -221,6 +262,47 @@ namespace Touchstone
                      name,
                      "the body has no boundary of this name or number",
                      "it has " + available + ".");
+  }
+
+
+
+  std::vector<types::boundary_id>
+  Forest::boundary_ids(const unsigned int              body,
+                       const std::vector<std::string> &names,
+                       const std::string              &section,
+                       const std::string              &key) const
+  {
+    std::vector<types::boundary_id>           result;
+    std::map<types::boundary_id, std::string> seen;
+    for (const std::string &name : names)
+      {
+        result.push_back(boundary_id(body, name, section, key));
+        const auto [other, is_new] = seen.insert({result.back(), name});
+        if (!is_new)
+          throw InputError(section,
+                           key,
+                           name,
+                           other->second == name
+                             ? "this boundary is listed twice"
+                             : "this is the boundary that the list also calls '" + other->second +
+                                 "'",
+                           "name each boundary once");
+      }
+    return result;
+  }
+
+
+
+  std::string
+  Forest::boundary_name(const types::boundary_id id) const
+  {
+    std::string result = std::to_string(id);
+    for (const auto &of_body : names)
+      for (const auto &[name, number] : of_body)
+        // Numbers come before letters, a name is better.
+        if (number == id)
+          result = name;
+    return result;
   }
 
 

@@ -187,8 +187,22 @@ namespace Touchstone
                            type.compare(0, 6, "SFM3D4") == 0;
       if (!is_cell && !is_face)
         {
-          if (type.compare(0, 3, "C3D") == 0)
-            throw std::runtime_error("It has elements of type " + type + ".");
+          // Solids of any kind and shape, and elements without a type.
+          for (const char *solid : {"C3D",
+                                    "DC3D",
+                                    "DCC3D",
+                                    "AC3D",
+                                    "EC3D",
+                                    "Q3D",
+                                    "GK3D",
+                                    "COH3D",
+                                    "SC6",
+                                    "SC8",
+                                    "CSS8"})
+            if (type.compare(0, std::string(solid).size(), solid) == 0)
+              throw std::runtime_error("It has elements of type " + type + ".");
+          if (type.empty())
+            throw std::runtime_error("It has elements without a TYPE.");
           return; // beams, springs and the like
         }
 
@@ -246,8 +260,11 @@ namespace Touchstone
         {
           if (words.size() < 2)
             throw std::runtime_error("The file ends, or is damaged, in *ELSET.");
-          const unsigned long step = words.size() > 2 ? number(words[2]) : 1;
-          for (unsigned long e = number(words[0]); e <= number(words[1]) && step > 0; e += step)
+          const unsigned long step  = words.size() > 2 ? number(words[2]) : 1;
+          const unsigned long first = number(words[0]), last = number(words[1]);
+          if (step == 0 || last < first || (last - first) / step > 100000000ul)
+            throw std::runtime_error("The file is damaged in *ELSET, GENERATE.");
+          for (unsigned long e = first; e <= last; e += step)
             add_to_set(name, e);
           return;
         }

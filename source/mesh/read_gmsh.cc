@@ -193,7 +193,10 @@ namespace Touchstone
           if (next<int>(what) != 0)
             throw std::runtime_error("The nodes have parametric coordinates; save the file "
                                      "without them.");
-          std::vector<unsigned long> numbers(next<unsigned int>(what));
+          const auto n_block = next<unsigned int>(what);
+          if (n_block > MeshFile::bytes_left(in) / 2)
+            throw std::runtime_error("The file ends, or is damaged, in $Nodes.");
+          std::vector<unsigned long> numbers(n_block);
           for (unsigned long &number : numbers)
             number = next<unsigned long>(what);
           for (const unsigned long number : numbers)
@@ -290,6 +293,18 @@ namespace Touchstone
     CellData<3> cell;
     cell.vertices = {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
     cells.push_back(cell);
+  }
+
+
+
+  std::size_t
+  MeshFile::bytes_left(std::istream &in)
+  {
+    const auto here = in.tellg();
+    in.seekg(0, std::ios::end);
+    const auto end = in.tellg();
+    in.seekg(here);
+    return end > here ? static_cast<std::size_t>(end - here) : 0;
   }
 
 

@@ -27,6 +27,17 @@ namespace Touchstone
       int                       number = 0;
     };
 
+    /** How many points or cells follow. Each takes two bytes and more: a damaged file
+     * must not make the program ask for memory without end. */
+    unsigned int
+    announced(std::istream &in, const std::string &what)
+    {
+      const auto n = next<unsigned int>(in, what);
+      if (n > MeshFile::bytes_left(in) / 2)
+        throw std::runtime_error("The file ends, or is damaged, in " + what + ".");
+      return n;
+    }
+
     /** Numbers of the cells: the field MaterialID or CellEntityIds, as deal.II
      * and Gmsh write it, or else the last one. */
     void
@@ -71,7 +82,7 @@ namespace Touchstone
     for (std::string word; in >> word;)
       if (word == "POINTS")
         {
-          mesh.vertices.resize(next<unsigned int>(in, word));
+          mesh.vertices.resize(announced(in, word));
           next<std::string>(in, word);
           for (Point<3> &x : mesh.vertices)
             for (unsigned int d = 0; d < 3; ++d)
@@ -79,7 +90,7 @@ namespace Touchstone
         }
       else if (word == "CELLS")
         {
-          cells.resize(next<unsigned int>(in, word));
+          cells.resize(announced(in, word));
           next<unsigned int>(in, word);
           if ((in >> std::ws).peek() == 'O')
             throw std::runtime_error("CELLS has OFFSETS; save the file as version 4.2 or "

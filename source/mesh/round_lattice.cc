@@ -1,3 +1,4 @@
+#include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/round_lattice.h>
 
 #include <deal.II/base/numbers.h>
@@ -40,6 +41,9 @@ namespace Touchstone
                              const unsigned int              rings,
                              const unsigned int              layers)
   {
+    const double sides = dimensions == 2 ? 4. : 6.; // where rings stand on the core
+    check_number_of_cells((2. * core) * (2. * core) * (dimensions == 2 ? layers : 2. * core) +
+                          sides * (2. * core) * rings * (dimensions == 2 ? layers : 2. * core));
     const int          n = core;
     std::array<int, 3> lower{{0, 0, 0}}, upper{{n, n, static_cast<int>(layers)}};
     for (unsigned int d = 0; d < dimensions; ++d)

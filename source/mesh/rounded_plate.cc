@@ -154,6 +154,10 @@ namespace Touchstone
     BodyMesh
     RoundedPlate::create(const double factor, const std::string &, const std::string &) const
     {
+      check_number_of_cells(
+        (scaled_cells(cells[0], factor) + 2. * scaled_cells(fillet_half, factor)) *
+        (scaled_cells(cells[1], factor) + 2. * scaled_cells(fillet_half, factor)) *
+        scaled_cells(layers, factor));
       const RoundedRectangle section({{lengths[0], lengths[1]}},
                                      radius,
                                      {{scaled_cells(cells[0], factor),

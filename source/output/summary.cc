@@ -104,6 +104,10 @@ namespace Touchstone
                           .set("unknowns", mesh.unknowns)
                           .set("estimated_error", mesh.estimated_error));
 
+    Json all_warnings = Json::array();
+    for (const std::string &text : warnings)
+      all_warnings.append(text);
+
     Json result = Json::object()
                     .set("title", title)
                     .set("version", version)
@@ -144,6 +148,7 @@ namespace Touchstone
       .set("peak_memory_mb", peak_memory_mb)
       .set("results", results)
       .set("errors", relative_errors)
+      .set("warnings", all_warnings)
       .set("failure", failure);
   }
 

@@ -185,6 +185,20 @@ namespace Touchstone
 
 
 
+  std::vector<std::pair<std::string, std::string>>
+  BoundaryParameters::formulas() const
+  {
+    return {{"Pressure", pressure},
+            {"Displacement x", displacement_x},
+            {"Displacement y", displacement_y},
+            {"Displacement z", displacement_z},
+            {"Traction x", traction_x},
+            {"Traction y", traction_y},
+            {"Traction z", traction_z}};
+  }
+
+
+
   void
   BoundaryParameters::check(const std::string &section) const
   {
@@ -422,14 +436,7 @@ namespace Touchstone
         condition.check(where);
         if (held.count(boundary) == 0)
           continue;
-        const std::vector<std::pair<std::string, std::string>> entries = {
-          {"Pressure", condition.pressure},
-          {"Displacement x", condition.displacement_x},
-          {"Displacement y", condition.displacement_y},
-          {"Displacement z", condition.displacement_z},
-          {"Traction x", condition.traction_x},
-          {"Traction y", condition.traction_y},
-          {"Traction z", condition.traction_z}};
+        const auto entries = condition.formulas();
         // A symmetry plane may still be moved or loaded along itself, and
         // which direction that is only the mesh knows; pressure is across.
         const unsigned int n = held.at(boundary) == "Fixed" ? entries.size() : 1;

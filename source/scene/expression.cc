@@ -1,8 +1,6 @@
 #include <touchstone/scene/expression.h>
+#include <touchstone/scene/formula.h>
 #include <touchstone/scene/input_error.h>
-
-#include <deal.II/base/function_parser.h>
-#include <deal.II/base/numbers.h>
 
 #include <cmath>
 #include <iostream>
@@ -60,19 +58,6 @@ namespace Touchstone
 
 
 
-  std::unique_ptr<dealii::FunctionParser<dim>>
-  make_function(const std::string &expression)
-  {
-    auto function = std::make_unique<dealii::FunctionParser<dim>>(1);
-    function->initialize("x,y,z,t",
-                         expression,
-                         {{"pi", dealii::numbers::PI}},
-                         /*time_dependent=*/true);
-    return function;
-  }
-
-
-
   void
   check_expression(const std::string &section,
                    const std::string &key,
@@ -95,9 +80,7 @@ namespace Touchstone
       const CaptureErrors errors;
       try
         {
-          const auto function = make_function(expression);
-          function->set_time(0.5);
-          value = function->value(dealii::Point<dim>(0.3, 0.4, 0.6));
+          value = Formula(section, key, expression).value(dealii::Point<dim>(0.3, 0.4, 0.6), 0.5);
         }
       catch (const std::exception &)
         {
@@ -114,7 +97,8 @@ namespace Touchstone
         throw InputError(
           section, key, expression, "this formula must not depend on " + variable->str(), remedy);
 
-    // Elsewhere in space or time a formula may well be undefined.
+    // Where a formula that depends on place or time must be defined the mesh decides, and
+    // the steps: Formulas::check().
     if (!std::regex_search(expression, any_variable) && !std::isfinite(value))
       throw InputError(section, key, expression, "this is not a finite number", remedy);
   }

@@ -137,6 +137,12 @@ namespace Touchstone
     };
     for (BodyParameters &body : bodies)
       {
+        if (text.sections().count(body.section() + "/Geometry") == 0)
+          throw InputError(body.section(),
+                           "",
+                           "",
+                           "there is no subsection 'Geometry': the body has no shape",
+                           "write one with the key 'Type' and the keys of that geometry");
         const std::string section = body.section() + "/Geometry",
                           type    = text.value(section, "Type", body.geometry_name);
         if (GeometryRegistry::records().count(type) == 0)

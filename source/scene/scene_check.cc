@@ -1,3 +1,4 @@
+#include <touchstone/scene/formula.h>
 #include <touchstone/scene/input_error.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/suggestion.h>
@@ -59,6 +60,7 @@ namespace Touchstone
                        "its mesh cannot be refined during the run",
                        "set it to 'automatic', or 'Estimator' in section 'Refinement' to 'none'.");
     load_stepping.check("Load stepping");
+    check_formulas();
     check_time_integration();
     newton.check("Newton");
     linear_solver.check("Linear solver");
@@ -82,6 +84,30 @@ namespace Touchstone
                        "'Belos GMRES'");
     if (!reference.pair.empty())
       check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
+  }
+
+
+
+  void
+  Scene::check_formulas() const
+  {
+    const auto check =
+      [&](const std::string &section, const std::string &key, const std::string &text) {
+        check_at_all_steps(section, key, text, load_stepping.end_time, load_stepping.steps);
+      };
+    for (const BodyParameters &body : bodies)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          check(body.section(), std::string("Body force ") + "xyz"[d], body.body_force[d]);
+        for (const auto &[boundary, condition] : body.boundaries)
+          for (const auto &[key, text] : condition.formulas())
+            check(body.section() + "/Boundary " + boundary, key, text);
+      }
+    for (const ObstacleParameters &obstacle : obstacles)
+      for (const auto &[key, text] : {std::make_pair("Motion x", &obstacle.motion_x),
+                                      std::make_pair("Motion y", &obstacle.motion_y),
+                                      std::make_pair("Motion z", &obstacle.motion_z)})
+        check(obstacle.section(), key, *text);
   }
 
 

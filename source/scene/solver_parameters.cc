@@ -216,8 +216,20 @@ namespace Touchstone
   NewtonParameters::check(const std::string &section) const
   {
     const std::string remedy = "round-off ends at about 1e-12, 1e-9 is usual";
-    check_positive(section, "Residual tolerance", residual_tolerance, remedy);
-    check_positive(section, "Gap tolerance", gap_tolerance, remedy);
+    // What is no better than this is no solution.
+    constexpr double coarsest = 1e-2;
+    for (const auto &[key, tolerance] : {std::make_pair("Residual tolerance", residual_tolerance),
+                                         std::make_pair("Gap tolerance", gap_tolerance)})
+      {
+        check_positive(section, key, tolerance, remedy);
+        if (!(tolerance < coarsest))
+          throw InputError(section,
+                           key,
+                           Patterns::Tools::to_string(tolerance),
+                           "is so large that what is no solution would count as one",
+                           "give less than " + Patterns::Tools::to_string(coarsest) + "; " +
+                             remedy);
+      }
   }
 
 

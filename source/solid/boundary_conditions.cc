@@ -1,4 +1,3 @@
-#include <touchstone/scene/expression.h>
 #include <touchstone/scene/input_error.h>
 #include <touchstone/solid/boundary_conditions.h>
 
@@ -14,25 +13,11 @@ namespace Touchstone
 
   namespace
   {
-    /** Null for an empty expression. */
-    std::shared_ptr<FunctionParser<dim>>
-    parse(const std::string &expression)
-    {
-      if (expression.find_first_not_of(" \t") == std::string::npos)
-        return nullptr;
-      return make_function(expression);
-    }
-
     /** Zero for no function. */
     double
-    evaluate(const std::shared_ptr<FunctionParser<dim>> &function,
-             const Point<dim>                           &x,
-             const double                                t)
+    evaluate(const std::shared_ptr<const Formula> &function, const Point<dim> &x, const double t)
     {
-      if (!function)
-        return 0.;
-      function->set_time(t);
-      return function->value(x);
+      return function ? function->value(x, t) : 0.;
     }
 
     Tensor<1, dim>
@@ -41,6 +26,31 @@ namespace Touchstone
       Tensor<1, dim> e;
       e[d] = 1.;
       return e;
+    }
+
+    /** Refuse entries of a boundary that 'Fixed' or 'Symmetry' would override. The
+     * normal of the symmetry plane is zero where there is none. */
+    void
+    check_not_held(const std::string        &section,
+                   const BoundaryParameters &condition,
+                   const bool                fixed,
+                   const Tensor<1, dim>     &plane)
+    {
+      // Along a plane that is oblique to the axes every component can be prescribed.
+      constexpr double parallel = 0.999;
+      for (const auto &[key, text] : condition.formulas())
+        {
+          const std::size_t d      = std::string("xyz").find(key.back());
+          const bool        across = d != std::string::npos ? std::abs(plane[d]) > parallel
+                                                            : plane.norm() > 0.; // the pressure
+          if (!text.empty() && (fixed || across))
+            throw InputError(section,
+                             key,
+                             text,
+                             std::string("this boundary is held in this direction by '") +
+                               (fixed ? "Fixed" : "Symmetry") + "' of the body",
+                             "remove this entry or take the boundary from that list");
+        }
     }
   } // namespace
 
@@ -56,48 +66,74 @@ namespace Touchstone
       {
         const BodyParameters &body    = scene.bodies[b];
         const std::string     section = "Body " + body.name;
-        for (const std::string &name : body.fixed)
+        // Each list once, under whatever name: a name and a number can mean the same.
+        const auto fixed    = forest.boundary_ids(b, body.fixed, section, "Fixed"),
+                   symmetry = forest.boundary_ids(b, body.symmetry, section, "Symmetry"),
+                   condition_ids =
+                     forest.boundary_ids(b, body.conditions, section, "Boundary conditions");
+        for (std::size_t k = 0; k < fixed.size(); ++k)
           {
-            const auto id = forest.boundary_id(b, name, section, "Fixed");
+            const std::string &name = body.fixed[k];
+            const auto         id   = fixed[k];
             supports.push_back({body.name, name, Tensor<1, dim>()});
             for (unsigned int d = 0; d < dim; ++d)
               prescribe_on(id, axis(d), nullptr, b, supports.size() - 1);
           }
-        for (const std::string &name : body.symmetry)
+        std::map<types::boundary_id, Tensor<1, dim>> planes;
+        for (std::size_t k = 0; k < symmetry.size(); ++k)
           {
-            const auto id = forest.boundary_id(b, name, section, "Symmetry");
+            const std::string &name = body.symmetry[k];
+            const auto         id   = symmetry[k];
+            if (std::count(fixed.begin(), fixed.end(), id) > 0)
+              throw InputError(section,
+                               "Symmetry",
+                               name,
+                               "this boundary is also in the list 'Fixed'",
+                               "name it once: a fixed boundary needs no symmetry");
             supports.push_back({body.name, name, Tensor<1, dim>()});
             const std::size_t before = prescribed.size();
-            prescribe_on(id, plane_normal(id, section, name), nullptr, b, supports.size() - 1);
-            for (std::size_t k = before; k < prescribed.size(); ++k)
-              symmetry[prescribed[k].node].push_back(prescribed[k].direction);
+            planes[id]               = plane_normal(id, section, name);
+            prescribe_on(id, planes[id], nullptr, b, supports.size() - 1);
+            for (std::size_t i = before; i < prescribed.size(); ++i)
+              mirror_normals[prescribed[i].node].push_back(prescribed[i].direction);
           }
-        for (const std::string &name : body.conditions)
+        for (std::size_t k = 0; k < condition_ids.size(); ++k)
           {
-            const auto id = forest.boundary_id(b, name, section, "Boundary conditions");
-            const BoundaryParameters       &condition    = body.boundaries.at(name);
-            const std::array<Function, dim> displacement = {{parse(condition.displacement_x),
-                                                             parse(condition.displacement_y),
-                                                             parse(condition.displacement_z)}};
+            const std::string &name = body.conditions[k];
+            const auto         id   = condition_ids[k];
+            check_not_held(section + "/Boundary " + name,
+                           body.boundaries.at(name),
+                           std::count(fixed.begin(), fixed.end(), id) > 0,
+                           planes.count(id) > 0 ? planes[id] : Tensor<1, dim>());
+            const BoundaryParameters &condition = body.boundaries.at(name);
+            const auto parse = [&, where = section + "/Boundary " + name](const std::string &key,
+                                                                          const std::string &text) {
+              return formulas.add(where, key, text);
+            };
+            const std::array<Function, dim> displacement = {
+              {parse("Displacement x", condition.displacement_x),
+               parse("Displacement y", condition.displacement_y),
+               parse("Displacement z", condition.displacement_z)}};
             if (displacement[0] || displacement[1] || displacement[2])
               supports.push_back({body.name, name, Tensor<1, dim>()});
             for (unsigned int d = 0; d < dim; ++d)
               if (displacement[d])
                 prescribe_on(id, axis(d), displacement[d], b, supports.size() - 1);
-            const auto pressure = parse(condition.pressure);
+            const auto pressure = parse("Pressure", condition.pressure);
             const bool follows  = pressure && condition.follows(body.material);
             if (follows)
               following.add(id, pressure);
             const Load load{id,
-                            {{parse(condition.traction_x),
-                              parse(condition.traction_y),
-                              parse(condition.traction_z)}},
+                            {{parse("Traction x", condition.traction_x),
+                              parse("Traction y", condition.traction_y),
+                              parse("Traction z", condition.traction_z)}},
                             follows ? nullptr : pressure};
             if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
               loads.push_back(load);
           }
-        body_forces.push_back(
-          {{parse(body.body_force[0]), parse(body.body_force[1]), parse(body.body_force[2])}});
+        body_forces.push_back({{formulas.add(section, "Body force x", body.body_force[0]),
+                                formulas.add(section, "Body force y", body.body_force[1]),
+                                formulas.add(section, "Body force z", body.body_force[2])}});
       }
     if (std::none_of(body_forces.begin(), body_forces.end(), [](const auto &force) {
           return force[0] || force[1] || force[2];
@@ -184,10 +220,7 @@ namespace Touchstone
   double
   BoundaryConditions::Prescribed::displacement(const double t) const
   {
-    if (!value)
-      return 0.;
-    value->set_time(t);
-    return value->value(position);
+    return evaluate(value, position, t);
   }
 
 
@@ -201,6 +234,7 @@ namespace Touchstone
                         p.direction,
                         p.displacement(t),
                         supports[p.support].body + "/" + supports[p.support].boundary});
+    formulas.check(solid.communicator);
     return result;
   }
 
@@ -209,10 +243,16 @@ namespace Touchstone
   double
   BoundaryConditions::prescribe(const double t, const Vector &u, ConstraintGraph &graph) const
   {
+    // Before the graph takes what is no number.
+    std::vector<double> values;
+    for (const Prescribed &p : prescribed)
+      values.push_back(p.displacement(t));
+    formulas.check(solid.communicator);
     double mismatch = 0.;
+    auto   next     = values.begin();
     for (const Prescribed &p : prescribed)
       {
-        double value = p.displacement(t);
+        double value = *next++;
         for (unsigned int d = 0; d < dim; ++d)
           if (p.direction[d] != 0.)
             value -= p.direction[d] * u(dim * p.node + d);
@@ -236,6 +276,15 @@ namespace Touchstone
     force = 0.;
     following.add_force(t, u, force);
     add_body_forces(t, force);
+    add_tractions(t, force);
+    formulas.check(solid.communicator);
+  }
+
+
+
+  void
+  BoundaryConditions::add_tractions(const double t, Vector &force) const
+  {
     if (loads.empty())
       return;
     FEFaceValues<dim>  values(solid.mapping,

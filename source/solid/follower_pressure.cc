@@ -34,7 +34,6 @@ namespace Touchstone
                 values.reinit(cell, f);
                 cell->get_dof_indices(dofs);
                 values[displacement].get_function_gradients(ghosted, gradients);
-                load.pressure->set_time(t);
                 for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                   {
                     const Tensor<1, dim> n = values.normal_vector(q);
@@ -45,7 +44,7 @@ namespace Touchstone
                     Tensor<1, dim> axis;
                     axis[d] = 1.;
                     SurfacePoint point;
-                    point.pressure = load.pressure->value(values.quadrature_point(q));
+                    point.pressure = load.pressure->value(values.quadrature_point(q), t);
                     point.t[0]     = cross_product_3d(axis, n);
                     point.t[0] /= point.t[0].norm();
                     point.t[1] = cross_product_3d(n, point.t[0]);

@@ -50,6 +50,18 @@ namespace Touchstone
     using NonConvergence::NonConvergence;
   };
 
+  /** @brief A Newton increment is far larger than all bodies together. */
+  class ExcessiveIncrement : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief A body that nothing but contact holds was thrown off what it touched. */
+  class LostContact : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
   /** @brief A step has made energy from nothing. */
   class EnergyGain : public NonConvergence
   {

@@ -262,6 +262,10 @@ namespace Touchstone
     /** The first row, over all ranks, that asks to change its state. */
     std::vector<double>
     first_in_order(const std::function<double(const ContactRow &)> &demand) const;
+    /** After the first search of a pair: make a deeper one if the bodies overlap more than it
+     * reaches. @throws InputError if the surfaces do not face each other. */
+    void
+    check_start(Pair &pair, std::vector<ContactRow> &pair_rows, const Vector &u, double time);
     void
     make_reference(Pair &pair, std::vector<ContactRow> &pair_rows, double time);
     void

@@ -24,6 +24,9 @@ namespace Touchstone
     const Surface               *slave;
     /** Null for an obstacle. */
     const Surface *master;
+    /** Farthest distance at which partners are looked for, length; zero lets the pairing
+     * choose it from the size of the faces. */
+    double search_distance = 0.;
   };
 
   /** @brief What a pairing knows of earlier steps besides positions, in keys of faces. */

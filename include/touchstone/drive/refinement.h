@@ -3,8 +3,8 @@
 
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/mesh/forest.h>
+#include <touchstone/scene/formula.h>
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/lac/vector.h>
 
 #include <functional>
@@ -53,10 +53,11 @@ namespace Touchstone
   private:
     using Values = dealii::Vector<double>;
 
-    const Scene                                 &scene;
-    Forest                                      &forest;
-    Solid                                       &solid;
-    std::unique_ptr<dealii::FunctionParser<dim>> region;
+    const Scene                   &scene;
+    Forest                        &forest;
+    Solid                         &solid;
+    Formulas                       formulas;
+    std::shared_ptr<const Formula> region;
     /** Of the last estimate(), by cells: squared error, and the squared variation of
      * the pressure over their slave faces. */
     Values errors, variation;

@@ -3,6 +3,7 @@
 
 #include <touchstone/archive/checkpoints.h>
 #include <touchstone/drive/refinement.h>
+#include <touchstone/drive/repeated_failure.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/output/contact_output.h>
 #include <touchstone/output/folder.h>
@@ -12,6 +13,7 @@
 #include <touchstone/output/statistics.h>
 #include <touchstone/output/summary.h>
 #include <touchstone/output/volume_output.h>
+#include <touchstone/output/warnings.h>
 
 #include <deal.II/base/timer.h>
 
@@ -60,6 +62,7 @@ namespace Touchstone
     dealii::TimerOutput                timer;
     OutputFolder                       folder;
     Log                                log;
+    Warnings                           warnings;
     Forest                             forest;
     Solid                              solid;
     std::unique_ptr<StepProblem>       problem;
@@ -72,6 +75,13 @@ namespace Touchstone
     Checkpoints                        checkpoints;
     RunSummary                         summary;
     std::vector<std::string>           comparison_lines;
+    /** By the names of pairs: the last time at which they had contact. */
+    std::map<std::string, double> had_contact;
+    /** Fingerprints of the mesh files, by body. */
+    std::vector<std::string> mesh_files;
+    /** Of the last Newton iteration. */
+    NewtonState     last_state;
+    RepeatedFailure repeated_failure;
     /** Time of the last step that was kept. */
     double       committed_time = 0.;
     unsigned int last_picture   = dealii::numbers::invalid_unsigned_int;
@@ -99,6 +109,9 @@ namespace Touchstone
     /** After the last step, unless that has been done. */
     void
     write_last_checkpoint(const Position &position);
+    /** @throws InputError if they have changed since the checkpoint was written. */
+    void
+    check_mesh_files(const ArchiveReader &archive) const;
     /** Restore all that the checkpoint has. @return lines for the log. */
     std::vector<std::string>
     resume();
@@ -125,11 +138,23 @@ namespace Touchstone
     write_pictures(unsigned int step, double time);
     void
     load_stepping();
+    /** A step cannot be made: leave the last committed state on disk. */
+    void
+    stop(const std::string &reason, const Position &position);
+    /** What a failure has to say, and of whether cuts can help. */
+    std::string
+    describe(const NonConvergence &failure, bool repeated) const;
+    /** Warn of pairs that had contact and have none at the end. */
+    void
+    check_lost_contact();
     /** Wall clock and processor time of the whole run. Collective. */
     RunSummary::Seconds
     seconds_so_far();
     void
     finish_summary();
+    /** finish_summary(), and put it on disk. */
+    void
+    write_summary();
     /** Counts of work, not seconds, which depend on the machine. */
     void
     measure_balance();

@@ -12,8 +12,11 @@
 
 #include <deal.II/base/timer.h>
 
+#include <array>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace Touchstone
 {
@@ -51,6 +54,22 @@ namespace Touchstone
     /** @brief Return to the committed state. */
     void
     rollback();
+
+    /**
+     * @brief Look at bodies that nothing but contact holds and that touch nothing in the
+     * present state: statics does not know where they belong. Collective.
+     * @return what to tell of those that have come off without going far.
+     * @throws LostContact if one of them touched something in the committed state, and has
+     * moved much farther than anything that could have pushed it: Newton has thrown it off.
+     */
+    std::vector<std::string>
+    check_loose_bodies() const;
+
+    /** @brief Where the present state is farthest from a solution: the contact row that
+     * changes, or else the node that is farthest out of balance, with body, place and pair.
+     * Collective. */
+    std::string
+    worst_place() const;
 
     NewtonState
     residual(unsigned int caution) override;
@@ -199,6 +218,20 @@ namespace Touchstone
     LinearSolverCounts earlier;
     unsigned int       earlier_searches = 0;
     std::string        stabilised;
+    /** Reference positions and pairs of this rank's rows that changed in the last residual(), as
+     * (x, y, z, pair). */
+    std::vector<std::array<double, dim + 1>> changed_rows;
+    /** Bodies that only contact holds, and how they can move. */
+    std::set<unsigned int> loose_bodies;
+    /** Of the committed state: active rows and the obstacle's motion, by pair. */
+    std::vector<unsigned int>           committed_active;
+    std::vector<dealii::Tensor<1, dim>> committed_shift;
+    /** Forces that act, at present and the largest of all committed states; zero where they
+     * are no more than round-off. */
+    double force_scale = 0., largest_force_scale = 0.;
+    /** Diagonal of the box around all bodies, and the largest prescribed displacement that
+     * the present state misses; length. */
+    double diameter = 0., missed = 0.;
     /** Relative residual that the next linear solve needs. */
     double linear_tolerance = 1e-3;
     /** The one before this increment, if nothing but the residual was left to be met. */
@@ -211,6 +244,21 @@ namespace Touchstone
 
     void
     check_supports();
+    /** See worst_place(); empty if no row changed. */
+    std::string
+    changing_place() const;
+    /** @throws ExcessiveIncrement */
+    void
+    check_increment() const;
+    /** Remember what check_loose_bodies() compares with, after a commit. */
+    void
+    remember_contact();
+    /** Over all ranks, by pair. */
+    std::vector<unsigned int>
+    active_rows() const;
+    /** Motion of the obstacle of each pair since time 0; zero without one. Collective. */
+    std::vector<dealii::Tensor<1, dim>>
+    obstacle_shifts() const;
     /** Take from the forces on nodes what their supports carry. */
     void
     remove_supported(Vector &force) const;

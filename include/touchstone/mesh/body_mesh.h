@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <stdexcept>
 
 /**
  * @file
@@ -15,7 +16,20 @@
 
 namespace Touchstone
 {
-  /** @brief Number of cells @p n times @p factor, rounded, at least one. */
+  /** @brief A mesh that neither the machine's memory nor the numbers of its unknowns could
+   * hold. The message is a sentence. */
+  class TooManyCells : public std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
+  /** @brief Call before a mesh of @p n cells is made.
+   * @throws TooManyCells */
+  void
+  check_number_of_cells(double n);
+
+  /** @brief Number of cells @p n times @p factor, rounded, at least one.
+   * @throws TooManyCells */
   unsigned int
   scaled_cells(unsigned int n, double factor);
 

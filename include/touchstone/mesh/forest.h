@@ -75,6 +75,21 @@ namespace Touchstone
                 const std::string &section,
                 const std::string &key) const;
 
+    /**
+     * @brief The ids of the boundaries in a list, in its order.
+     * @throws InputError in the name of @p section and @p key if the body has no such
+     * boundary, or if two entries, a name and a number perhaps, mean the same.
+     */
+    std::vector<dealii::types::boundary_id>
+    boundary_ids(unsigned int                    body,
+                 const std::vector<std::string> &names,
+                 const std::string              &section,
+                 const std::string              &key) const;
+
+    /** @brief A name of a boundary, or its number if it has no name. */
+    std::string
+    boundary_name(dealii::types::boundary_id id) const;
+
     /** @brief Exact shape of a boundary, or null where only the mesh is known. */
     std::shared_ptr<const AnalyticSurface>
     surface(dealii::types::boundary_id id) const;

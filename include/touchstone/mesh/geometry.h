@@ -59,6 +59,17 @@ namespace Touchstone
      */
     virtual BodyMesh
     create(double factor, const std::string &section, const std::string &folder) const = 0;
+
+    /**
+     * @brief What tells whether a mesh that is not made from parameters alone is the same:
+     * size and checksum of its file; empty if parameters say all.
+     * @param folder Folder of the scene file.
+     */
+    virtual std::string
+    fingerprint(const std::string & /*folder*/) const
+    {
+      return "";
+    }
   };
 
   using GeometryRegistry = Registry<Geometry>;

@@ -41,6 +41,10 @@ namespace Touchstone
     void
     add_cell(const std::vector<unsigned int> &vertices);
 
+    /** @brief Bytes of a file that have not been read yet. */
+    static std::size_t
+    bytes_left(std::istream &in);
+
     /** @brief The group with this number, or a new one. */
     static Group &
     group(std::vector<Group> &groups, unsigned int number);

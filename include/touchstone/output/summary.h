@@ -104,6 +104,8 @@ namespace Touchstone
     std::map<std::string, double> errors;
     /** Only where there is inertia. */
     std::optional<Motion> motion;
+    /** What the user should know of the results. */
+    std::vector<std::string> warnings;
     /** Why the run did not converge; empty if it did. */
     std::string failure;
 

@@ -104,6 +104,10 @@ namespace Touchstone
              (pressure_follows == "automatic" && material.finite_strain());
     }
 
+    /** @brief The formulas by their keys, the pressure first; empty ones too. */
+    std::vector<std::pair<std::string, std::string>>
+    formulas() const;
+
     void
     declare(dealii::ParameterHandler &prm);
     /** Every expression parses; a component is not both moved and loaded. */

@@ -89,6 +89,9 @@ namespace Touchstone
     check() const;
     void
     check_pair(const ContactPairParameters &pair) const;
+    /** Formulas of the time alone have finite values at the ends of all steps. */
+    void
+    check_formulas() const;
     /** Inertia needs densities, and initial velocities need inertia. */
     void
     check_time_integration() const;

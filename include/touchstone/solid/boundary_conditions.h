@@ -2,9 +2,8 @@
 #define touchstone_solid_boundary_conditions_h
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/scene/formula.h>
 #include <touchstone/solid/follower_pressure.h>
-
-#include <deal.II/base/function_parser.h>
 
 #include <map>
 #include <memory>
@@ -43,7 +42,8 @@ namespace Touchstone
     BoundaryConditions(const Scene &scene, const Forest &forest, const Solid &solid);
 
     /** @brief Nodal forces of tractions, pressures and body forces at time @p t in the displacement
-     * @p u, which matters to pressures that follow the surface only. */
+     * @p u, which matters to pressures that follow the surface only. Collective.
+     * @throws InputError if a formula is not finite. */
     void
     external_force(double t, const Vector &u, Vector &force) const;
 
@@ -57,13 +57,15 @@ namespace Touchstone
     /**
      * @brief Offer the prescribed displacements at time @p t, as increments from
      * @p u, to the constraint graph.
-     * @return the largest amount by which @p u misses them, length.
+     * @return the largest amount by which @p u misses them, length. Collective.
+     * @throws InputError if a formula is not finite.
      */
     double
     prescribe(double t, const Vector &u, ConstraintGraph &graph) const;
 
     /** @brief The prescribed displacements of owned nodes at time @p t. A node on
-     * several boundaries has several, which may depend on each other. */
+     * several boundaries has several, which may depend on each other. Collective.
+     * @throws InputError if a formula is not finite. */
     std::vector<PrescribedDisplacement>
     displacements(double t) const;
 
@@ -71,7 +73,7 @@ namespace Touchstone
     const std::map<Index, std::vector<dealii::Tensor<1, dim>>> &
     mirrors() const
     {
-      return symmetry;
+      return mirror_normals;
     }
 
     /**
@@ -83,7 +85,7 @@ namespace Touchstone
     reactions(const Vector &unbalanced) const;
 
   private:
-    using Function = std::shared_ptr<dealii::FunctionParser<dim>>;
+    using Function = std::shared_ptr<const Formula>;
 
     /** One direction prescribed at one owned node. */
     struct Prescribed
@@ -110,9 +112,10 @@ namespace Touchstone
     };
 
     const Solid            &solid;
+    Formulas                formulas;
     std::vector<Prescribed> prescribed;
     /** Of owned nodes. */
-    std::map<Index, std::vector<dealii::Tensor<1, dim>>> symmetry;
+    std::map<Index, std::vector<dealii::Tensor<1, dim>>> mirror_normals;
     std::vector<Load>       loads;
     /** Force per reference volume, by body; empty if there is none at all. */
     std::vector<std::array<Function, dim>> body_forces;
@@ -121,6 +124,8 @@ namespace Touchstone
 
     void
     add_body_forces(double t, Vector &force) const;
+    void
+    add_tractions(double t, Vector &force) const;
     void
     prescribe_on(dealii::types::boundary_id    boundary,
                  const dealii::Tensor<1, dim> &direction,

@@ -2,9 +2,9 @@
 #define touchstone_solid_follower_pressure_h
 
 #include <touchstone/algebra/linear_system.h>
+#include <touchstone/scene/formula.h>
 #include <touchstone/solid/solid.h>
 
-#include <deal.II/base/function_parser.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <functional>
@@ -32,8 +32,7 @@ namespace Touchstone
 
     /** @param pressure Of the reference position and time, force per deformed area. */
     void
-    add(dealii::types::boundary_id                          boundary,
-        const std::shared_ptr<dealii::FunctionParser<dim>> &pressure)
+    add(dealii::types::boundary_id boundary, const std::shared_ptr<const Formula> &pressure)
     {
       loads.push_back({boundary, pressure});
     }
@@ -57,8 +56,8 @@ namespace Touchstone
   private:
     struct Load
     {
-      dealii::types::boundary_id                   boundary;
-      std::shared_ptr<dealii::FunctionParser<dim>> pressure;
+      dealii::types::boundary_id     boundary;
+      std::shared_ptr<const Formula> pressure;
     };
 
     /** The deformed surface at a quadrature point of a loaded face. */

@@ -1,0 +1,41 @@
+#ifndef touchstone_output_warnings_h
+#define touchstone_output_warnings_h
+
+#include <touchstone/output/log.h>
+
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What the user should know of a run that has results: told when it happens,
+   * and again at the end, in the log and in summary.json. */
+  class Warnings
+  {
+  public:
+    /** @param log Must outlive this object. */
+    explicit Warnings(Log &log);
+
+    /** @brief Tell @p text, unless that has been done. To be called on all ranks. */
+    void
+    add(const std::string &text);
+
+    /** @brief All of them, in the order in which they came. */
+    const std::vector<std::string> &
+    list() const;
+
+    /** @brief Take those of a run that this one goes on from. */
+    void
+    restore(const std::vector<std::string> &earlier);
+
+    /** @brief Tell all of them again. */
+    void
+    repeat() const;
+
+  private:
+    Log                     &log;
+    std::vector<std::string> texts;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,307 @@
+#include <touchstone/contact/start_check.h>
+#include <touchstone/scene/input_error.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Normals that differ from perpendicular by less than this (cosine) neither look at
+     * each other nor away. */
+    constexpr double perpendicular = 0.1;
+
+    /** Position and unit outward normal of a node of a surface. */
+    using Place = std::array<double, 2 * dim>;
+
+    Place
+    place(const Surface &surface, const SurfaceNode &node, const Vector &u)
+    {
+      const Point<dim>     x = surface.position(node, u);
+      const Tensor<1, dim> n = surface.normal(node.node);
+      return {{x[0], x[1], x[2], n[0], n[1], n[2]}};
+    }
+
+    Point<dim>
+    position(const Place &place)
+    {
+      return Point<dim>(place[0], place[1], place[2]);
+    }
+
+    Tensor<1, dim>
+    normal(const Place &place)
+    {
+      return Point<dim>(place[3], place[4], place[5]);
+    }
+
+    /** A point a little below the centre of a face, so that bodies that only touch do not
+     * seem to overlap, and its normal. */
+    Place
+    place_below(const Surface &surface, const Face &face, const Vector &u)
+    {
+      constexpr double below = 1e-3;
+      Point<dim>       centre;
+      Tensor<1, dim>   n;
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            centre[d] +=
+              (face.reference[m][d] + u(dim * face.nodes[m] + d)) / double(face.n_nodes());
+          n += surface.normal(face.nodes[m]);
+        }
+      if (n.norm() > 0.)
+        n /= n.norm();
+      centre -= below * face.reference[0].distance(face.reference[1]) * n;
+      return {{centre[0], centre[1], centre[2], n[0], n[1], n[2]}};
+    }
+
+    /** The places of all ranks, one rank after the other. */
+    std::vector<Place>
+    gather(const std::vector<Place> &mine, const MPI_Comm communicator)
+    {
+      std::vector<Place> result;
+      for (const auto &part : Utilities::MPI::all_gather(communicator, mine))
+        result.insert(result.end(), part.begin(), part.end());
+      return result;
+    }
+
+    std::vector<Place>
+    all_places(const Surface &surface, const Vector &u, const MPI_Comm communicator)
+    {
+      std::vector<Place> mine;
+      for (const SurfaceNode &node : surface.owned_nodes())
+        mine.push_back(place(surface, node, u));
+      return gather(mine, communicator);
+    }
+
+    /** The cells of one body on this rank, with straight edges in the displacement u. */
+    class DeformedCells
+    {
+    public:
+      DeformedCells(const Solid &solid, const unsigned int body, const Vector &u)
+      {
+        std::vector<std::pair<BoundingBox<dim>, std::size_t>> boxes;
+        for (const auto &cell : solid.dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned() && cell->material_id() == body)
+            {
+              std::array<Point<dim>, 8> corners;
+              for (unsigned int v = 0; v < 8; ++v)
+                {
+                  corners[v] = cell->vertex(v);
+                  for (unsigned int d = 0; d < dim; ++d)
+                    corners[v][d] += u(cell->vertex_dof_index(v, d));
+                }
+              boxes.emplace_back(BoundingBox<dim>(
+                                   std::vector<Point<dim>>(corners.begin(), corners.end())),
+                                 cells.size());
+              cells.push_back(corners);
+            }
+        tree = pack_rtree(boxes);
+      }
+
+      bool
+      contain(const Point<dim> &x) const
+      {
+        namespace query = boost::geometry::index;
+        for (const auto &entry : tree | query::adaptors::queried(query::intersects(x)))
+          if (contains(cells[entry.second], x))
+            return true;
+        return false;
+      }
+
+    private:
+      std::vector<std::array<Point<dim>, 8>>          cells;
+      RTree<std::pair<BoundingBox<dim>, std::size_t>> tree;
+
+      /** Whether @p x lies in one of the six tetrahedra around the cell's diagonal. */
+      static bool
+      contains(const std::array<Point<dim>, 8> &c, const Point<dim> &x)
+      {
+        constexpr unsigned int around[7] = {1, 3, 2, 6, 4, 5, 1};
+        for (unsigned int k = 0; k < 6; ++k)
+          {
+            Tensor<2, dim> edges;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                edges[d][0] = c[around[k]][d] - c[0][d];
+                edges[d][1] = c[around[k + 1]][d] - c[0][d];
+                edges[d][2] = c[7][d] - c[0][d];
+              }
+            if (std::abs(determinant(edges)) == 0.)
+              continue;
+            const Tensor<1, dim> part = invert(edges) * (x - c[0]);
+            if (part[0] >= 0. && part[1] >= 0. && part[2] >= 0. &&
+                part[0] + part[1] + part[2] <= 1.)
+              return true;
+          }
+        return false;
+      }
+    };
+
+    /** Of the @p places (the same on all ranks) that lie within a body the largest
+     * distance to the closest of the @p others that looks the other way. */
+    double
+    deepest(const std::vector<Place> &places,
+            const std::vector<Place> &others,
+            const Solid              &solid,
+            const unsigned int        body,
+            const Vector             &u)
+    {
+      if (places.empty())
+        return 0.;
+      const DeformedCells cells(solid, body, u);
+      std::vector<int>    inside(places.size(), 0);
+      for (std::size_t k = 0; k < places.size(); ++k)
+        inside[k] = cells.contain(position(places[k]));
+      Utilities::MPI::max(inside, solid.communicator, inside);
+      double result = 0.;
+      for (std::size_t k = 0; k < places.size(); ++k)
+        if (inside[k] == 1)
+          {
+            double closest = std::numeric_limits<double>::max();
+            for (const Place &other : others)
+              if (normal(places[k]) * normal(other) < -perpendicular)
+                closest = std::min(closest, position(places[k]).distance(position(other)));
+            if (closest < std::numeric_limits<double>::max())
+              result = std::max(result, closest);
+          }
+      return result;
+    }
+  } // namespace
+
+
+
+  StartCheck::StartCheck(const Solid                   &solid,
+                         const ContactPairParameters   &parameters,
+                         const Surface                 &slave,
+                         const Surface                 *master,
+                         const unsigned int             slave_body,
+                         const unsigned int             master_body,
+                         const Vector                  &u,
+                         const std::vector<ContactRow> &rows)
+    : solid(solid)
+    , parameters(parameters)
+    , slave(slave)
+    , master(master)
+    , slave_body(slave_body)
+    , master_body(master_body)
+    , u(u)
+    , rows(rows)
+  {
+  }
+
+
+
+  bool
+  StartCheck::nothing_found() const
+  {
+    unsigned int found = 0;
+    for (const ContactRow &row : rows)
+      found += row.status != ContactStatus::no_partner;
+    return Utilities::MPI::sum(found, solid.communicator) == 0;
+  }
+
+
+
+  double
+  StartCheck::depth_of_overlap() const
+  {
+    if (master == nullptr || slave_body == master_body)
+      return 0.;
+    std::set<Index> nodes;
+    for (const ContactRow &row : rows)
+      if (row.status == ContactStatus::no_partner)
+        nodes.insert(row.slave);
+    std::vector<Place> alone, masters;
+    for (const Face &face : slave.owned_faces())
+      if (std::any_of(face.nodes.begin(),
+                      face.nodes.begin() + face.n_nodes(),
+                      [&](const Index node) { return nodes.count(node) > 0; }))
+        alone.push_back(place_below(slave, face, u));
+    alone = gather(alone, solid.communicator);
+    if (alone.empty())
+      return 0.;
+    double depth =
+      deepest(alone, all_places(*master, u, solid.communicator), solid, master_body, u);
+    if (depth == 0. && nothing_found())
+      {
+        for (const Face &face : master->owned_faces())
+          masters.push_back(place_below(*master, face, u));
+        depth = deepest(gather(masters, solid.communicator),
+                        all_places(slave, u, solid.communicator),
+                        solid,
+                        slave_body,
+                        u);
+      }
+    return depth;
+  }
+
+
+
+  void
+  StartCheck::throw_if_all_look_away(const bool looks_here, const std::string &what) const
+  {
+    if (Utilities::MPI::max(static_cast<int>(looks_here), solid.communicator) == 1)
+      return;
+    std::string names;
+    for (const std::string &name : parameters.slave_boundaries)
+      names += (names.empty() ? "" : ", ") + name;
+    throw InputError(parameters.section(),
+                     "Slave boundaries",
+                     names,
+                     "every node of the slave boundaries faces away from " + what +
+                       ": the bodies would pass through each other",
+                     "name the boundaries of '" + parameters.slave_body + "' that face it");
+  }
+
+
+
+  void
+  StartCheck::check_facing() const
+  {
+    bool looks = false;
+    if (master == nullptr)
+      {
+        for (const ContactRow &row : rows)
+          looks = looks || slave.normal(row.slave) * row.normal < perpendicular;
+        throw_if_all_look_away(looks, "the obstacle '" + parameters.obstacle + "'");
+        return;
+      }
+    const bool   nothing = nothing_found();
+    const double asked   = parameters.search_distance;
+    if (!nothing && asked == 0.)
+      return;
+    const double depth = depth_of_overlap();
+    if (nothing ? depth > 0. : depth > asked)
+      throw InputError(parameters.section(),
+                       "Search distance",
+                       dealii::Patterns::Tools::to_string(parameters.search_distance),
+                       nothing
+                         ? "the bodies overlap, but no slave node finds a master face"
+                         : "the bodies overlap by more, where slave nodes find no master face",
+                       "set it to 0 or to more than the overlap, or name the boundaries that meet");
+    if (!nothing)
+      return;
+    const std::vector<Place> masters = all_places(*master, u, solid.communicator);
+    for (const SurfaceNode &node : slave.owned_nodes())
+      {
+        const Place mine = place(slave, node, u);
+        const auto  closest =
+          std::min_element(masters.begin(), masters.end(), [&](const Place &a, const Place &b) {
+            return position(a).distance_square(position(mine)) <
+                   position(b).distance_square(position(mine));
+          });
+        looks = looks || normal(mine) * normal(*closest) < perpendicular;
+      }
+    throw_if_all_look_away(looks, "the master boundaries of '" + parameters.master_body + "'");
+  }
+} // namespace Touchstone

@@ -1,0 +1,44 @@
+#include <touchstone/drive/repeated_failure.h>
+
+#include <algorithm>
+#include <cmath>
+#include <typeinfo>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** Half the step makes everything that depends on it about half as large. */
+    bool
+    unchanged(const double a, const double b)
+    {
+      return std::abs(a - b) <= 0.02 * std::max(std::abs(a), std::abs(b));
+    }
+  } // namespace
+
+
+
+  void
+  RepeatedFailure::forget()
+  {
+    before.reset();
+  }
+
+
+
+  bool
+  RepeatedFailure::add(const NonConvergence &failure,
+                       const NewtonState    &last,
+                       const std::string    &place)
+  {
+    const Attempt now{typeid(failure), place, last};
+    const bool    same_state = before &&
+                            (unchanged(before->last.residual, last.residual) ||
+                             (balanced(before->last, parameters) && balanced(last, parameters))) &&
+                            before->last.changes == last.changes &&
+                            before->last.active == last.active;
+    const bool same = same_state && before->type == now.type && before->place == now.place;
+    before.emplace(now);
+    return same;
+  }
+} // namespace Touchstone

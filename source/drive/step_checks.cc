@@ -1,0 +1,229 @@
+#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/drive/step_problem.h>
+#include <touchstone/solid/bodies.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/numerics/vector_tools_interpolate.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+/**
+ * @file
+ * Whether what Newton has found can be a solution at all, and where it is not.
+ */
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A point as a user reads it. */
+    std::string
+    readable(const double *x)
+    {
+      char text[80];
+      std::snprintf(text, sizeof(text), "(%.4g, %.4g, %.4g)", x[0] + 0., x[1] + 0., x[2] + 0.);
+      return text;
+    }
+  } // namespace
+
+
+
+  void
+  StepProblem::check_increment() const
+  {
+    // Beyond ten times the size of everything no solution is near.
+    constexpr double far     = 10.;
+    const double     largest = increment.linfty_norm();
+    if (largest <= far * (diameter + missed))
+      return;
+    char text[160];
+    std::snprintf(text,
+                  sizeof(text),
+                  "a Newton increment moves a node by %.3g, where all bodies together measure %.3g",
+                  largest,
+                  diameter);
+    throw ExcessiveIncrement(text);
+  }
+
+
+
+  std::vector<unsigned int>
+  StepProblem::active_rows() const
+  {
+    std::vector<unsigned int> result(contact.rows.size(), 0);
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (const ContactRow &row : contact.rows[p])
+        result[p] += row.active();
+    Utilities::MPI::sum(result, solid.communicator, result);
+    return result;
+  }
+
+
+
+  std::vector<Tensor<1, dim>>
+  StepProblem::obstacle_shifts() const
+  {
+    std::vector<Tensor<1, dim>> result(contact.rows.size());
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          // The same in all rows of the pair, but not all ranks have one.
+          double high = std::numeric_limits<double>::lowest();
+          if (!contact.rows[p].empty())
+            high = contact.rows[p].front().shift[d];
+          result[p][d] = Utilities::MPI::max(high, solid.communicator);
+        }
+    return result;
+  }
+
+
+
+  void
+  StepProblem::remember_contact()
+  {
+    committed_active = active_rows();
+    committed_shift  = obstacle_shifts();
+  }
+
+
+
+  std::vector<std::string>
+  StepProblem::check_loose_bodies() const
+  {
+    std::vector<std::string> result;
+    if (integration->dynamic() || loose_bodies.empty())
+      return result;
+
+    // What can have pushed a body in this step: supports and obstacles that move. It cannot
+    // have followed them much farther, and then within the size of a face.
+    double     pushed = 0., size = 0.;
+    const auto now    = boundary_conditions.displacements(time);
+    const auto before = boundary_conditions.displacements(committed_time);
+    for (std::size_t k = 0; k < now.size(); ++k)
+      pushed = std::max(pushed, std::abs(now[k].value - before[k].value));
+    const auto shifts = obstacle_shifts();
+    for (unsigned int p = 0; p < shifts.size(); ++p)
+      pushed = std::max(pushed, (shifts[p] - committed_shift[p]).norm());
+    for (const auto &rows : contact.rows)
+      for (const ContactRow &row : rows)
+        size = std::max(size, row.size);
+    const double limit = Utilities::MPI::max(size, solid.communicator) +
+                         10. * Utilities::MPI::max(pushed, solid.communicator);
+
+    const std::vector<unsigned int> active = active_rows();
+    const std::vector<unsigned int> body   = bodies_of_unknowns(solid);
+    for (const unsigned int b : loose_bodies)
+      {
+        const std::string &name    = scene.bodies[b].name;
+        unsigned int       touches = 0, touched = 0;
+        for (unsigned int p = 0; p < scene.pairs.size(); ++p)
+          if (scene.pairs[p].slave_body == name || scene.pairs[p].master_body == name)
+            {
+              touches += active[p];
+              touched += committed_active[p];
+            }
+        if (touches > 0 || touched == 0)
+          continue;
+        double moved = 0.;
+        for (std::size_t i = 0; i < body.size(); ++i)
+          if (body[i] == b)
+            moved = std::max(moved, std::abs(u.begin()[i] - committed_u.begin()[i]));
+        moved = Utilities::MPI::max(moved, solid.communicator);
+        if (moved > limit)
+          {
+            char text[200];
+            std::snprintf(text,
+                          sizeof(text),
+                          "' was thrown off what it touched, by %.3g: nothing else holds it, and "
+                          "nothing has pushed it that far",
+                          moved);
+            throw LostContact("body '" + name + text);
+          }
+        result.push_back("body '" + name +
+                         "' has lost all contact, and nothing else holds it: statics does not "
+                         "know where it goes");
+      }
+    return result;
+  }
+
+
+
+  std::string
+  StepProblem::changing_place() const
+  {
+    // The first by its place, which does not depend on the partition.
+    std::vector<double> first;
+    for (const auto &row : changed_rows)
+      if (first.empty() ||
+          std::lexicographical_compare(row.begin(), row.end(), first.begin(), first.end()))
+        first.assign(row.begin(), row.end());
+    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, first))
+      if (!other.empty() && (first.empty() || other < first))
+        first = other;
+    if (first.empty())
+      return "";
+    const auto &pair = scene.pairs[static_cast<unsigned int>(first[dim])];
+    return "rows of pair '" + pair.name + "' that change, one of them at " +
+           readable(first.data()) + " of body '" + pair.slave_body + "'";
+  }
+
+
+
+  std::string
+  StepProblem::worst_place() const
+  {
+    if (const std::string changing = changing_place(); !changing.empty())
+      return changing;
+    Vector free(unbalanced);
+    remove_supported(free);
+    Vector positions(solid.owned, solid.communicator);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
+    const std::vector<unsigned int> body = bodies_of_unknowns(solid);
+
+    // Force, place, body and number of the worst node; the first of equals by its place.
+    std::vector<double> worst;
+    for (std::size_t k = 0; k < body.size() / dim; ++k)
+      {
+        Tensor<1, dim> force;
+        for (unsigned int d = 0; d < dim; ++d)
+          force[d] = free.begin()[dim * k + d];
+        const double *x = positions.begin() + dim * k;
+        if (force.norm() > 0. && (worst.empty() || force.norm() > worst[0]))
+          worst = {force.norm(),
+                   x[0],
+                   x[1],
+                   x[2],
+                   static_cast<double>(body[dim * k]),
+                   static_cast<double>(solid.owned.nth_index_in_set(dim * k) / dim)};
+      }
+    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, worst))
+      if (!other.empty() &&
+          (worst.empty() || other[0] > worst[0] || (other[0] == worst[0] && other < worst)))
+        worst = other;
+    if (worst.empty())
+      return "";
+
+    // The pair that the node belongs to: as a slave rather than as a master.
+    const auto node     = static_cast<Index>(worst[5]);
+    int        pairs[2] = {-1, -1};
+    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+      for (const ContactRow &row : contact.rows[p])
+        if (row.slave == node && row.status != ContactStatus::no_partner)
+          pairs[0] = p;
+        else if (row.active() && std::any_of(row.stencil.begin(),
+                                             row.stencil.end(),
+                                             [&](const StencilEntry &e) { return e.node == node; }))
+          pairs[1] = p;
+    std::string text = "body '" + scene.bodies[static_cast<unsigned int>(worst[4])].name + "' at " +
+                       readable(worst.data() + 1);
+    for (unsigned int role = 0; role < 2; ++role)
+      if (const int p = Utilities::MPI::max(pairs[role], solid.communicator); p >= 0)
+        return text + (role == 0 ? ", a slave node of pair '" : ", a master node of pair '") +
+               scene.pairs[p].name + "'";
+    return text;
+  }
+} // namespace Touchstone

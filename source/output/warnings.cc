@@ -1,0 +1,50 @@
+#include <touchstone/output/warnings.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  Warnings::Warnings(Log &log)
+    : log(log)
+  {
+  }
+
+
+
+  void
+  Warnings::add(const std::string &text)
+  {
+    if (std::find(texts.begin(), texts.end(), text) != texts.end())
+      return;
+    texts.push_back(text);
+    log.line("  Warning: " + text);
+  }
+
+
+
+  const std::vector<std::string> &
+  Warnings::list() const
+  {
+    return texts;
+  }
+
+
+
+  void
+  Warnings::restore(const std::vector<std::string> &earlier)
+  {
+    texts = earlier;
+  }
+
+
+
+  void
+  Warnings::repeat() const
+  {
+    if (texts.empty())
+      return;
+    log.line(texts.size() == 1 ? "1 warning:" : std::to_string(texts.size()) + " warnings:");
+    for (const std::string &text : texts)
+      log.line("  " + text);
+  }
+} // namespace Touchstone
