@@ -37,7 +37,7 @@ namespace Touchstone
   {
     // Beyond ten times the size of everything no solution is near.
     constexpr double far     = 10.;
-    const double     largest = increment.linfty_norm();
+    const double     largest = solved_increment.linfty_norm();
     if (largest <= far * (diameter + missed))
       return;
     char text[160];
