@@ -321,23 +321,6 @@ namespace Touchstone
         }
     if (basis)
       to_trace_basis(*basis, mass, q, d_mass, d_q, n_variables);
-    // As in the pairing: regular on slivers.
-    constexpr double regularisation = 1e-14;
-    const double     trace          = mass.trace();
-    for (unsigned int j = 0; j < n; ++j)
-      mass(j, j) += regularisation * trace;
-    for (unsigned int v = 0; v < n_variables; ++v)
-      {
-        double d_trace = 0.;
-        for (unsigned int j = 0; j < n; ++j)
-          d_trace += d_mass[(v * n + j) * n + j];
-        for (unsigned int j = 0; j < n; ++j)
-          d_mass[(v * n + j) * n + j] += regularisation * d_trace;
-      }
-    mass.gauss_jordan();
-    FullMatrix<double> solution(n, n_columns);
-    mass.mmult(solution, q);
-
     // What the rows of its nodes take of the covered part.
     const std::vector<Index> own =
       basis ? std::vector<Index>(basis->nodes.begin(), basis->nodes.begin() + n)
@@ -345,11 +328,14 @@ namespace Touchstone
     std::array<double, Face::max_nodes> areas{};
     for (unsigned int i = 0; i < n; ++i)
       areas[i] = q(i, 0);
-    const CoverShares shares(n,
+    const CoverShares        shares(n,
                              areas,
                              whole_areas(slave, basis, /*reference=*/true),
                              gradual,
                              /*with_derivative=*/true);
+    const FullMatrix<double> weights = shares.weights(mass);
+    FullMatrix<double>       solution(n, n_columns); // M^-1 Q
+    mass.mmult(solution, q);
     // A hanging node moves with those that it follows: if its row referred to
     // it, conditions would depend on each other in a circle.
     const auto moved = [&](const unsigned int k) {
@@ -375,11 +361,9 @@ namespace Touchstone
                                                            : entry->second);
             }
         // The weight function in the shape functions, psi'_k = sum_j dual_j N_j.
-        double dual[n] = {};
-        for (unsigned int i = 0; i < n; ++i)
-          if (shares.share[k][i] != 0.)
-            for (unsigned int j = 0; j < n; ++j)
-              dual[j] += shares.share[k][i] * mass(i, j);
+        double dual[n];
+        for (unsigned int j = 0; j < n; ++j)
+          dual[j] = weights(k, j);
         for (unsigned int v = 0; v < n_variables; ++v)
           {
             double d_share[n] = {};

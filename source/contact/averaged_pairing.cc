@@ -201,7 +201,7 @@ namespace Touchstone
       std::vector<std::optional<FaceGeometry>> geometries;
 
       /** Of the face at hand. */
-      FullMatrix<double> to_basis, scratch, weights;
+      FullMatrix<double> to_basis, scratch, matrix;
 
       /** Displacements of the faces of this rank, slaves and then masters: of the last
        * update, if any, and when all facing faces were looked for last. */
@@ -337,39 +337,33 @@ namespace Touchstone
       // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
       // those with N.
       const TraceBasis *basis = face.basis;
-      weights.reinit(n, n, /*omit_default_initialization=*/true);
+      matrix.reinit(n, n, /*omit_default_initialization=*/true);
+      Values areas{};
       for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int k = 0; k < n; ++k)
-          weights(j, k) = mass[j][k];
+        {
+          areas[j] = integrals[j].area;
+          for (unsigned int k = 0; k < n; ++k)
+            matrix(j, k) = mass[j][k];
+        }
       if (basis)
         {
+          areas = basis->apply(areas);
           to_basis.reinit(n, n);
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int p = 0; p < n; ++p)
               to_basis(p, i) = basis->weights[i][p];
           scratch.reinit(n, n);
-          scratch.triple_product(weights, to_basis, to_basis, false, true);
-          weights = scratch;
+          scratch.triple_product(matrix, to_basis, to_basis, false, true);
+          matrix = scratch;
         }
-      // A sliver of coverage leaves the mass matrix singular to working precision:
-      // a trace of the full face's matrix keeps it regular.
-      const double trace = weights.trace();
-      for (unsigned int i = 0; i < n; ++i)
-        weights(i, i) += 1e-14 * trace;
-      weights.gauss_jordan();
+      const CoverShares  shares(n, areas, face.whole, /*gradual=*/!tied, /*with_derivative=*/false);
+      FullMatrix<double> weights = shares.weights(matrix);
       if (basis)
         {
           scratch = weights;
           scratch.mmult(weights, to_basis);
         }
-
-      Values areas{};
-      for (unsigned int i = 0; i < n; ++i)
-        areas[i] = integrals[i].area;
-      if (basis)
-        areas = basis->apply(areas);
-      const CoverShares shares(n, areas, face.whole, /*gradual=*/!tied, /*with_derivative=*/false);
-      const Values      present = whole_areas(slave, basis, /*reference=*/false);
+      const Values present = whole_areas(slave, basis, /*reference=*/false);
 
       for (unsigned int k = 0; k < n; ++k)
         {
@@ -378,10 +372,8 @@ namespace Touchstone
             continue;
           Sums  &sum = sums[face.places[k]];
           Values psi{};
-          for (unsigned int i = 0; i < n; ++i)
-            if (shares.share[k][i] != 0.)
-              for (unsigned int j = 0; j < n; ++j)
-                psi[j] += shares.share[k][i] * weights(i, j);
+          for (unsigned int j = 0; j < n; ++j)
+            psi[j] = weights(k, j);
           for (unsigned int j = 0; j < n; ++j)
             {
               sum.area += psi[j] * integrals[j].area;

@@ -145,6 +145,32 @@ namespace Touchstone
 
 
 
+  FullMatrix<double>
+  CoverShares::weights(FullMatrix<double> &mass) const
+  {
+    // On a sliver the mass matrix is singular to working precision. What is added to the diagonal
+    // is taken out again of the weights, and not of the inverse: those of nodes that take the
+    // shares of others are moderate and leave small residuals, however thin the sliver.
+    const unsigned int       n = mass.m();
+    const FullMatrix<double> original(mass);
+    const double             addition = 1e-14 * mass.trace();
+    for (unsigned int i = 0; i < n; ++i)
+      mass(i, i) += addition;
+    mass.gauss_jordan();
+    FullMatrix<double> result(n, n), rest(n, n);
+    for (unsigned int step = 0; step < 4; ++step)
+      {
+        result.mmult(rest, original);
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int i = 0; i < n; ++i)
+            rest(k, i) = share[k][i] - rest(k, i);
+        rest.mmult(result, mass, /*adding=*/true);
+      }
+    return result;
+  }
+
+
+
   bool
   CoverSums::suffices(const double whole) const
   {

@@ -4,6 +4,8 @@
 #include <touchstone/contact/face.h>
 #include <touchstone/contact/trace_basis.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <array>
 
 namespace Touchstone
@@ -53,6 +55,12 @@ namespace Touchstone
                 const std::array<double, Face::max_nodes> &whole,
                 bool                                       gradual,
                 bool                                       with_derivative);
+
+    /** @brief The weight functions, psi'_k = sum_j w_kj N_j.
+     * @param mass The integrals of the products of the N_j over the covered part; replaced
+     *             by its inverse. */
+    dealii::FullMatrix<double>
+    weights(dealii::FullMatrix<double> &mass) const;
   };
 
   /** @brief Sums over the slave faces around a node, from which its row is made. */
