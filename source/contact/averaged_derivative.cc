@@ -16,6 +16,16 @@ namespace Touchstone
     /** Columns of Q that are not master shapes: area, gap, normal. */
     constexpr unsigned int n_fixed = 1 + 2 * dim;
 
+    /** The smallest of some gaps, with its derivatives as OverlapPointDerivative numbers
+     * them, and with respect to nodal normals of both faces. */
+    template <unsigned int n>
+    struct Closest
+    {
+      double                                       gap = std::numeric_limits<double>::max();
+      typename OverlapPointDerivative<n>::Gradient d;
+      Tensor<1, dim>                               normal[n], slave_normal[n];
+    };
+
     /** The integrals over the overlap of a slave face with one master face, and
      * their derivatives as OverlapPointDerivative numbers them. */
     template <unsigned int n>
@@ -30,10 +40,8 @@ namespace Touchstone
       /** Of normal and gap with respect to the nodal normals of the master face, and
        * of the gap with respect to those of the slave face. */
       Tensor<2, dim> normal_normal[n][n], gap_normal[n][n], gap_slave_normal[n][n];
-      /** The smallest gap at any point, with its derivatives in the same order. */
-      double         least = std::numeric_limits<double>::max();
-      Gradient       d_least;
-      Tensor<1, dim> least_normal[n], least_slave_normal[n];
+      /** The smallest gap at any point, and at the nodes. */
+      Closest<n> least, own[n];
 
       void
       add(const FaceDifferentiator        &slave,
@@ -94,27 +102,31 @@ namespace Touchstone
         }
 
       const Tensor<1, dim> gap({value[1], value[2], value[3]});
-      if (gap * master.normal < least)
-        {
-          least = gap * master.normal;
-          for (unsigned int v = 0; v < n_variable; ++v)
-            {
-              d_least[v] = 0.;
-              for (unsigned int d = 0; d < dim; ++d)
-                d_least[v] +=
-                  d_value[1 + d][v] * master.normal[d] + gap[d] * d_value[1 + dim + d][v];
-            }
-          for (unsigned int m = 0; m < n; ++m)
-            {
-              least_normal[m] = gap * master.normal_normal[m];
-              if (smooth)
-                least_normal[m] -= master.normal * master.x_normal[m];
-              least_slave_normal[m] = Tensor<1, dim>();
-              if (slave.geometry.smooth())
-                least_slave_normal[m] = master.normal * on_slave.x_normal[m];
-            }
-        }
-
+      const auto           offer = [&](Closest<n> &closest) {
+        if (gap * master.normal >= closest.gap)
+          return;
+        closest.gap = gap * master.normal;
+        for (unsigned int v = 0; v < n_variable; ++v)
+          {
+            closest.d[v] = 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              closest.d[v] +=
+                d_value[1 + d][v] * master.normal[d] + gap[d] * d_value[1 + dim + d][v];
+          }
+        for (unsigned int m = 0; m < n; ++m)
+          {
+            closest.normal[m] = gap * master.normal_normal[m];
+            if (smooth)
+              closest.normal[m] -= master.normal * master.x_normal[m];
+            closest.slave_normal[m] = Tensor<1, dim>();
+            if (slave.geometry.smooth())
+              closest.slave_normal[m] = master.normal * on_slave.x_normal[m];
+          }
+      };
+      offer(least);
+      for (unsigned int j = 0; j < n; ++j)
+        if (w == 0. && is_node(shapes.value[j]))
+          offer(own[j]);
       if (w == 0.)
         return;
 
@@ -208,6 +220,8 @@ namespace Touchstone
                                 &sums,
                                 GapCorrection(sums, sums.gap / sums.area * row.normal, row.size),
                                 RowDerivativeBuilder(row.stencil.size()),
+                                {},
+                                {},
                                 {},
                                 {},
                                 {},
@@ -419,23 +433,52 @@ namespace Touchstone
                   if (geometry.smooth())
                     row.by_slave_normals[slave.key][m] += dual[j] * part.gap_slave_normal[j][m];
                 }
-            if (row.correction.by_mean == 0. || (row.least && row.least->gap <= part.least))
-              continue;
-            row.least.emplace(Least{part.least, face, slave.key, {}, {}, {}});
-            for (unsigned int m = 0; m < n; ++m)
-              {
-                row.least->by_normals[m]       = part.least_normal[m];
-                row.least->by_slave_normals[m] = part.least_slave_normal[m];
-              }
-            for (unsigned int m = 0; m < 2 * n; ++m)
-              for (const auto &[node, weight] : moved(m < n ? m : n + place(face->nodes[m - n])))
-                row.least->by_nodes.emplace_back(node,
-                                                 weight *
-                                                   Tensor<1, dim>({part.d_least[dim * m],
-                                                                   part.d_least[dim * m + 1],
-                                                                   part.d_least[dim * m + 2]}));
+            const auto take = [&, face = face](std::optional<Least> &closest,
+                                               const Closest<n>     &gap) {
+              if (gap.gap == std::numeric_limits<double>::max() ||
+                  (closest && closest->gap <= gap.gap))
+                return;
+              closest.emplace(Least{gap.gap, face, slave.key, {}, {}, {}});
+              std::copy(gap.normal, gap.normal + n, closest->by_normals.begin());
+              std::copy(gap.slave_normal, gap.slave_normal + n, closest->by_slave_normals.begin());
+              for (unsigned int m = 0; m < 2 * n; ++m)
+                for (const auto &[node, weight] : moved(m < n ? m : n + place(face->nodes[m - n])))
+                  closest->by_nodes.emplace_back(node,
+                                                 weight * Tensor<1, dim>({gap.d[dim * m],
+                                                                          gap.d[dim * m + 1],
+                                                                          gap.d[dim * m + 2]}));
+            };
+            if (row.correction.by_least != 0.)
+              take(row.least, part.least);
+            if (row.correction.by_own != 0.)
+              take(row.own, part.own[k]);
           }
       }
+  }
+
+
+
+  std::vector<Tensor<1, dim>>
+  AveragedDerivative::derivative(const Least                         &least,
+                                 RowDerivativeBuilder                &builder,
+                                 const std::vector<NormalDerivative> *of_master,
+                                 const std::vector<NormalDerivative> *of_slave)
+  {
+    std::vector<Tensor<1, dim>> result;
+    const auto                  add = [&](const Index node, const Tensor<1, dim> &value) {
+      const std::size_t to = builder.index(node);
+      result.resize(builder.result->nodes.size());
+      result[to] += value;
+    };
+    for (const auto &[node, value] : least.by_nodes)
+      add(node, value);
+    if (of_master)
+      for (const NormalDerivative &d : *of_master)
+        add(d.node, least.by_normals[d.m] * d.value);
+    if (of_slave)
+      for (const NormalDerivative &d : *of_slave)
+        add(d.node, least.by_slave_normals[d.m] * d.value);
+    return result;
   }
 
 
@@ -477,24 +520,18 @@ namespace Touchstone
                   result.gap_vector[to] += by_normals.gap[d.m] * d.value;
               }
           }
-        const auto add_least = [&](const Index node, const Tensor<1, dim> &value) {
-          const std::size_t to = row.builder.index(node);
-          row.d_least.resize(result.nodes.size());
-          row.d_least[to] += value;
-        };
-        if (row.least)
-          {
-            for (const auto &[node, value] : row.least->by_nodes)
-              add_least(node, value);
-            if (const auto of = normal_derivatives.find(row.least->master);
-                of != normal_derivatives.end())
-              for (const NormalDerivative &d : of->second)
-                add_least(d.node, row.least->by_normals[d.m] * d.value);
-            if (row.by_slave_normals.count(row.least->slave) > 0)
-              for (const NormalDerivative &d :
-                   slave_derivatives.at(slave_search->face(row.least->slave)))
-                add_least(d.node, row.least->by_slave_normals[d.m] * d.value);
-          }
+        for (auto [least, d] :
+             {std::make_pair(&row.least, &row.d_least), std::make_pair(&row.own, &row.d_own)})
+          if (*least)
+            {
+              const auto of_master = normal_derivatives.find((*least)->master);
+              *d                   = derivative(**least,
+                              row.builder,
+                              of_master == normal_derivatives.end() ? nullptr : &of_master->second,
+                              row.by_slave_normals.count((*least)->slave) > 0
+                                                  ? &slave_derivatives.at(slave_search->face((*least)->slave))
+                                                  : nullptr);
+            }
         to_means(row);
       }
   }
@@ -510,7 +547,7 @@ namespace Touchstone
     const Tensor<2, dim> direction  = normalisation_derivative(sums.normal);
     const Tensor<1, dim> mean       = sums.gap / sums.area;
     const GapCorrection &correction = row.correction;
-    for (auto *list : {&row.d_area, &row.d_kept, &row.d_given, &row.d_least})
+    for (auto *list : {&row.d_area, &row.d_kept, &row.d_given, &row.d_least, &row.d_own})
       list->resize(result.nodes.size());
     for (std::size_t a = 0; a < result.nodes.size(); ++a)
       {
@@ -518,10 +555,10 @@ namespace Touchstone
         // Of the mean gap, of what is added to it, and of the share of both.
         const Tensor<2, dim> d_mean =
           (result.gap_vector[a] - outer_product(mean, row.d_area[a])) / sums.area;
-        const Tensor<1, dim> d_value = correction.by_mean * (n * d_mean + mean * result.normal[a]) +
-                                       correction.by_least * row.d_least[a] +
-                                       correction.by_kept * row.d_kept[a] +
-                                       correction.by_given * row.d_given[a];
+        const Tensor<1, dim> d_value =
+          correction.by_mean * (n * d_mean + mean * result.normal[a]) +
+          correction.by_least * row.d_least[a] + correction.by_own * row.d_own[a] +
+          correction.by_kept * row.d_kept[a] + correction.by_given * row.d_given[a];
         const Tensor<1, dim> d_share =
           (row.d_area[a] - sums.area / sums.kept * row.d_kept[a]) / sums.kept;
         result.gap_vector[a] =

@@ -149,8 +149,8 @@ namespace Touchstone
         {
           static_cast<CoverSums &>(*this) = CoverSums();
           reference                       = 0.;
-          least                           = std::numeric_limits<double>::max();
-          lever                           = Tensor<1, dim>();
+          least = own = std::numeric_limits<double>::max();
+          lever       = Tensor<1, dim>();
           for (Stencil *list : {&stencil, &taken, &left})
             list->clear();
         }
@@ -306,6 +306,8 @@ namespace Touchstone
       std::array<Integrals, Face::max_nodes>           integrals{};
       std::vector<std::array<Values, Face::max_nodes>> mixed(masters.size());
       double                                           least = std::numeric_limits<double>::max();
+      Values                                           own;
+      own.fill(least);
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
           const Face         &master    = *masters[f].master;
@@ -318,7 +320,12 @@ namespace Touchstone
               const Tensor<1, dim> gap = on_slave.position(point.slave, shapes) - x;
               least                    = std::min(least, gap * normal);
               if (point.weight == 0.)
-                continue;
+                {
+                  for (unsigned int j = 0; j < n; ++j)
+                    if (is_node(shapes.value[j]))
+                      own[j] = std::min(own[j], gap * normal);
+                  continue;
+                }
               for (unsigned int j = 0; j < n; ++j)
                 {
                   const double value = point.weight * shapes.value[j];
@@ -393,6 +400,7 @@ namespace Touchstone
           sum.given += areas[k] - kept;
           sum.reference += kept * face.whole[k] / present[k];
           sum.least = std::min(sum.least, least);
+          sum.own   = std::min(sum.own, own[k]);
         }
       if (shares.partial)
         add_shares(face, slave, shares);

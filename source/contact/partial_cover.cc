@@ -5,6 +5,7 @@
 #include <Sacado.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace Touchstone
 {
@@ -13,19 +14,20 @@ namespace Touchstone
   namespace
   {
     /** Of the mean cover of a face: a node that has less than `weak` leaves its row to
-     * others, with `strong` it keeps it. Half a face covered gives 0.4 to nodes beyond. */
-    constexpr double weak = 0.1, strong = 0.4;
+     * others, with `strong` it keeps it. Two thirds of a face covered give 0.6 to nodes beyond. */
+    constexpr double weak = 0.2, strong = 0.6;
 
-    /** What a node may give away per area that it keeps until it has no row; by which part of
-     * a face its gap grows where it gives as much as it keeps, and with which power of the ratio
-     * of both. Gaps of 1e-5 and 0.1 of a face alike then open the row while the edge goes a good
-     * part of a face, and as slowly as that allows. */
-    constexpr double       most_given = 3., growth = 0.01;
-    constexpr unsigned int power = 4;
+    /** What a node may give away per area that it keeps until it has no row, and by which part of
+     * a face its gap grows where it gives as much as it keeps. It grows with the fourth power
+     * of the ratio of both: gaps of 1e-5 and 0.1 of a face alike then open the row while the
+     * edge goes a good part of a face. */
+    constexpr double most_given = 3., growth = 0.01;
 
-    /** How deep the closest point must be, as a multiple of what the mean is deeper, for the mean
-     * to count alone. More slowly than the point goes deeper: a row keeps its weights. */
-    constexpr double deep = 2.;
+    /** How deep the node must be, if it is the closest point, as a multiple of what the mean is
+     * deeper, for the mean to count alone. By how much of the same length another point must be
+     * closer to count as another point; and how far that must be open for the row not to be
+     * closer, of the size of a face. */
+    constexpr double deep = 2., elsewhere = 0.5, hardly_open = 1e-4, open = 1e-2;
 
     /** Of the size of a face: on flat faces mean and closest point can be the same. */
     constexpr double round_off = 1e-10;
@@ -181,24 +183,33 @@ namespace Touchstone
 
   GapCorrection::GapCorrection(const CoverSums &sums, const double mean, const double size)
   {
-    // Of what the closest point is beyond the mean; less of it the deeper that point is, so that
-    // where surfaces are pressed together means count.
-    const double d = sums.least - mean;
-    value = by_mean = by_least = 0.;
-    if (d > round_off * size)
+    using Number         = Sacado::Fad::SFad<double, 5>;
+    const double covered = sums.own < std::numeric_limits<double>::max() ? 1. : 0.;
+    const Number at_mean = Number(5, 0, mean), least(5, 1, sums.least), kept(5, 3, sums.kept),
+                 given   = Number(5, 4, sums.given);
+    const Number own     = covered > 0. ? Number(5, 2, sums.own) : Number(sums.least + 1e10 * size);
+    const Number difference = least - at_mean;
+    Number       result     = 0.;
+    if (difference > round_off * size)
       {
-        const double depth    = std::max(-sums.least / d, 0.);
-        const double part     = 1. - smooth_step(depth, 0., deep);
-        const double t        = std::min(depth / deep, 1.);
-        const double by_depth = -6. * t * (1. - t) / deep;
-        value                 = part * d;
-        by_mean               = -(part - depth * by_depth);
-        by_least              = -by_mean - (sums.least < 0. ? by_depth : 0.);
+        const Number other = smooth_step(Number((own - least) / difference), 0., elsewhere);
+        Number       part  = 1. - other;
+        if (least < 0.)
+          part *= 1. - smooth_step(Number(-least / difference), 0., deep);
+        else
+          part += other * smooth_step(Number(least / size), hardly_open, open);
+        result = part * difference;
       }
-    const double ratio = std::max(sums.given / sums.kept, 0.);
-    const double steep = growth * size * power * std::pow(ratio, power - 1) / sums.kept;
-    value += growth * size * std::pow(ratio, power);
-    by_given = steep;
-    by_kept  = -steep * ratio;
+    if (given > 0.)
+      {
+        const Number ratio = given / kept;
+        result += growth * size * ratio * ratio * ratio * ratio;
+      }
+    value    = result.val();
+    by_mean  = result.dx(0);
+    by_least = result.dx(1);
+    by_own   = result.dx(2);
+    by_kept  = result.dx(3);
+    by_given = result.dx(4);
   }
 } // namespace Touchstone

@@ -71,7 +71,7 @@ namespace Touchstone
       NodeMatrices normal, gap;
     };
 
-    /** The point with the smallest gap, and how that depends on positions and, in the last
+    /** The point with the smallest gap of some, and how that depends on positions and, in the last
      * two, on averaged normals of the nodes of its faces. */
     struct Least
     {
@@ -89,8 +89,8 @@ namespace Touchstone
       GapCorrection        correction;
       RowDerivativeBuilder builder;
       /** Derivatives of the areas of CoverSums and of the smallest gap. */
-      std::vector<dealii::Tensor<1, dim>>         d_area, d_kept, d_given, d_least;
-      std::optional<Least>                        least;
+      std::vector<dealii::Tensor<1, dim>>         d_area, d_kept, d_given, d_least, d_own;
+      std::optional<Least>                        least, own;
       std::unordered_map<const Face *, ByNormals> by_normals;
       /** The gap by those of slave faces, known by their keys. */
       std::unordered_map<std::uint64_t, NodeMatrices> by_slave_normals;
@@ -118,6 +118,13 @@ namespace Touchstone
 
     static void
     to_means(Row &row);
+    /** How the gap of the closest point changes with the positions of the nodes of the
+     * builder. @param of_master, of_slave Derivatives of nodal normals, or null. */
+    static std::vector<dealii::Tensor<1, dim>>
+    derivative(const Least                         &least,
+               RowDerivativeBuilder                &builder,
+               const std::vector<NormalDerivative> *of_master,
+               const std::vector<NormalDerivative> *of_slave);
 
     template <unsigned int n>
     void

@@ -63,6 +63,14 @@ namespace Touchstone
     weights(dealii::FullMatrix<double> &mass) const;
   };
 
+  /** @brief Whether a point of a face is one of its nodes. @param shape Value of its shape
+   * function there. */
+  inline bool
+  is_node(const double shape)
+  {
+    return shape > 1. - 1e-9;
+  }
+
   /** @brief Sums over the slave faces around a node, from which its row is made. */
   struct CoverSums
   {
@@ -72,8 +80,8 @@ namespace Touchstone
     /** Integrals of gap and normal. */
     dealii::Tensor<1, dim> gap, normal;
     /** The smallest gap at any quadrature point or corner of what is covered, along the normal
-     * there; length. */
-    double least = 0.;
+     * there, and that at the node itself, infinite if the node is not covered; length. */
+    double least = 0., own = 0.;
 
     /** @brief Whether enough of the node is covered for a row.
      * @param whole Tributary area. */
@@ -85,14 +93,16 @@ namespace Touchstone
    * @brief What is added to the mean gap of a row, with its derivatives.
    *
    * A weight function that changes its sign can give a mean below all gaps that there are:
-   * on a curved face by a part of its sagitta, on a part of a face by extrapolation. A row of
-   * surfaces that are apart is no closer than the closest of its points, and as these go
-   * in, the mean takes over. And the gap of a node that gives away its area grows with the part
-   * given, so that its row opens before it vanishes and forces change smoothly.
+   * on a curved face by a part of its sagitta, on a part of a face by extrapolation. While
+   * surfaces are apart a row is no closer than the closest of its points: at once if that is
+   * the node, with which the gap moves, otherwise where it is well open, as the force of the row
+   * hardly moves other points. As the node goes in the mean takes over. And the gap of a node that
+   * gives away its area grows with the part given, so that its row opens before it vanishes and
+   * forces change smoothly.
    */
   struct GapCorrection
   {
-    double value, by_mean, by_least, by_kept, by_given;
+    double value, by_mean, by_least, by_own, by_kept, by_given;
 
     /** @param mean Mean gap along the mean normal. @param size Size of the faces. */
     GapCorrection(const CoverSums &sums, double mean, double size);
