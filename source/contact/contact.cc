@@ -345,8 +345,9 @@ namespace Touchstone
           point.reference_position = pairs[p].slave->owned_nodes()[k].reference;
           for (unsigned int d = 0; d < dim; ++d)
             point.displacement[d] = u(dim * row.slave + d);
-          point.normal   = row.normal;
-          point.gap      = row.gap / row.share;
+          point.normal = row.normal;
+          // What round-off leaves of positions is none.
+          point.gap      = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
           point.area     = row.area * row.share;
           point.pressure = (row.lambda + row.jump * row.normal) / row.area;
           point.traction = (row.force + row.jump) / row.area;

@@ -62,7 +62,8 @@ BEGIN {
   print "  set Values = pressure: 10, sxx: " p*r[1,3]*r[1,3] ", syy: " p*r[2,3]*r[2,3] ", szz: " p*r[3,3]*r[3,3] ", sxy: " p*r[1,3]*r[2,3] ", sxz: " p*r[1,3]*r[3,3] ", syz: " p*r[2,3]*r[3,3] "\nend" >scene
 }'
 
-set -- --set "Newton/Residual tolerance=1e-12"
+# The augmented Lagrangian stops at the gap tolerance.
+set -- --set "Newton/Residual tolerance=1e-12" --set "Newton/Gap tolerance=1e-12"
 for role in fine coarse; do
   for enforcement in elimination "lagrange multipliers" "augmented lagrange"; do
     name="${role}_$(echo "$enforcement" | tr ' ' _)"
