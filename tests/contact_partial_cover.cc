@@ -53,7 +53,7 @@ namespace
   slide(const std::string                   &name,
         const std::string                   &text,
         const std::vector<std::string>      &overrides,
-        const Tensor<1, dim>                &way,
+        const Tensor<1, dim>                &motion,
         const double                         true_gap,
         const std::function<double(double)> &covered,
         const double                         balance = 1e-11)
@@ -68,7 +68,7 @@ namespace
         const double             part = (i + 1e-4) / n_positions;
         const Touchstone::Vector u =
           pair.displacement([&](const Point<dim> &, const unsigned int body) {
-            return body == 1 ? part * way : Tensor<1, dim>();
+            return body == 1 ? part * motion : Tensor<1, dim>();
           });
         pair.update(u);
         Touchstone::Vector positions(pair.solid.owned, pair.solid.relevant, MPI_COMM_WORLD);

@@ -351,7 +351,7 @@ namespace Touchstone
     FullMatrix<double>       solution(n, n_columns); // M^-1 Q
     mass.mmult(solution, q);
     // A hanging node moves with those that it follows: if its row referred to
-    // it, conditions would depend on each other in a circle.
+    // it, conditions would depend on each other in a cycle.
     const auto moved = [&](const unsigned int k) {
       return k >= n  ? Stencil{{nodes[k - n], 1.}}
              : basis ? basis->stencil(k)

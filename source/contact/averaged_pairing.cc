@@ -458,7 +458,7 @@ namespace Touchstone
     {
       // Of two nodes that each leave something to the other on different faces, only the one
       // that takes more refers to the other: conditions must not depend on each other in a
-      // circle. It is rare: both must lie at the edge of the cover, on different sides.
+      // cycle. It is rare: both must lie at the edge of the cover, on different sides.
       for (const StencilEntry &taken : sum.taken)
         {
           const auto back =
