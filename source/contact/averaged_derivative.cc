@@ -4,6 +4,8 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace Touchstone
 {
@@ -13,6 +15,16 @@ namespace Touchstone
   {
     /** Columns of Q that are not master shapes: area, gap, normal. */
     constexpr unsigned int n_fixed = 1 + 2 * dim;
+
+    /** The smallest of some gaps, with its derivatives as OverlapPointDerivative numbers
+     * them, and with respect to nodal normals of both faces. */
+    template <unsigned int n>
+    struct Closest
+    {
+      double                                       gap = std::numeric_limits<double>::max();
+      typename OverlapPointDerivative<n>::Gradient d;
+      Tensor<1, dim>                               normal[n], slave_normal[n];
+    };
 
     /** The integrals over the overlap of a slave face with one master face, and
      * their derivatives as OverlapPointDerivative numbers them. */
@@ -28,6 +40,8 @@ namespace Touchstone
       /** Of normal and gap with respect to the nodal normals of the master face, and
        * of the gap with respect to those of the slave face. */
       Tensor<2, dim> normal_normal[n][n], gap_normal[n][n], gap_slave_normal[n][n];
+      /** The smallest gap at any point, and at the nodes. */
+      Closest<n> least, own[n];
 
       void
       add(const FaceDifferentiator        &slave,
@@ -86,6 +100,35 @@ namespace Touchstone
             d_value[n_fixed + m][v] = master.shapes.gradient[m][0] * point.d_master[0][v] +
                                       master.shapes.gradient[m][1] * point.d_master[1][v];
         }
+
+      const Tensor<1, dim> gap({value[1], value[2], value[3]});
+      const auto           offer = [&](Closest<n> &closest) {
+        if (gap * master.normal >= closest.gap)
+          return;
+        closest.gap = gap * master.normal;
+        for (unsigned int v = 0; v < n_variable; ++v)
+          {
+            closest.d[v] = 0.;
+            for (unsigned int d = 0; d < dim; ++d)
+              closest.d[v] +=
+                d_value[1 + d][v] * master.normal[d] + gap[d] * d_value[1 + dim + d][v];
+          }
+        for (unsigned int m = 0; m < n; ++m)
+          {
+            closest.normal[m] = gap * master.normal_normal[m];
+            if (smooth)
+              closest.normal[m] -= master.normal * master.x_normal[m];
+            closest.slave_normal[m] = Tensor<1, dim>();
+            if (slave.geometry.smooth())
+              closest.slave_normal[m] = master.normal * on_slave.x_normal[m];
+          }
+      };
+      offer(least);
+      for (unsigned int j = 0; j < n; ++j)
+        if (w == 0. && is_node(shapes.value[j]))
+          offer(own[j]);
+      if (w == 0.)
+        return;
 
       Gradient d_shape[n];
       for (unsigned int j = 0; j < n; ++j)
@@ -169,15 +212,25 @@ namespace Touchstone
 
 
   void
-  AveragedDerivative::add_row(const ContactRow     &row,
-                              const double          area,
-                              const Tensor<1, dim> &normal)
+  AveragedDerivative::add_row(const ContactRow &row, const CoverSums &sums)
   {
-    Row &entry =
-      rows
-        .emplace(row.slave,
-                 Row{&row, area, normal, RowDerivativeBuilder(row.stencil.size()), {}, {}, {}, {}})
-        .first->second;
+    Row &entry = rows
+                   .emplace(row.slave,
+                            Row{&row,
+                                &sums,
+                                GapCorrection(sums, sums.gap / sums.area * row.normal, row.size),
+                                RowDerivativeBuilder(row.stencil.size()),
+                                {},
+                                {},
+                                {},
+                                {},
+                                {},
+                                {},
+                                {},
+                                {},
+                                {},
+                                {}})
+                   .first->second;
     for (unsigned int m = 0; m < row.stencil.size(); ++m)
       entry.stencil[row.stencil[m].node] = m;
   }
@@ -282,65 +335,80 @@ namespace Touchstone
         }
     if (basis)
       to_trace_basis(*basis, mass, q, d_mass, d_q, n_variables);
-    // As in the pairing: regular on slivers.
-    constexpr double regularisation = 1e-14;
-    const double     trace          = mass.trace();
-    for (unsigned int j = 0; j < n; ++j)
-      mass(j, j) += regularisation * trace;
-    for (unsigned int v = 0; v < n_variables; ++v)
-      {
-        double d_trace = 0.;
-        for (unsigned int j = 0; j < n; ++j)
-          d_trace += d_mass[(v * n + j) * n + j];
-        for (unsigned int j = 0; j < n; ++j)
-          d_mass[(v * n + j) * n + j] += regularisation * d_trace;
-      }
-    mass.gauss_jordan();
-    FullMatrix<double> solution(n, n_columns);
+    // What the rows of its nodes take of the covered part.
+    const std::vector<Index> own =
+      basis ? std::vector<Index>(basis->nodes.begin(), basis->nodes.begin() + n)
+            : std::vector<Index>(slave.nodes.begin(), slave.nodes.begin() + n);
+    std::array<double, Face::max_nodes> areas{};
+    for (unsigned int i = 0; i < n; ++i)
+      areas[i] = q(i, 0);
+    const CoverShares        shares(n,
+                             areas,
+                             whole_areas(slave, basis, /*reference=*/true),
+                             gradual,
+                             /*with_derivative=*/true);
+    const FullMatrix<double> weights = shares.weights(mass);
+    FullMatrix<double>       solution(n, n_columns); // M^-1 Q
     mass.mmult(solution, q);
+    // A hanging node moves with those that it follows: if its row referred to
+    // it, conditions would depend on each other in a cycle.
+    const auto moved = [&](const unsigned int k) {
+      return k >= n  ? Stencil{{nodes[k - n], 1.}}
+             : basis ? basis->stencil(k)
+                     : Stencil{{slave.nodes[k], 1.}};
+    };
 
     std::vector<double> d(n_columns);
-    for (unsigned int i = 0; i < n; ++i)
+    for (unsigned int k = 0; k < n; ++k)
       {
-        const auto wanted = rows.find(basis ? basis->nodes[i] : slave.nodes[i]);
+        const auto wanted = rows.find(own[k]);
         if (wanted == rows.end())
           continue;
         Row                      &row    = wanted->second;
-        const double              a      = q(i, 0);
         RowDerivative            &result = *row.builder.result;
-        std::vector<unsigned int> stencil(nodes.size());
-        for (unsigned int m = 0; m < nodes.size(); ++m)
-          {
-            const auto entry = row.stencil.find(nodes[m]);
-            stencil[m] = entry == row.stencil.end() ? numbers::invalid_unsigned_int : entry->second;
-          }
+        std::vector<unsigned int> stencil;
+        for (const std::vector<Index> *list : {&std::as_const(nodes), &own})
+          for (const Index node : *list)
+            {
+              const auto entry = row.stencil.find(node);
+              stencil.push_back(entry == row.stencil.end() ? numbers::invalid_unsigned_int
+                                                           : entry->second);
+            }
+        // The weight function in the shape functions, psi'_k = sum_j dual_j N_j.
+        double dual[n];
+        for (unsigned int j = 0; j < n; ++j)
+          dual[j] = weights(k, j);
         for (unsigned int v = 0; v < n_variables; ++v)
           {
-            // d (a_i (M^-1 Q)_i)
-            const double d_a = d_q[(v * n + i) * n_columns];
-            for (unsigned int c = 0; c < n_columns; ++c)
-              d[c] = d_a * solution(i, c);
+            double d_share[n] = {};
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int l = 0; l < n; ++l)
+                d_share[i] += shares.derivative[k][i][l] * d_q[(v * n + l) * n_columns];
+            // d (sum_i T_ki a_i (M^-1 Q)_i)
+            std::fill(d.begin(), d.end(), 0.);
+            for (unsigned int i = 0; i < n; ++i)
+              if (d_share[i] != 0.)
+                for (unsigned int c = 0; c < n_columns; ++c)
+                  d[c] += d_share[i] * solution(i, c);
             for (unsigned int j = 0; j < n; ++j)
               {
-                const double  dual  = a * mass(i, j);
                 double        taken = 0.;
                 const double *dq    = &d_q[(v * n + j) * n_columns];
-                for (unsigned int k = 0; k < n; ++k)
-                  taken += a * mass(i, k) * d_mass[(v * n + k) * n + j];
+                for (unsigned int i = 0; i < n; ++i)
+                  taken += dual[i] * d_mass[(v * n + i) * n + j];
                 for (unsigned int c = 0; c < n_columns; ++c)
-                  d[c] += dual * dq[c] - taken * solution(j, c);
+                  d[c] += dual[j] * dq[c] - taken * solution(j, c);
               }
-            // A hanging node moves with those that it follows: if its row referred to
-            // it, conditions would depend on each other in a circle.
-            const unsigned int k = v / dim, e = v % dim;
-            const Stencil      moved = k >= n  ? Stencil{{nodes[k - n], 1.}}
-                                       : basis ? basis->stencil(k)
-                                               : Stencil{{slave.nodes[k], 1.}};
-            for (const auto &[node, weight] : moved)
+            const double d_given = d_q[(v * n + k) * n_columns] - d_share[k];
+            for (const auto &[node, weight] : moved(v / dim))
               {
-                const std::size_t to = row.builder.index(node);
-                row.d_area.resize(result.nodes.size());
+                const unsigned int e  = v % dim;
+                const std::size_t  to = row.builder.index(node);
+                for (auto *list : {&row.d_area, &row.d_kept, &row.d_given})
+                  list->resize(result.nodes.size());
                 row.d_area[to][e] += weight * d[0];
+                row.d_kept[to][e] += weight * d_share[k];
+                row.d_given[to][e] += weight * d_given;
                 for (unsigned int c = 0; c < dim; ++c)
                   {
                     result.gap_vector[to][c][e] += weight * d[1 + c];
@@ -349,6 +417,9 @@ namespace Touchstone
                 for (unsigned int m = 0; m < nodes.size(); ++m)
                   if (stencil[m] != numbers::invalid_unsigned_int)
                     result.weights[stencil[m]][to][e] += weight * d[n_fixed + m];
+                for (unsigned int i = 0; i < n; ++i)
+                  if (stencil[nodes.size() + i] != numbers::invalid_unsigned_int)
+                    result.weights[stencil[nodes.size() + i]][to][e] -= weight * d_share[i];
               }
           }
         for (const auto &[face, part] : parts)
@@ -357,14 +428,57 @@ namespace Touchstone
             for (unsigned int m = 0; m < n; ++m)
               for (unsigned int j = 0; j < n; ++j)
                 {
-                  by_normals.normal[m] += a * mass(i, j) * part.normal_normal[j][m];
-                  by_normals.gap[m] += a * mass(i, j) * part.gap_normal[j][m];
+                  by_normals.normal[m] += dual[j] * part.normal_normal[j][m];
+                  by_normals.gap[m] += dual[j] * part.gap_normal[j][m];
                   if (geometry.smooth())
-                    row.by_slave_normals[slave.key][m] +=
-                      a * mass(i, j) * part.gap_slave_normal[j][m];
+                    row.by_slave_normals[slave.key][m] += dual[j] * part.gap_slave_normal[j][m];
                 }
+            const auto take = [&, face = face](std::optional<Least> &closest,
+                                               const Closest<n>     &gap) {
+              if (gap.gap == std::numeric_limits<double>::max() ||
+                  (closest && closest->gap <= gap.gap))
+                return;
+              closest.emplace(Least{gap.gap, face, slave.key, {}, {}, {}});
+              std::copy(gap.normal, gap.normal + n, closest->by_normals.begin());
+              std::copy(gap.slave_normal, gap.slave_normal + n, closest->by_slave_normals.begin());
+              for (unsigned int m = 0; m < 2 * n; ++m)
+                for (const auto &[node, weight] : moved(m < n ? m : n + place(face->nodes[m - n])))
+                  closest->by_nodes.emplace_back(node,
+                                                 weight * Tensor<1, dim>({gap.d[dim * m],
+                                                                          gap.d[dim * m + 1],
+                                                                          gap.d[dim * m + 2]}));
+            };
+            if (row.correction.by_least != 0.)
+              take(row.least, part.least);
+            if (row.correction.by_own != 0.)
+              take(row.own, part.own[k]);
           }
       }
+  }
+
+
+
+  std::vector<Tensor<1, dim>>
+  AveragedDerivative::derivative(const Least                         &least,
+                                 RowDerivativeBuilder                &builder,
+                                 const std::vector<NormalDerivative> *of_master,
+                                 const std::vector<NormalDerivative> *of_slave)
+  {
+    std::vector<Tensor<1, dim>> result;
+    const auto                  add = [&](const Index node, const Tensor<1, dim> &value) {
+      const std::size_t to = builder.index(node);
+      result.resize(builder.result->nodes.size());
+      result[to] += value;
+    };
+    for (const auto &[node, value] : least.by_nodes)
+      add(node, value);
+    if (of_master)
+      for (const NormalDerivative &d : *of_master)
+        add(d.node, least.by_normals[d.m] * d.value);
+    if (of_slave)
+      for (const NormalDerivative &d : *of_slave)
+        add(d.node, least.by_slave_normals[d.m] * d.value);
+    return result;
   }
 
 
@@ -406,19 +520,54 @@ namespace Touchstone
                   result.gap_vector[to] += by_normals.gap[d.m] * d.value;
               }
           }
-        row.d_area.resize(result.nodes.size());
+        for (auto [least, d] :
+             {std::make_pair(&row.least, &row.d_least), std::make_pair(&row.own, &row.d_own)})
+          if (*least)
+            {
+              const auto of_master = normal_derivatives.find((*least)->master);
+              *d                   = derivative(**least,
+                              row.builder,
+                              of_master == normal_derivatives.end() ? nullptr : &of_master->second,
+                              row.by_slave_normals.count((*least)->slave) > 0
+                                                  ? &slave_derivatives.at(slave_search->face((*least)->slave))
+                                                  : nullptr);
+            }
+        to_means(row);
+      }
+  }
 
-        // From sums to means.
-        const Tensor<2, dim> direction = normalisation_derivative(row.normal);
-        for (std::size_t a = 0; a < result.nodes.size(); ++a)
-          {
-            result.normal[a] = direction * result.normal[a];
-            result.gap_vector[a] -= outer_product(row.row->gap_vector, row.d_area[a]);
-            result.gap_vector[a] /= row.area;
-            for (std::size_t m = 0; m < result.weights.size(); ++m)
-              result.weights[m][a] =
-                (result.weights[m][a] - row.row->stencil[m].weight * row.d_area[a]) / row.area;
-          }
+
+
+  void
+  AveragedDerivative::to_means(Row &row)
+  {
+    RowDerivative       &result     = *row.builder.result;
+    const CoverSums     &sums       = *row.sums;
+    const Tensor<1, dim> n          = row.row->normal;
+    const Tensor<2, dim> direction  = normalisation_derivative(sums.normal);
+    const Tensor<1, dim> mean       = sums.gap / sums.area;
+    const GapCorrection &correction = row.correction;
+    for (auto *list : {&row.d_area, &row.d_kept, &row.d_given, &row.d_least, &row.d_own})
+      list->resize(result.nodes.size());
+    for (std::size_t a = 0; a < result.nodes.size(); ++a)
+      {
+        result.normal[a] = direction * result.normal[a];
+        // Of the mean gap, of what is added to it, and of the share of both.
+        const Tensor<2, dim> d_mean =
+          (result.gap_vector[a] - outer_product(mean, row.d_area[a])) / sums.area;
+        const Tensor<1, dim> d_value =
+          correction.by_mean * (n * d_mean + mean * result.normal[a]) +
+          correction.by_least * row.d_least[a] + correction.by_own * row.d_own[a] +
+          correction.by_kept * row.d_kept[a] + correction.by_given * row.d_given[a];
+        const Tensor<1, dim> d_share =
+          (row.d_area[a] - sums.area / sums.kept * row.d_kept[a]) / sums.kept;
+        result.gap_vector[a] =
+          outer_product(mean + correction.value * n, d_share) +
+          sums.area / sums.kept *
+            (d_mean + outer_product(n, d_value) + correction.value * result.normal[a]);
+        for (std::size_t m = 0; m < result.weights.size(); ++m)
+          result.weights[m][a] =
+            (result.weights[m][a] - row.row->stencil[m].weight * row.d_kept[a]) / sums.kept;
       }
   }
 } // namespace Touchstone

@@ -1,11 +1,13 @@
 #include <touchstone/contact/averaged_derivative.h>
 #include <touchstone/contact/facing_faces.h>
 #include <touchstone/contact/pairing.h>
+#include <touchstone/contact/partial_cover.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 
@@ -28,7 +30,8 @@ namespace Touchstone
      * instead of its shape functions, and rows go to the nodes that these follow.
      * Wohlmuth (2000), SIAM J. Numer. Anal. 38; on faces that are covered only in
      * part the basis is dual on the covered part: Popp, Seitz, Gee and Wall (2013),
-     * Comput. Methods Appl. Mech. Engng 264.
+     * Comput. Methods Appl. Mech. Engng 264. Nodes of which little is covered leave it to
+     * others (CoverShares), whose stencils then contain them.
      */
     class AveragedPairing : public Pairing
     {
@@ -45,6 +48,7 @@ namespace Touchstone
         , facing(search,
                  small_part * std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
         , kind(master_normal(input.parameters->master_normal))
+        , tied(input.parameters->behaviour == "tied")
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           places.emplace(node.node, static_cast<int>(places.size()));
@@ -54,7 +58,8 @@ namespace Touchstone
         for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
           for (const Face &face : *list)
             {
-              SlaveFace slave{&face, input.slave->trace(face), {}};
+              const TraceBasis *const basis = input.slave->trace(face);
+              SlaveFace slave{&face, basis, {}, whole_areas(face, basis, /*reference=*/true)};
               bool      any = false;
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
                 {
@@ -120,7 +125,7 @@ namespace Touchstone
       }
 
     private:
-      /** Of a weight function over slave faces, times 1, the gap and the normal. */
+      /** Of a shape function over the covered part, times 1, the gap and the normal. */
       struct Integrals
       {
         double         area = 0.;
@@ -128,36 +133,46 @@ namespace Touchstone
       };
 
       /** Sums over the slave faces around a node. */
-      struct Sums : Integrals
+      struct Sums : CoverSums
       {
-        /** A dozen nodes or two, in the order in which they came. */
-        Stencil stencil;
+        /** The area that is kept, in the reference state. */
+        double reference = 0.;
+        /** Integral of the slave position less that of the node. */
+        Tensor<1, dim> lever;
+        /** Integrals of master shapes: a dozen nodes or two, in the order in which they
+         * came; areas that other slave nodes have left to this one, and it to them. */
+        Stencil stencil, taken, left;
 
         /** Zero, with room for as many nodes. */
         void
         clear()
         {
-          static_cast<Integrals &>(*this) = Integrals();
-          stencil.clear();
+          static_cast<CoverSums &>(*this) = CoverSums();
+          reference                       = 0.;
+          least = own = std::numeric_limits<double>::max();
+          lever       = Tensor<1, dim>();
+          for (Stencil *list : {&stencil, &taken, &left})
+            list->clear();
         }
 
-        void
-        add(const Index node, const double value)
+        static void
+        add(Stencil &list, const Index node, const double value)
         {
-          const auto found =
-            std::find_if(stencil.begin(), stencil.end(), [node](const StencilEntry &entry) {
-              return entry.node == node;
-            });
-          if (found != stencil.end())
+          const auto found = std::find_if(list.begin(), list.end(), [node](const auto &entry) {
+            return entry.node == node;
+          });
+          if (found != list.end())
             found->weight += value;
           else
-            stencil.push_back({node, value});
+            list.push_back({node, value});
         }
       };
 
       Search       search;
       FacingFaces  facing;
       MasterNormal kind;
+      /** Rows of tied pairs act once and for all: there is nothing to be smooth. */
+      const bool tied;
       /** Only for its exchange of faces, and only if they are smoothed. */
       std::unique_ptr<Search> slave_search;
 
@@ -173,6 +188,8 @@ namespace Touchstone
         const Face                      *face;
         const TraceBasis                *basis;
         std::array<int, Face::max_nodes> places;
+        /** whole_areas() in the reference state. */
+        std::array<double, Face::max_nodes> whole;
       };
 
       /** Places of the owned nodes, and the slave faces around them in the order of their
@@ -184,7 +201,7 @@ namespace Touchstone
       std::vector<std::optional<FaceGeometry>> geometries;
 
       /** Of the face at hand. */
-      FullMatrix<double> to_basis, scratch, weights;
+      FullMatrix<double> to_basis, scratch, matrix;
 
       /** Displacements of the faces of this rank, slaves and then masters: of the last
        * update, if any, and when all facing faces were looked for last. */
@@ -204,6 +221,12 @@ namespace Touchstone
       integrate();
       void
       add_face(const SlaveFace &face, CoveredFace &covered);
+      /** Add what nodes leave to others. @param shares Of the face. */
+      void
+      add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares);
+      /** The stencil of a row, and the sums as they belong to it. */
+      static void
+      finish_sums(Sums &sum);
     };
 
     const PairingRegistry::Entry<AveragedPairing>
@@ -282,6 +305,9 @@ namespace Touchstone
       std::array<Values, Face::max_nodes>              mass{};
       std::array<Integrals, Face::max_nodes>           integrals{};
       std::vector<std::array<Values, Face::max_nodes>> mixed(masters.size());
+      double                                           least = std::numeric_limits<double>::max();
+      Values                                           own;
+      own.fill(least);
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
           const Face         &master    = *masters[f].master;
@@ -292,6 +318,14 @@ namespace Touchstone
               const FaceShapes master_shapes(master.degree, point.master);
               const auto [x, normal]   = on_master.position_and_normal(point.master, master_shapes);
               const Tensor<1, dim> gap = on_slave.position(point.slave, shapes) - x;
+              least                    = std::min(least, gap * normal);
+              if (point.weight == 0.)
+                {
+                  for (unsigned int j = 0; j < n; ++j)
+                    if (is_node(shapes.value[j]))
+                      own[j] = std::min(own[j], gap * normal);
+                  continue;
+                }
               for (unsigned int j = 0; j < n; ++j)
                 {
                   const double value = point.weight * shapes.value[j];
@@ -310,60 +344,135 @@ namespace Touchstone
       // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
       // those with N.
       const TraceBasis *basis = face.basis;
-      weights.reinit(n, n, /*omit_default_initialization=*/true);
+      matrix.reinit(n, n, /*omit_default_initialization=*/true);
+      Values areas{};
       for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int k = 0; k < n; ++k)
-          weights(j, k) = mass[j][k];
+        {
+          areas[j] = integrals[j].area;
+          for (unsigned int k = 0; k < n; ++k)
+            matrix(j, k) = mass[j][k];
+        }
       if (basis)
         {
+          areas = basis->apply(areas);
           to_basis.reinit(n, n);
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int p = 0; p < n; ++p)
               to_basis(p, i) = basis->weights[i][p];
           scratch.reinit(n, n);
-          scratch.triple_product(weights, to_basis, to_basis, false, true);
-          weights = scratch;
+          scratch.triple_product(matrix, to_basis, to_basis, false, true);
+          matrix = scratch;
         }
-      // A sliver of coverage leaves the mass matrix singular to working precision:
-      // a trace of the full face's matrix keeps it regular.
-      const double trace = weights.trace();
-      for (unsigned int i = 0; i < n; ++i)
-        weights(i, i) += 1e-14 * trace;
-      weights.gauss_jordan();
+      const CoverShares  shares(n, areas, face.whole, /*gradual=*/!tied, /*with_derivative=*/false);
+      FullMatrix<double> weights = shares.weights(matrix);
       if (basis)
         {
           scratch = weights;
           scratch.mmult(weights, to_basis);
         }
+      const Values present = whole_areas(slave, basis, /*reference=*/false);
 
-      for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int k = 0; k < n; ++k)
         {
-          double area = 0.;
-          if (basis)
-            for (unsigned int j = 0; j < n; ++j)
-              area += to_basis(i, j) * integrals[j].area;
-          else
-            area = integrals[i].area;
           // Nodes of other ranks get their shares there.
-          if (face.places[i] < 0)
+          if (face.places[k] < 0)
             continue;
-          Sums &sum = sums[face.places[i]];
+          Sums  &sum = sums[face.places[k]];
+          Values psi{};
+          for (unsigned int j = 0; j < n; ++j)
+            psi[j] = weights(k, j);
           for (unsigned int j = 0; j < n; ++j)
             {
-              const double psi = area * weights(i, j);
-              sum.area += psi * integrals[j].area;
-              sum.gap += psi * integrals[j].gap;
-              sum.normal += psi * integrals[j].normal;
+              sum.area += psi[j] * integrals[j].area;
+              sum.gap += psi[j] * integrals[j].gap;
+              sum.normal += psi[j] * integrals[j].normal;
             }
           for (std::size_t f = 0; f < masters.size(); ++f)
             for (unsigned int m = 0; m < masters[f].master->n_nodes(); ++m)
               {
                 double value = 0.;
                 for (unsigned int j = 0; j < n; ++j)
-                  value += weights(i, j) * mixed[f][j][m];
-                sum.add(masters[f].master->nodes[m], area * value);
+                  value += psi[j] * mixed[f][j][m];
+                Sums::add(sum.stencil, masters[f].master->nodes[m], value);
               }
+          const double kept = shares.share[k][k];
+          sum.kept += kept;
+          sum.given += areas[k] - kept;
+          sum.reference += kept * face.whole[k] / present[k];
+          sum.least = std::min(sum.least, least);
+          sum.own   = std::min(sum.own, own[k]);
         }
+      if (shares.partial)
+        add_shares(face, slave, shares);
+    }
+
+
+
+    void
+    AveragedPairing::add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares)
+    {
+      const unsigned int       n = slave.n_nodes();
+      const std::vector<Index> nodes =
+        face.basis ? std::vector<Index>(face.basis->nodes.begin(), face.basis->nodes.begin() + n)
+                   : std::vector<Index>(slave.nodes.begin(), slave.nodes.begin() + n);
+      std::array<Tensor<1, dim>, Face::max_nodes> x;
+      for (unsigned int i = 0; i < n; ++i)
+        x[i] = slave.reference[i] + slave.displacement[i];
+      if (face.basis)
+        {
+          // The nodes that the face follows: x_i = sum C_ip x_p.
+          FullMatrix<double> inverse(n, n);
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int p = 0; p < n; ++p)
+              inverse(i, p) = face.basis->weights[i][p];
+          inverse.gauss_jordan();
+          const auto on_face = x;
+          for (unsigned int p = 0; p < n; ++p)
+            {
+              x[p] = Tensor<1, dim>();
+              for (unsigned int i = 0; i < n; ++i)
+                x[p] += inverse(p, i) * on_face[i];
+            }
+        }
+      for (unsigned int k = 0; k < n; ++k)
+        if (face.places[k] >= 0)
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              if (i == k)
+                continue;
+              Sums &sum = sums[face.places[k]];
+              if (const double area = shares.share[k][i]; area != 0.)
+                {
+                  Sums::add(sum.taken, nodes[i], area);
+                  sum.lever += area * (x[i] - x[k]);
+                }
+              if (const double area = shares.share[i][k]; area != 0.)
+                Sums::add(sum.left, nodes[i], area);
+            }
+    }
+
+
+
+    void
+    AveragedPairing::finish_sums(Sums &sum)
+    {
+      // Of two nodes that each leave something to the other on different faces, only the one
+      // that takes more refers to the other: conditions must not depend on each other in a
+      // cycle. It is rare: both must lie at the edge of the cover, on different sides.
+      for (const StencilEntry &taken : sum.taken)
+        {
+          const auto back =
+            std::find_if(sum.left.begin(), sum.left.end(), [&](const StencilEntry &entry) {
+              return entry.node == taken.node;
+            });
+          if (back != sum.left.end() && std::abs(taken.weight) <= std::abs(back->weight))
+            sum.kept += taken.weight;
+          else
+            Sums::add(sum.stencil, taken.node, -taken.weight);
+        }
+      std::sort(sum.stencil.begin(),
+                sum.stencil.end(),
+                [](const StencilEntry &a, const StencilEntry &b) { return a.node < b.node; });
     }
 
 
@@ -407,6 +516,8 @@ namespace Touchstone
       watch_motion();
       for (std::size_t f = 0; f < faces.size(); ++f)
         add_face(faces[f], slave_faces[f]);
+      for (Sums &sum : sums)
+        finish_sums(sum);
     }
 
 
@@ -420,26 +531,29 @@ namespace Touchstone
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
           ContactRow &row = rows[k];
-          Sums       &sum = sums[k];
+          const Sums &sum = sums[k];
           row.stencil.clear();
-          if (sum.area < 1e-6 * nodes[k].area || sum.normal.norm() == 0.)
+          if (!sum.suffices(nodes[k].area))
             {
               row.status = ContactStatus::no_partner;
               row.gap    = 0.;
+              row.share  = 1.;
+              row.lever  = Tensor<1, dim>();
               continue;
             }
           if (row.status == ContactStatus::no_partner)
             row.status = ContactStatus::open;
-          std::sort(sum.stencil.begin(),
-                    sum.stencil.end(),
-                    [](const StencilEntry &a, const StencilEntry &b) { return a.node < b.node; });
           for (const StencilEntry &entry : sum.stencil)
             if (std::abs(entry.weight) > 1e-14 * sum.area)
-              row.stencil.push_back({entry.node, entry.weight / sum.area});
-          row.normal     = sum.normal / sum.normal.norm();
-          row.gap_vector = sum.gap / sum.area;
+              row.stencil.push_back({entry.node, entry.weight / sum.kept});
+          row.share                 = sum.area / sum.kept;
+          row.lever                 = sum.lever / sum.area;
+          row.normal                = sum.normal / sum.normal.norm();
+          const Tensor<1, dim> mean = sum.gap / sum.area;
+          const GapCorrection  correction(sum, mean * row.normal, nodes[k].size);
+          row.gap_vector = row.share * (mean + correction.value * row.normal);
           row.gap        = row.gap_vector * row.normal;
-          row.area       = std::min(sum.area, nodes[k].area);
+          row.area       = std::min(sum.reference, nodes[k].area);
         }
     }
 
@@ -448,13 +562,10 @@ namespace Touchstone
     void
     AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
-      AveragedDerivative derivative(search, slave_search.get());
+      AveragedDerivative derivative(search, slave_search.get(), /*gradual=*/!tied);
       for (const ContactRow &row : rows)
         if (row.active())
-          {
-            const Sums &sum = sums[places.at(row.slave)];
-            derivative.add_row(row, sum.area, sum.normal);
-          }
+          derivative.add_row(row, sums[places.at(row.slave)]);
       for (const auto &[slave, masters] : slave_faces)
         if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
           derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),

@@ -403,11 +403,13 @@ namespace Touchstone
           point.reference_position = pairs[p].slave->owned_nodes()[k].reference;
           for (unsigned int d = 0; d < dim; ++d)
             point.displacement[d] = u(dim * row.slave + d);
-          point.normal   = row.normal;
-          point.gap      = row.gap;
-          point.area     = row.area;
+          point.normal = row.normal;
+          // What round-off leaves of positions is none.
+          point.gap      = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
+          point.area     = row.area * row.share;
           point.pressure = (row.lambda + row.jump * row.normal) / row.area;
           point.traction = (row.force + row.jump) / row.area;
+          point.lever    = row.lever;
           point.status   = row.status;
           if (row.friction)
             {
@@ -457,7 +459,8 @@ namespace Touchstone
           continue;
         const Tensor<1, dim> force = point.area * point.traction;
         result.force += force;
-        result.moment += cross_product_3d(point.reference_position + point.displacement, force);
+        result.moment +=
+          cross_product_3d(point.reference_position + point.displacement + point.lever, force);
         result.area += point.area;
         result.max_pressure = std::max(result.max_pressure, point.pressure);
         ++result.active;
@@ -509,7 +512,8 @@ namespace Touchstone
             const ContactRow &row = rows[p][k];
             if (row.status == ContactStatus::no_partner)
               continue;
-            const double gap = row.gap + pairs[p].overlap[k]; // as the bodies are placed
+            // As the bodies are placed.
+            const double gap = (row.gap + pairs[p].overlap[k]) / row.share;
             ++partner;
             lowest = std::min(lowest, gap);
             size   = std::max(size, row.size);

@@ -265,7 +265,7 @@ namespace Touchstone
     }
 
     /** Visit the quadrature points on the common parts of two shadows, with place
-     * and weight in the plane. */
+     * and weight in the plane, and their corners with weight zero. */
     template <typename Number, typename Visitor>
     void
     for_each_point(const Shadow<Number> &slave, const Shadow<Number> &master, const Visitor &visit)
@@ -281,6 +281,8 @@ namespace Touchstone
                 continue;
               remove_flat_corners(common, 1e-9 * whole);
               for_each_point(common, visit);
+              for (const Point2<Number> &corner : common)
+                visit(corner, Number(0.));
             }
         }
     }
@@ -457,11 +459,18 @@ namespace Touchstone
             !master_shadow.invert(px, py, point.master))
           return;
         const FaceShapes shapes(slave.degree, point.slave);
+        point.weight = 0.;
+        point.d_weight.fill(0.);
         differentiate_inverse(slave_shadow, shapes, place, point.d_slave);
         differentiate_inverse(master_shadow,
                               FaceShapes(master.degree, point.master),
                               place,
                               point.d_master);
+        if (weight.val() == 0.)
+          {
+            points.push_back(point);
+            return;
+          }
 
         // The stretch from the plane to the face: |t_1 x t_2| over the jacobian of
         // the shadow, each by the directions in which its tangents matter.

@@ -55,8 +55,8 @@ namespace Touchstone
       condition.stencil         = row.stencil;
       condition.body            = row.body;
       condition.master_body     = row.master_body;
-      condition.position        = row.position;
-      condition.master_position = row.position - row.gap_vector;
+      condition.position        = row.position + row.lever;
+      condition.master_position = condition.position - row.gap_vector / row.share;
       return condition;
     }
   } // namespace

@@ -14,7 +14,8 @@ namespace Touchstone
   {
     /** Coordinates on the slave and on the master face. */
     std::array<double, 2> slave, master;
-    /** Weight: area of the slave face. */
+    /** Weight: area of the slave face. Zero for corners of the overlap, between which gaps
+     * of plane faces lie. */
     double weight;
   };
 

@@ -21,12 +21,15 @@ namespace Touchstone
     dealii::Tensor<1, dim> displacement;
     dealii::Tensor<1, dim> normal;
     double                 gap;
-    /** Tributary area. */
+    /** Tributary area in the reference state, as far as it is covered, with what other
+     * nodes have left to this one. */
     double area;
-    /** Normal force divided by tributary area. */
+    /** Normal force divided by this area. */
     double pressure;
-    /** Contact force divided by tributary area. */
+    /** Contact force divided by this area. */
     dealii::Tensor<1, dim> traction;
+    /** Where the force acts, seen from the node; length. */
+    dealii::Tensor<1, dim> lever;
     /** Tangential slip of the last step, length. */
     dealii::Tensor<1, dim> slip;
     /** Length of the slip path, and work done against friction, force times

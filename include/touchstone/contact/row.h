@@ -61,8 +61,8 @@ namespace Touchstone
     unsigned int pair = 0;
     /** The slave node; owned by this rank. */
     Index slave = invalid_index;
-    /** Master nodes and their weights, which sum to one; may be owned by any
-     * rank. */
+    /** Master nodes and their weights; may be owned by any rank. Slave nodes that have
+     * left their share to this row are among them, with negative weights. The sum is one. */
     std::vector<StencilEntry> stencil;
     /** Set by Pairing::differentiate(), null while normal and stencil are taken
      * as constant. */
@@ -73,8 +73,14 @@ namespace Touchstone
     dealii::Tensor<1, dim> gap_vector;
     /** Gap, negative for penetration, length. */
     double gap = 0.;
-    /** Tributary area of the slave node in the reference state. */
+    /** Tributary area of the slave node in the reference state, as far as it is covered:
+     * lambda / area is the pressure. */
     double area = 0.;
+    /** Where other slave nodes are in the stencil, with negative weights, the force on all of
+     * them is `share` times that on the slave node, and so is the area, and acts at `lever`
+     * (length) from it. Gap and gap vector are `share` times those of the surfaces. */
+    double                 share = 1.;
+    dealii::Tensor<1, dim> lever;
     /** Size of the slave faces at the node, length; makes gaps nondimensional. */
     double size = 1.;
     /** Scale of contact forces per gap, force per length: Young's modulus of the

@@ -1,0 +1,215 @@
+#include <touchstone/contact/partial_cover.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <Sacado.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Of the mean cover of a face: a node that has less than `weak` leaves its row to
+     * others, with `strong` it keeps it. Two thirds of a face covered give 0.6 to nodes beyond. */
+    constexpr double weak = 0.2, strong = 0.6;
+
+    /** What a node may give away per area that it keeps until it has no row, and by which part of
+     * a face its gap grows where it gives as much as it keeps. It grows with the fourth power
+     * of the ratio of both: gaps of 1e-5 and 0.1 of a face alike then open the row while the
+     * edge goes a good part of a face. */
+    constexpr double most_given = 3., growth = 0.01;
+
+    /** How deep the node must be, if it is the closest point, as a multiple of what the mean is
+     * deeper, for the mean to count alone. By how much of the same length another point must be
+     * closer to count as another point; and how far that must be open for the row not to be
+     * closer, of the size of a face. */
+    constexpr double deep = 2., elsewhere = 0.5, hardly_open = 1e-4, open = 1e-2;
+
+    /** Of the size of a face: on flat faces mean and closest point can be the same. */
+    constexpr double round_off = 1e-10;
+
+    template <typename Number>
+    Number
+    smooth_step(const Number &x, const double begin, const double end)
+    {
+      if (x <= begin)
+        return Number(0.);
+      if (x >= end)
+        return Number(1.);
+      const Number t = (x - begin) / (end - begin);
+      return t * t * (3. - 2. * t);
+    }
+
+    /** beta_i and w_k. */
+    template <typename Number>
+    struct Division
+    {
+      std::array<Number, Face::max_nodes> keep, take;
+
+      Division(const unsigned int                         n,
+               const std::array<Number, Face::max_nodes> &covered,
+               const std::array<double, Face::max_nodes> &whole,
+               const bool                                 gradual)
+      {
+        Number sum = 0., squares = 0., receivers = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          if (whole[i] > 0.)
+            {
+              sum += covered[i];
+              squares += covered[i] * covered[i] / whole[i];
+            }
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            // Of a function that hangs and is as much negative as positive.
+            const Number cover =
+              whole[i] > 0. ? Number(covered[i] / whole[i] * sum / squares) : Number(1.);
+            keep[i] = gradual ? smooth_step(cover, weak, strong)
+                              : Number(cover < 0.5 * (weak + strong) ? 0. : 1.);
+            take[i] = smooth_step(cover, strong, 1.) * covered[i];
+            receivers += take[i];
+          }
+        for (unsigned int k = 0; k < n; ++k)
+          take[k] /= receivers;
+      }
+    };
+  } // namespace
+
+
+
+  std::array<double, Face::max_nodes>
+  whole_areas(const Face &face, const TraceBasis *basis, const bool reference)
+  {
+    static const QGauss<2>              quadrature(3);
+    std::array<double, Face::max_nodes> result{};
+    for (unsigned int q = 0; q < quadrature.size(); ++q)
+      {
+        const FaceShapes shapes(
+          face.degree, {{2. * quadrature.point(q)[0] - 1., 2. * quadrature.point(q)[1] - 1.}});
+        Tensor<1, dim> t[2];
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          {
+            Tensor<1, dim> x = face.reference[m];
+            if (!reference)
+              x += face.displacement[m];
+            for (unsigned int a = 0; a < 2; ++a)
+              t[a] += shapes.gradient[m][a] * x;
+          }
+        const double weight = 4. * quadrature.weight(q) * cross_product_3d(t[0], t[1]).norm();
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          result[m] += weight * shapes.value[m];
+      }
+    return basis ? basis->apply(result) : result;
+  }
+
+
+
+  CoverShares::CoverShares(const unsigned int                         n,
+                           const std::array<double, Face::max_nodes> &covered,
+                           const std::array<double, Face::max_nodes> &whole,
+                           const bool                                 gradual,
+                           const bool                                 with_derivative)
+  {
+    const Division<double> division(n, covered, whole, gradual);
+    partial = std::any_of(division.keep.begin(), division.keep.begin() + n, [](const double beta) {
+      return beta != 1.;
+    });
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          share[k][i] = (1. - division.keep[i]) * division.take[k] * covered[i] +
+                        (k == i ? division.keep[i] * covered[i] : 0.);
+          if (with_derivative)
+            for (unsigned int l = 0; l < n; ++l)
+              derivative[k][i][l] = (k == i && i == l);
+        }
+    if (!with_derivative || !partial)
+      return;
+
+    using Number = Sacado::Fad::SFad<double, int(Face::max_nodes)>;
+    std::array<Number, Face::max_nodes> a;
+    for (unsigned int i = 0; i < n; ++i)
+      a[i] = Number(int(Face::max_nodes), int(i), covered[i]);
+    const Division<Number> differentiated(n, a, whole, gradual);
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          Number value = (1. - differentiated.keep[i]) * differentiated.take[k] * a[i];
+          if (k == i)
+            value += differentiated.keep[i] * a[i];
+          for (unsigned int l = 0; l < n; ++l)
+            derivative[k][i][l] = value.dx(l);
+        }
+  }
+
+
+
+  FullMatrix<double>
+  CoverShares::weights(FullMatrix<double> &mass) const
+  {
+    // On a sliver the mass matrix is singular to working precision. What is added to the diagonal
+    // is taken out again of the weights, and not of the inverse: those of nodes that take the
+    // shares of others are moderate and leave small residuals, however thin the sliver.
+    const unsigned int       n = mass.m();
+    const FullMatrix<double> original(mass);
+    const double             addition = 1e-14 * mass.trace();
+    for (unsigned int i = 0; i < n; ++i)
+      mass(i, i) += addition;
+    mass.gauss_jordan();
+    FullMatrix<double> result(n, n), rest(n, n);
+    for (unsigned int step = 0; step < 4; ++step)
+      {
+        result.mmult(rest, original);
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int i = 0; i < n; ++i)
+            rest(k, i) = share[k][i] - rest(k, i);
+        rest.mmult(result, mass, /*adding=*/true);
+      }
+    return result;
+  }
+
+
+
+  bool
+  CoverSums::suffices(const double whole) const
+  {
+    return kept >= 1e-6 * whole && most_given * kept >= given && normal.norm_square() > 0.;
+  }
+
+
+
+  GapCorrection::GapCorrection(const CoverSums &sums, const double mean, const double size)
+  {
+    using Number         = Sacado::Fad::SFad<double, 5>;
+    const double covered = sums.own < std::numeric_limits<double>::max() ? 1. : 0.;
+    const Number at_mean = Number(5, 0, mean), least(5, 1, sums.least), kept(5, 3, sums.kept),
+                 given   = Number(5, 4, sums.given);
+    const Number own     = covered > 0. ? Number(5, 2, sums.own) : Number(sums.least + 1e10 * size);
+    const Number difference = least - at_mean;
+    Number       result     = 0.;
+    if (difference > round_off * size)
+      {
+        const Number other = smooth_step(Number((own - least) / difference), 0., elsewhere);
+        Number       part  = 1. - other;
+        if (least < 0.)
+          part *= 1. - smooth_step(Number(-least / difference), 0., deep);
+        else
+          part += other * smooth_step(Number(least / size), hardly_open, open);
+        result = part * difference;
+      }
+    if (given > 0.)
+      {
+        const Number ratio = given / kept;
+        result += growth * size * ratio * ratio * ratio * ratio;
+      }
+    value    = result.val();
+    by_mean  = result.dx(0);
+    by_least = result.dx(1);
+    by_own   = result.dx(2);
+    by_kept  = result.dx(3);
+    by_given = result.dx(4);
+  }
+} // namespace Touchstone
