@@ -9,7 +9,7 @@ from benchmarking import processes
 
 from . import mutations, runs
 
-FORM = re.compile(r"Input error in section '[^']+'.*: .*Remedy: .+", re.S)
+FORM = re.compile(r"Input error in .*'.*'.*: .*Remedy: .+", re.S)
 
 
 @dataclasses.dataclass

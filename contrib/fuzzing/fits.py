@@ -36,9 +36,9 @@ def fit(rng):
     shift = rng.choice((0.0, 0.0, 0.3 * length))
     # What is driven or fixed is not in contact, so that no condition contradicts another one.
     if slope == 0 and rng.random() < 0.4:
-        shift = 0.3 * length if whole else shift
+        shift = 0.55 * length if whole else shift
         inner = parts.Cylinder(axis, origin, shift, length + shift, 1.0 + overlap,
-                               (2, 1, rng.randint(2, 4)), "full" if whole else "quarter")
+                               (2, 1, 4 if whole else rng.randint(2, 4)), "full" if whole else "quarter")
         inner_contact, end = ("side",), "end"
     else:
         inner = parts.Tube(axis, origin, shift, length + shift, rng.uniform(0.4, 0.7), 1.0 + overlap,
@@ -95,16 +95,18 @@ def between(rng):
     h = rng.uniform(0.6, 1.0)
     motion = Motion(rng, ("press", "slide"), 2 * strain * h, 0.05)
     x, y = motion.across()
-    if rng.random() < 0.5:
+    law, coefficient = behaviour(rng)
+    if law != "frictionless" and rng.random() < 0.5:
         middle = parts.Ball((0.0, 0.0, h / 2), h / 2, (2, 1))
         low = high = "surface"
     else:
         middle = parts.Box((-h / 2, -h / 2, 0.0), (h / 2, h / 2, h), parts.cells(rng, 2, 3),
                            parts.grading(rng))
         low, high = "bottom", "top"
-    bodies, pairs = [Body("middle", middle, *stuff)], []
+    # Without friction nothing but these planes would keep it from sliding.
+    planes = ("left", "front") if law == "frictionless" else ()
+    bodies, pairs = [Body("middle", middle, *stuff, symmetry=planes)], []
     obstacles = [Obstacle("floor", "plane", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), STILL)]
-    law, coefficient = behaviour(rng)
     pairs.append(Pair("lowpair", "middle", (low,), "floor", (), settings(rng), law, coefficient))
     if rng.random() < 0.5:
         obstacles.append(Obstacle("press", "plane", (0.0, 0.0, h), (0.0, 0.0, -1.0),

@@ -50,6 +50,11 @@ def numbers(values):
     return ", ".join(number(v) for v in values)
 
 
+def sagitta_of(radius, degrees):
+    """Of the facet that spans this angle."""
+    return radius * (1 - math.cos(math.radians(degrees) / 2))
+
+
 def turned(v, degrees):
     """Turned about x, then y, then z."""
     for axis, angle in enumerate(degrees):
@@ -113,6 +118,10 @@ class Box:
     def area(self, boundary):
         return self.block().area(boundary)
 
+    def sagitta(self):
+        """How far facets stray from the shape."""
+        return 0.0
+
     def number_of_cells(self):
         return math.prod(self.cells)
 
@@ -151,6 +160,10 @@ class Block:
                  "right": (1, 2, 6, 5), "back": (2, 3, 7, 6), "left": (3, 0, 4, 7)}[boundary]
         a, b, c, d = (self.corners[i] for i in order)
         return norm(cross(difference(c, a), difference(d, b))) / 2
+
+    def sagitta(self):
+        """How far facets stray from the shape."""
+        return 0.0
 
     def number_of_cells(self):
         return math.prod(self.cells)

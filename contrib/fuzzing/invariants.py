@@ -39,11 +39,13 @@ def largest_force(scene, result):
 def messages(_scene, result):
     """No text of a library, no signal, a reason for each exit code."""
     raw = runs.RAW.search(result.terminal)
+    if result.timed_out:
+        return
     if result.exit_code < 0 or result.exit_code > 3:
         yield Finding("crash", f"exit code {result.exit_code}: {result.reason()}")
     elif raw:
         yield Finding("raw message", f"'{raw[0]}': {result.reason()}")
-    elif result.exit_code and not result.timed_out and not result.reason():
+    elif result.exit_code and not result.reason():
         yield Finding("no message", f"exit code {result.exit_code}")
 
 
@@ -83,11 +85,13 @@ def overlap(scene, result):
             ("Contact geometry", "faceted") in scene.pairs[0].settings:
         return
     gap = float(said[1])
-    if gap < min(scene.clearance, 0.0) - PENETRATION * scene.size():
-        yield Finding("false overlap", f"gap {gap:g} where the shapes have {scene.clearance:g}")
+    facets = sum(b.geometry.sagitta() for b in scene.bodies) + PENETRATION * scene.size()
+    if gap < scene.clearance - facets:
+        yield Finding("false overlap", f"gap {gap:g} where the shapes have {scene.clearance:g} and "
+                      f"facets stray from them by {facets:.3g}")
     if scene.clearance < -PENETRATION * scene.size() and gap > 0:
         yield Finding("overlap not seen", f"gap {gap:g} where the shapes have {scene.clearance:g}")
-    if scene.clearance > 0 and scene.title.endswith("rest"):
+    if scene.clearance > facets and scene.title.endswith("rest"):
         force = max(norm(result.force(row, scene.pairs[0].name)) for row in result.rows)
         if force > 1e-10 * scene.stiffness():
             yield Finding("false overlap", f"force {force:g} where the shapes do not touch")

@@ -94,7 +94,7 @@ def _ring_above(rng, r, at):
 def _plate_above(rng, r, at):
     plate = RoundedPlate((at[0] - r, at[1], 0.0), (1, 0, 0), (0, 0, 1), (2 * r, r), 0.8 * r, 0.3 * r,
                          (3, 2), 2)
-    return Part(plate, ("first side", "fillet"), ("far second side",), r, 0.4 * r, True)
+    return Part(plate, ("first side", "fillet"), ("far first side",), r, 0.4 * r, True)
 
 
 def _box_below(rng, r):

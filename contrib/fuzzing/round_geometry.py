@@ -3,7 +3,7 @@
 import dataclasses
 import math
 
-from .geometry import AXES, NotExpressible, number, numbers, mirror, rotate, scale
+from .geometry import AXES, NotExpressible, mirror, number, numbers, rotate, sagitta_of, scale
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,6 +53,9 @@ class Tube:
     def size(self):
         return math.hypot(2 * self.outer, self.end - self.start)
 
+    def sagitta(self):
+        return sagitta_of(self.outer, self.angle / self.cells[1])
+
     def number_of_cells(self):
         return math.prod(self.cells)
 
@@ -94,6 +97,9 @@ class Cylinder:
     def size(self):
         return math.hypot(2 * self.radius, self.end - self.start)
 
+    def sagitta(self):
+        return sagitta_of(self.radius, 45 / self.cells[0])
+
     def number_of_cells(self):
         core, shell, axial = self.cells
         return 4 * (core * core + 2 * core * shell) * axial
@@ -125,6 +131,9 @@ class Ball:
 
     def size(self):
         return 2 * self.radius
+
+    def sagitta(self):
+        return 2 * sagitta_of(self.radius, 45 / self.cells[0])
 
     def number_of_cells(self):
         core, shell = self.cells
@@ -173,6 +182,9 @@ class Cap:
     def size(self):
         return math.hypot(2 * self.width, self.height)
 
+    def sagitta(self):
+        return (self.width / self.cells[1]) ** 2 / (4 * self.radius) if self.radius else 0.0
+
     def number_of_cells(self):
         across = self.cells[0] + self.cells[1]
         whole = 1 if self.part == "quarter" else 2
@@ -214,6 +226,9 @@ class RoundedPlate:
 
     def size(self):
         return math.hypot(*self.lengths)
+
+    def sagitta(self):
+        return sagitta_of(self.radius, 22.5)
 
     def number_of_cells(self):
         a, b = self.cells
