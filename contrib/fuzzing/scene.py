@@ -121,6 +121,9 @@ class Scene:
     def size(self):
         return max(b.geometry.size() for b in self.bodies)
 
+    def number_of_cells(self):
+        return sum(b.geometry.number_of_cells() for b in self.bodies)
+
     def stiffness(self):
         """A force that would deform the bodies much."""
         return max(b.moduli["Young modulus"] for b in self.bodies) * self.size() ** 2
