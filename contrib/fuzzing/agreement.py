@@ -1,0 +1,57 @@
+"""What must hold between runs of the same scene."""
+
+from .geometry import norm
+from .invariants import Finding, largest_force
+
+# Forces relative to the largest of the run.
+EXACT = 1e-6
+# Frictionless elastic scenes do not depend on the steps; others converge with them.
+STEPS = {"exact": 1e-5, "path": 0.1}
+
+
+def path_dependent(scene):
+    """Whether the result depends on what was in between."""
+    return scene.frictional() or any("Mises" in b.material["Law"] for b in scene.bodies)
+
+
+def _vectors(scene, result):
+    """Forces and moments of the pairs in the original axes and units, by time."""
+    force, moment = scene.stress * scene.length ** 2, scene.stress * scene.length ** 3
+    table = {}
+    for row in result.rows:
+        values = {}
+        for pair in scene.pairs:
+            values[pair.name, "force"] = scene.back(result.force(row, pair.name), unit=force)
+            values[pair.name, "moment"] = scene.back(
+                result.vector(row, f"{pair.name}: moment"), True, moment)
+        table[f"{row['time'] / scene.end_time:.7f}"] = values
+    return table
+
+
+def difference(scene_a, a, scene_b, b):
+    """Largest difference of a force or moment at a common time, relative, and where."""
+    first, second = _vectors(scene_a, a), _vectors(scene_b, b)
+    size = max(largest_force(scene_a, a) / (scene_a.stress * scene_a.length ** 2), 1e-300)
+    units = {"force": size, "moment": size * scene_a.size() / scene_a.length}
+    worst = (0.0, "")
+    for time in sorted(first.keys() & second.keys()):
+        for (pair, kind), value in first[time].items():
+            other = second[time][pair, kind]
+            d = norm([p - q for p, q in zip(value, other)]) / units[kind]
+            if not d <= worst[0]:
+                worst = (d, f"{kind} of {pair} at {float(time):.3g} of the time")
+    return worst
+
+
+def compare(scene, default, variant_scene, result, variant):
+    """Findings from the run with default settings and one of a variant."""
+    if not (default.converged() and result.converged()):
+        return
+    d, where = difference(scene, default, variant_scene, result)
+    if variant.exact:
+        bound, kind = EXACT, f"differs: {variant.name}"
+    else:
+        dependent = path_dependent(scene)
+        bound, kind = STEPS["path" if dependent else "exact"], f"differs: {variant.name}"
+    if not d <= bound:
+        yield Finding(kind, f"{where}: {d:.1e}")

@@ -1,0 +1,23 @@
+"""A random scene from a seed: always the same for the same numbers."""
+
+import dataclasses
+import random
+
+from . import fits, stacks
+
+KINDS = (stacks.two,) * 6 + (stacks.row, stacks.corner, stacks.quarter, stacks.quarter,
+                             fits.fit, fits.fit, fits.fit, fits.rigid, fits.between, fits.bore)
+# Lengths and stresses: N, mm, MPa as they are; SI; inch and psi; grams.
+UNITS = ((1.0, 1.0), (1.0, 1.0), (1e-3, 1e6), (1 / 25.4, 145.0), (1e3, 1e-6), (1e-6, 1e9))
+
+
+def scene(seed, index):
+    """The scene @p index of a campaign."""
+    rng = random.Random(f"{seed}/{index}")
+    result = rng.choice(KINDS)(rng)
+    if rng.random() < 0.1:
+        result = dataclasses.replace(result, settings=(("Discretisation/Degree", "2"),))
+    units = rng.choice(UNITS)
+    result = result.rescaled(*units) if units != (1.0, 1.0) else result
+    # What follows is compared with this one, in its own axes and units.
+    return dataclasses.replace(result, length=1.0, stress=1.0)

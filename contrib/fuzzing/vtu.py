@@ -1,0 +1,70 @@
+"""Reads the contact surfaces that the program writes: compressed binary VTU files."""
+
+import base64
+import dataclasses
+import math
+import re
+import struct
+import zlib
+
+
+@dataclasses.dataclass
+class Node:
+    """Result at a slave node; positions are those of the undeformed bodies."""
+    position: tuple
+    pair: int
+    status: int  # -1 no partner, 0 open, 1 slips, 2 sticks, 3 tied
+    gap: float
+    pressure: float
+    normal: tuple
+    traction: tuple
+    slip: tuple
+    displacement: tuple
+
+    def normal_traction(self):
+        return sum(t * n for t, n in zip(self.traction, self.normal))
+
+    def shear(self):
+        p = self.normal_traction()
+        return tuple(t - p * n for t, n in zip(self.traction, self.normal))
+
+    def deformed(self):
+        return tuple(x + u for x, u in zip(self.position, self.displacement))
+
+
+def unpack(text, form):
+    """VTK's inline format: number of blocks, size of a block and of the last one, compressed
+    size of each, as 32-bit integers in base64; then the blocks."""
+    text = "".join(text.split())
+    blocks = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
+    head = 4 * math.ceil(4 * (3 + blocks) / 3)
+    sizes = struct.unpack(f"<{3 + blocks}I", base64.b64decode(text[:head])[:4 * (3 + blocks)])[3:]
+    data, result, start = base64.b64decode(text[head:]), b"", 0
+    for size in sizes:
+        result += zlib.decompress(data[start:start + size])
+        start += size
+    width = struct.calcsize(form)
+    return struct.unpack(f"<{len(result) // width}{form}", result)
+
+
+def read(path):
+    """All nodes of a file, each once."""
+    text = path.read_text(encoding="utf-8", errors="replace")
+    nodes = {}
+    for piece in re.findall(r"<Piece (.*?)</Piece>", text, re.S):
+        arrays = {}
+        for bits, attributes, data in re.findall(
+                r'<DataArray type="Float(32|64)"([^>]*)>\s*(.*?)\s*</DataArray>', piece, re.S):
+            name = re.search(r'Name="([^"]*)"', attributes)
+            arrays[name[1] if name else "position"] = unpack(data, "f" if bits == "32" else "d")
+        if "pair" not in arrays:
+            continue
+        for i in range(len(arrays["pair"])):
+            def vector(name, i=i, arrays=arrays):
+                return arrays[name][3 * i:3 * i + 3]
+
+            node = Node(vector("position"), int(arrays["pair"][i]), round(arrays["status"][i]),
+                        arrays["gap"][i], arrays["pressure"][i], vector("normal"),
+                        vector("traction"), vector("slip"), vector("displacement"))
+            nodes.setdefault((node.position, node.pair), node)
+    return list(nodes.values())
