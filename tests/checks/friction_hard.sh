@@ -1,0 +1,34 @@
+#!/bin/sh
+# friction_hard.sh PROGRAM PROJECT FOLDER: friction where slave nodes have less freedom than
+# others or slip reverses. Every exact enforcement and both pairings converge to one answer.
+set -eu
+. "$(dirname -- "$0")/common.sh"
+scenes=$source/tests/checks
+
+# Stick beside a plane of symmetry, on meshes that do not match.
+for pairing in averaged pointwise; do
+  set -- --set "Contact pair c/Pairing=$pairing"
+  run "washer_$pairing" 1 "$scenes/friction_beside_symmetry.prm" "$@"
+  run washer_multipliers 1 "$scenes/friction_beside_symmetry.prm" "$@" \
+    --set "Contact/Enforcement=lagrange multipliers"
+  same "washer_$pairing" washer_multipliers 1e-6
+  run washer_augmented 1 "$scenes/friction_beside_symmetry.prm" "$@" \
+    --set "Contact/Enforcement=augmented lagrange"
+  same "washer_$pairing" washer_augmented 1e-6
+done
+
+# Slave nodes with a prescribed displacement along the slip: F / G = mu. G = 6 * 4 * 4, mu = 0.1.
+for enforcement in elimination "lagrange multipliers" "augmented lagrange"; do
+  run driven 1 "$scenes/friction_driven_nodes.prm" --set "Contact/Enforcement=$enforcement"
+  force=$(value driven /results/contact/slope/force 1)
+  below "driven, $enforcement" "force $force differs from -9.6" \
+    "$(awk -v f="$force" 'BEGIN { d = f / -9.6 - 1; print d < 0 ? -d : d }')" 1e-8
+done
+
+# A belt on the cone from end to end, whose slip reverses: T2 / T1 = exp(mu pi / 2).
+run belt 1 "$scenes/friction_belt.prm"
+tension=$(value belt /results/reactions/belt/first_cut 2)
+below belt "T2 = $tension differs from exp(mu pi / 2)" \
+  "$(awk -v f="$tension" 'BEGIN { d = -f / exp(0.1 * 3.14159265358979) - 1; print d < 0 ? -d : d }')" \
+  2e-3
+finish
