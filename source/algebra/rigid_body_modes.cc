@@ -7,6 +7,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -201,32 +202,49 @@ namespace Touchstone
     Vector        shift(solid.owned, solid.communicator);
     const Matrix &stiffness = solid.stiffness();
 
+    // The six motions at an unknown; the columns turn about the centre of the first body, in
+    // its size.
+    const auto motions_at = [&](const unsigned int row) {
+      const unsigned int    b = rigid->body[row];
+      std::array<double, 6> result{};
+      Tensor<1, dim>        direction;
+      for (unsigned int d = 0; d < dim; ++d)
+        direction[d] = result[d] = rigid->columns[d][row];
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          Tensor<1, dim> e;
+          e[k]            = 1.;
+          result[dim + k] = (rigid->columns[dim + k][row] * sizes[0] +
+                             cross_product_3d(e, centres[0] - centres[b]) * direction) /
+                            sizes[b];
+        }
+      return result;
+    };
+
     // Work of the unbalanced forces on the modes of each body; sum of diagonals.
     const unsigned int  n = 6 * scene.bodies.size();
     std::vector<double> sums(n + scene.bodies.size(), 0.);
+    // Square of each unknown's displacement in the free motions, and the largest.
+    std::vector<double> share(rigid->body.size(), 0.);
+    double              largest = 0.;
     for (unsigned int row = 0; row < rigid->body.size(); ++row)
       {
-        const unsigned int b = rigid->body[row];
-        // The columns turn about the centre of the first body, in its size.
-        double translation[dim] = {};
-        for (unsigned int d = 0; d < dim; ++d)
-          translation[d] = rigid->columns[d][row];
-        const double force = unbalanced.begin()[row];
-        for (unsigned int k = 0; k < dim; ++k)
-          {
-            Tensor<1, dim> e;
-            e[k] = 1.;
-            Tensor<1, dim> direction;
-            for (unsigned int d = 0; d < dim; ++d)
-              direction[d] = translation[d];
-            const double about_first = rigid->columns[dim + k][row] * sizes[0];
-            const double offset      = cross_product_3d(e, centres[0] - centres[b]) * direction;
-            sums[6 * b + k] += force * translation[k];
-            sums[6 * b + dim + k] += force * (about_first + offset) / sizes[b];
-          }
+        const unsigned int          b     = rigid->body[row];
+        const std::array<double, 6> modes = motions_at(row);
+        for (unsigned int k = 0; k < 6; ++k)
+          sums[6 * b + k] += unbalanced.begin()[row] * modes[k];
         sums[n + b] += stiffness.diagonal(row) / dim;
+        for (unsigned int v = 0; v < motion.n_modes; ++v)
+          {
+            double displacement = 0.;
+            for (unsigned int k = 0; k < 6; ++k)
+              displacement += motion.basis(6 * b + k, v) * modes[k];
+            share[row] += displacement * displacement;
+          }
+        largest = std::max(largest, share[row]);
       }
     Utilities::MPI::sum(sums, solid.communicator, sums);
+    largest = Utilities::MPI::max(largest, solid.communicator);
 
     double fraction = smallest;
     for (unsigned int v = 0; v < motion.n_modes; ++v)
@@ -239,9 +257,11 @@ namespace Touchstone
           }
         fraction = std::max(fraction, std::abs(work) / (resistance * distance));
       }
+    // Only what takes part in the motion is held back: a body that can turn may still follow
+    // what presses it.
     for (unsigned int row = 0; row < rigid->body.size(); ++row)
       if (motion.bodies.count(rigid->body[row]) > 0)
-        shift.begin()[row] = fraction * stiffness.diagonal(row);
+        shift.begin()[row] = fraction * stiffness.diagonal(row) * share[row] / largest;
     return shift;
   }
 } // namespace Touchstone

@@ -54,7 +54,7 @@ namespace Touchstone
 
     /**
      * @brief Diagonal terms that keep free motions finite: a fraction of the
-     * diagonal of the stiffness on the bodies that take part.
+     * diagonal of the stiffness, on the unknowns that take part, as the square of their part.
      *
      * Added to the tangent but not to the residual, they slow the way to
      * equilibrium and do not change it (a proximal point step). The fraction is
