@@ -236,6 +236,8 @@ namespace Touchstone
     double linear_tolerance = 1e-3;
     /** The one before this increment, if nothing but the residual was left to be met. */
     double last_residual = 0.;
+    /** In this step an increment with an unchanged active set has gained little. */
+    bool slow = false;
 
     /** Length against which a missed prescribed displacement is measured. */
     double length = 1.;
