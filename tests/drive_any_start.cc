@@ -51,11 +51,11 @@ main(int argc, char **argv)
     for (const std::string enforcement :
          {"elimination", "lagrange multipliers", "augmented lagrange"})
       {
-        const std::vector<std::string> overrides = {"Contact/Enforcement=" + enforcement,
-                                                    "Contact pair contact/Pairing=" + pairing,
-                                                    "Newton/Residual tolerance=1e-12",
-                                                    "Newton/Gap tolerance=1e-10"};
-        const std::vector<double>      plain     = final_state(overrides, 0.);
+        const std::vector<std::string> overrides  = {"Contact/Enforcement=" + enforcement,
+                                                     "Contact pair contact/Pairing=" + pairing,
+                                                     "Newton/Residual tolerance=1e-12",
+                                                     "Newton/Gap tolerance=1e-10"};
+        const std::vector<double>      plain      = final_state(overrides, 0.);
         double                         difference = 0.;
         for (const double detour : {-0.4, 0.3, 0.8})
           {

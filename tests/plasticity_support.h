@@ -44,11 +44,11 @@ namespace Touchstone
                    const double                    young_modulus = 1000.,
                    const double                    poisson_ratio = 0.3)
   {
-    std::string text = "set Bodies = block\nsubsection Body block\nsubsection Material\n"
-                       "set Law = " +
-                       law + "\nset Young modulus = " + std::to_string(young_modulus) +
-                       "\nset Poisson ratio = " + std::to_string(poisson_ratio) +
-                       "\nsubsection Plasticity\n";
+    std::string text =
+      "set Bodies = block\nsubsection Body block\nsubsection Geometry\nset Type = box\nend\nsubsection Material\n"
+      "set Law = " +
+      law + "\nset Young modulus = " + std::to_string(young_modulus) +
+      "\nset Poisson ratio = " + std::to_string(poisson_ratio) + "\nsubsection Plasticity\n";
     for (const std::string &entry : entries)
       text += "set " + entry + "\n";
     return Scene(text + "end\nend\nend\n", "scene.prm", {}).bodies.front().material;

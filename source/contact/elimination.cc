@@ -65,11 +65,13 @@ namespace Touchstone
       multipliers(const std::vector<Accepted> &accepted,
                   const LinearSolution        &solution) const override
       {
-        // Contact comes last in the graph, in the order in which it was accepted.
         const std::vector<double> all =
           solution.graph.forces(solution.system.residual(solution.increment, solution.extra),
                                 solution.condense);
-        return {all.end() - accepted.size(), all.end()};
+        std::vector<double> result;
+        for (const Accepted &entry : accepted)
+          result.push_back(all[entry.number]);
+        return result;
       }
 
     private:

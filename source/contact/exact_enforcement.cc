@@ -34,7 +34,7 @@ namespace Touchstone
           {
             adjust(row, condition);
             if (row.take(condition, graph.accept(condition, treatment())))
-              accepted.push_back({&row, condition});
+              accepted.push_back({&row, condition, graph.accepted().size() - 1});
           }
     add_to_system(accepted, system);
   }

@@ -31,8 +31,7 @@ namespace Touchstone
             make_cone(Point<dim>(o.point), o.direction / o.direction.norm(), o.radius, 0., outside);
         const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
         for (unsigned int d = 0; d < dim; ++d)
-          motion[d] =
-            formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
+          motion[d] = formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
       }
 
       void

@@ -44,8 +44,8 @@ namespace Touchstone
                     if (solid.fe.system_to_component_index(i).first == d &&
                         solid.owned.is_element(dofs[i]))
                       result(dofs[i]) =
-                        function->value(
-                          solid.mapping.transform_unit_to_real_cell(cell, unit[i]), 0.);
+                        function->value(solid.mapping.transform_unit_to_real_cell(cell, unit[i]),
+                                        0.);
                 }
           }
       all.check(solid.communicator);
@@ -98,7 +98,10 @@ namespace Touchstone
   Vector
   Dynamics::initial_displacement() const
   {
-    return interpolate(scene, solid, "Initial displacement ", &BodyParameters::initial_displacement);
+    return interpolate(scene,
+                       solid,
+                       "Initial displacement ",
+                       &BodyParameters::initial_displacement);
   }
 
 

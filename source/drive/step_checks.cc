@@ -35,8 +35,8 @@ namespace Touchstone
   void
   StepProblem::check_increment() const
   {
-    // Beyond ten times the size of everything no solution is near.
-    constexpr double far     = 10.;
+    // Positions so far out have lost six of their digits: no solution is near.
+    constexpr double far     = 1e6;
     const double     largest = solved_increment.linfty_norm();
     if (largest <= far * (diameter + missed))
       return;

@@ -41,11 +41,12 @@ namespace Touchstone
     update(Contact &contact) override;
 
   protected:
-    /** A condition of a row that the graph has accepted. */
+    /** A condition of a row that the graph has accepted, and its number there. */
     struct Accepted
     {
       ContactRow *row;
       Condition   condition;
+      std::size_t number;
     };
 
     /** @brief How the conditions are met. */

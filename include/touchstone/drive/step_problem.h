@@ -197,7 +197,7 @@ namespace Touchstone
      * the time integration weighs them. */
     Vector u, committed_u, external, internal, applied, unbalanced;
     /** Of the last linear solve: what was taken of it, and all. */
-    Vector increment, solved_increment;
+    Vector                           increment, solved_increment;
     std::unique_ptr<TimeIntegration> integration;
     /** Part of the step after which the first guess of its end has bodies meet. */
     double touch         = 1.;

@@ -116,7 +116,7 @@ namespace Touchstone
     std::vector<Prescribed> prescribed;
     /** Of owned nodes. */
     std::map<Index, std::vector<dealii::Tensor<1, dim>>> mirror_normals;
-    std::vector<Load>       loads;
+    std::vector<Load>                                    loads;
     /** Force per reference volume, by body; empty if there is none at all. */
     std::vector<std::array<Function, dim>> body_forces;
     FollowerPressure                       following;
