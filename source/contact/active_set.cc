@@ -44,16 +44,18 @@ namespace Touchstone
 
 
     /** Slip that friction should not have let happen: all of it while sticking, else what is
-     * across the force. */
+     * across the force, or what the error of the force would move an elastic body by. */
     double
     slip_off_direction(const ContactRow &row)
     {
       const FrictionState &f = *row.friction;
       if (row.status == ContactStatus::stick)
         return f.slip.norm();
-      if (row.status == ContactStatus::slip)
-        return (f.slip - (f.slip * f.direction) * f.direction).norm();
-      return 0.;
+      const double slip = f.slip.norm();
+      if (row.status != ContactStatus::slip || slip == 0.)
+        return 0.;
+      const double across = (f.slip - (f.slip * f.direction) * f.direction).norm();
+      return across * std::min(1., f.limit / (row.stiffness * slip));
     }
 
 

@@ -32,11 +32,15 @@ namespace Touchstone
                        const std::string    &place)
   {
     const Attempt now{typeid(failure), place, last};
-    const bool    same_state = before &&
-                            (unchanged(before->last.residual, last.residual) ||
-                             (balanced(before->last, parameters) && balanced(last, parameters))) &&
-                            before->last.changes == last.changes &&
-                            before->last.active == last.active;
+    const auto    closed = [this](const NewtonState &state) {
+      return state.gap <= parameters.gap_tolerance;
+    };
+    const bool same_state =
+      before &&
+      (unchanged(before->last.residual, last.residual) ||
+       (balanced(before->last, parameters) && balanced(last, parameters))) &&
+      (unchanged(before->last.gap, last.gap) || (closed(before->last) && closed(last))) &&
+      before->last.changes == last.changes && before->last.active == last.active;
     const bool same = same_state && before->type == now.type && before->place == now.place;
     before.emplace(now);
     return same;
