@@ -71,5 +71,10 @@ rates "curved, 3 : 2, degree 2" curved 2 2.4 1.5 '3*k, 6*k, 1' '2*k, 4*k, 1' "1 
 # The pressure has a slope at the edges of the slave surface, where nodal pressures are of the
 # first order in the cell size: the exponent tends to 1.5 from below.
 rates "in space, 3 : 2, with edges" space 1 1.9 1.4 '3*k, 3*k, 3*k' '2*k, 2*k, 2*k' "1 2 3 4"
+
+# Integrals are the same on any number of ranks.
+run one 1 "$scenes/rates_friction.prm"
+run two 2 "$scenes/rates_friction.prm"
+same one two 1e-8
 cat "$table"
 finish
