@@ -273,22 +273,24 @@ end
       terms.finish();
     }
 
-    /** Conditions of the active rows of this rank in their order, as the rows make
-     * them. */
+    /** Conditions of the active rows of this rank as the rows make them, in the order in which
+     * they are offered: those along normals first. */
     template <class Visit>
     void
     for_each_condition(const Visit &visit)
     {
       unsigned int k = 0;
-      for (ContactRow &row : rows())
-        {
-          const unsigned int accepted = row.accepted, refused = row.refused;
-          const auto         conditions = start_row(row, false);
-          row.accepted                  = accepted;
-          row.refused                   = refused;
-          for (unsigned int i = 0; i < conditions.size(); ++i)
-            visit(k++, row, i, conditions[i]);
-        }
+      for (const bool stick : {false, true})
+        for (ContactRow &row : rows())
+          {
+            const unsigned int accepted = row.accepted, refused = row.refused;
+            const auto         conditions = start_row(row, false);
+            row.accepted                  = accepted;
+            row.refused                   = refused;
+            for (unsigned int i = 0; i < conditions.size(); ++i)
+              if ((i > 0) == stick)
+                visit(k++, row, i, conditions[i]);
+          }
     }
 
     /** A displacement at all nodes that the system refers to. */

@@ -75,7 +75,7 @@ namespace Touchstone
   choose_friction(ContactRow &row)
   {
     FrictionState &f = *row.friction;
-    if (!f.exact)
+    if (!f.exact || f.shared)
       {
         f.regularise();
         return;

@@ -101,6 +101,8 @@ namespace Touchstone
     Vec              base;
     /** The base is the force that is carried along with the slave surface. */
     bool carried = false;
+    /** The force of stick is not unique: see Contact::find_shared_nodes(). */
+    bool shared = false;
     /** @} */
 
     /** @name Response, see respond() */
