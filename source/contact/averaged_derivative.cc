@@ -406,11 +406,8 @@ namespace Touchstone
     std::array<double, Face::max_nodes> areas{};
     for (unsigned int i = 0; i < n; ++i)
       areas[i] = q(i, 0);
-    const CoverShares        shares(n,
-                             areas,
-                             whole_areas(slave, basis, /*reference=*/true),
-                             gradual,
-                             /*with_derivative=*/true);
+    const auto               whole = whole_areas(slave, basis, /*reference=*/true);
+    const CoverShares        shares(n, areas, whole, gradual, /*with_derivative=*/true);
     const FullMatrix<double> weights = shares.weights(mass);
     FullMatrix<double>       solution(n, n_columns); // M^-1 Q
     mass.mmult(solution, q);
@@ -420,6 +417,15 @@ namespace Touchstone
       return k >= n  ? Stencil{{nodes[k - n], 1.}}
              : basis ? basis->stencil(k)
                      : Stencil{{slave.nodes[k], 1.}};
+    };
+
+    // The area of a row is that part of the reference area which is covered now; where all of it
+    // is, it stays so.
+    const auto present      = whole_areas(slave, basis, /*reference=*/false);
+    const auto d_present    = whole_area_derivatives(slave, basis);
+    const auto area_changes = [&](const unsigned int k) {
+      return rows.at(own[k]).row->friction &&
+             std::abs(shares.share[k][k] - present[k]) > 1e-10 * present[k];
     };
 
     std::vector<double> d(n_columns);
@@ -438,6 +444,7 @@ namespace Touchstone
               stencil.push_back(entry == row.stencil.end() ? numbers::invalid_unsigned_int
                                                            : entry->second);
             }
+        const bool covered_in_part = area_changes(k);
         // The weight function in the shape functions, psi'_k = sum_j dual_j N_j.
         double dual[n];
         for (unsigned int j = 0; j < n; ++j)
@@ -464,6 +471,12 @@ namespace Touchstone
                   d[c] += dual[j] * dq[c] - taken * solution(j, c);
               }
             const double d_given = d_q[(v * n + k) * n_columns] - d_share[k];
+            double       d_reference = 0.;
+            if (covered_in_part)
+              d_reference = whole[k] / present[k] *
+                            (d_share[k] - (v / dim < n ? shares.share[k][k] / present[k] *
+                                                           d_present[v / dim][v % dim][k] :
+                                                         0.));
             for (const auto &[node, weight] : moved(v / dim))
               {
                 const unsigned int e  = v % dim;
@@ -473,6 +486,11 @@ namespace Touchstone
                 row.d_area[to][e] += weight * d[0];
                 row.d_kept[to][e] += weight * d_share[k];
                 row.d_given[to][e] += weight * d_given;
+                if (covered_in_part)
+                  {
+                    result.area.resize(result.nodes.size());
+                    result.area[to][e] += weight * d_reference;
+                  }
                 for (unsigned int c = 0; c < dim; ++c)
                   {
                     result.gap_vector[to][c][e] += weight * d[1 + c];
@@ -613,6 +631,8 @@ namespace Touchstone
     const GapCorrection &correction = row.correction;
     for (auto *list : {&row.d_area, &row.d_kept, &row.d_given, &row.d_least, &row.d_own})
       list->resize(result.nodes.size());
+    if (!result.area.empty())
+      result.area.resize(result.nodes.size());
     for (std::size_t a = 0; a < result.nodes.size(); ++a)
       {
         result.normal[a] = direction * result.normal[a];

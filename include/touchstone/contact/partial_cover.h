@@ -16,6 +16,11 @@ namespace Touchstone
   std::array<double, Face::max_nodes>
   whole_areas(const Face &face, const TraceBasis *basis, bool reference);
 
+  /** @brief The derivatives of whole_areas() in the present position: [m][e][k] is that of the
+   * integral of shape function k with respect to component e of the position of node m, length. */
+  std::array<std::array<std::array<double, Face::max_nodes>, dim>, Face::max_nodes>
+  whole_area_derivatives(const Face &face, const TraceBasis *basis);
+
   /**
    * @brief How the rows of averaged pairing share a slave face that is covered in part.
    *
