@@ -8,4 +8,4 @@ python=$(python3 -c 'import sys; assert sys.version_info >= (3, 9); print(sys.ex
 }
 unset TOUCHSTONE_OPTIONS
 export OPENBLAS_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE=1
-"$python" "$2/contrib/fuzz_inputs" --program "$1" --output "$3" --time-limit 2 40 7
+"$python" "$2/contrib/fuzz_inputs" --program "$1" --output "$3" --time-limit 2 30 7
