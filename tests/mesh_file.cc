@@ -2,6 +2,8 @@
 // wrong with a file is said.
 
 #include "mesh_common.h"
+#include <fstream>
+#include <functional>
 
 using namespace Touchstone;
 using namespace dealii;
@@ -41,11 +43,11 @@ namespace
 
   /** The message without the folder, which differs between machines. */
   void
-  print_message(const std::string &text, const double factor = 1.)
+  print_message(const std::string &text, const double factor = 1., const std::string &in = folder)
   {
     try
       {
-        read(text, factor);
+        make_geometry("file", text)->create(factor, "Body x/Geometry", in);
         std::cout << "no error FAILED\n";
       }
     catch (const InputError &error)
@@ -56,6 +58,114 @@ namespace
           message.replace(at, folder.size(), "FOLDER");
         std::cout << message << '\n';
       }
+  }
+
+  using Lines = std::vector<std::string>;
+
+  /** The first line that is @p front, or else that begins with it. */
+  Lines::iterator
+  find(Lines &lines, const std::string &front)
+  {
+    const auto same = std::find(lines.begin(), lines.end(), front);
+    if (same != lines.end())
+      return same;
+    for (auto line = lines.begin(); line != lines.end(); ++line)
+      if (line->compare(0, front.size(), front) == 0)
+        return line;
+    throw std::runtime_error("There is no line '" + front + "'. FAILED");
+  }
+
+  /** A copy of the file @p name with a fault. */
+  void
+  damage(const std::string &name, const std::function<void(Lines &)> &fault)
+  {
+    Lines         lines;
+    std::ifstream in(folder + "/" + name);
+    for (std::string line; std::getline(in, line);)
+      lines.push_back(line);
+    fault(lines);
+    std::ofstream out("damaged_" + name);
+    for (const std::string &line : lines)
+      out << line << '\n';
+  }
+
+  void
+  print_damaged(const std::string &name, const std::function<void(Lines &)> &fault)
+  {
+    damage(name, fault);
+    print_message("set File = damaged_" + name, 1., ".");
+  }
+
+  /** A line more or a line less, with all counts as they were. */
+  void
+  print_doubled_and_missing(const std::string &name, const std::string &line)
+  {
+    print_damaged(name, [&](Lines &lines) {
+      const auto at = find(lines, line);
+      lines.insert(at, std::string(*at));
+    });
+    print_damaged(name, [&](Lines &lines) { lines.erase(find(lines, line)); });
+  }
+
+  /** A second line for the cell in the line @p from, which becomes @p to, and another line
+   * changed alike. */
+  void
+  print_copied(const std::string                                      &name,
+               const std::string                                      &from,
+               const std::string                                      &to,
+               const std::vector<std::pair<std::string, std::string>> &counts)
+  {
+    print_damaged(name, [&](Lines &lines) {
+      const auto  at   = find(lines, from);
+      std::string line = *at;
+      lines.insert(at + 1, line.replace(0, from.size(), to));
+      for (const auto &[old, corrected] : counts)
+        *find(lines, old) = corrected;
+    });
+  }
+
+  void
+  print_damaged_files()
+  {
+    for (const char *line : {"5 0.5", "20 5", "2 1 \"base"})
+      print_doubled_and_missing("two_blocks_v2.msh", line);
+    for (const char *line : {"28", "0.5 0.5 0", "18 11", "21 0 0 0", "3 22 5 4"})
+      print_doubled_and_missing("two_blocks_v4.msh", line);
+    for (const char *line : {"0.5 0.5 0", "8 9 10", "4 0 1", "12", "9", "2"})
+      print_doubled_and_missing("two_blocks.vtk", line);
+    for (const char *line : {"5, 0.5", "2, 2, 3"})
+      print_doubled_and_missing("two_blocks.inp", line);
+
+    // The same cell twice, with counts and numbers that are right.
+    print_copied("two_blocks_v2.msh", "20 5", "22 5", {{"21", "22"}});
+    print_copied("two_blocks_v4.msh",
+                 "18 11",
+                 "21 11",
+                 {{"5 20 1 20", "5 21 1 21"}, {"3 22 5 4", "3 22 5 5"}});
+    print_copied("two_blocks.vtk",
+                 "8 9 10",
+                 "8 9 10",
+                 {{"CELLS", "CELLS 21 141"},
+                  {"CELL_TYPES", "CELL_TYPES 21"},
+                  {"12", "12\n12"},
+                  {"CELL_DATA", "CELL_DATA 21"},
+                  {"1", "1\n1"}});
+    print_damaged("two_blocks.inp", [](Lines &lines) {
+      lines.insert(find(lines, "*ELSET"), "9, 10, 11, 14, 13, 19, 20, 23, 22");
+    });
+    // One number for two cells, a set that is not there, a face of two boundaries.
+    print_damaged("two_blocks.inp", [](Lines &lines) {
+      lines.insert(find(lines, "*ELSET"), "5, 14, 15, 18, 17, 23, 24, 27, 26");
+    });
+    print_damaged("two_blocks.inp",
+                  [](Lines &lines) { *find(lines, "TOPCELLS, S2") = "TOPCELS, S2"; });
+    print_damaged("two_blocks_v2.msh", [](Lines &lines) {
+      *find(lines, "21") = "22";
+      lines.insert(find(lines, "14 5"), "22 3 2 2 1 1 2 5 4");
+    });
+    // Numbers that are none, or only at their beginning.
+    for (const char *node : {"5 nan 0.5 0", "5 0.5 1e400 0", "5 0.5 0.5x 0", "-5 0.5 0.5 0"})
+      print_damaged("two_blocks_v2.msh", [&](Lines &lines) { *find(lines, "5 0.5") = node; });
   }
 } // namespace
 
@@ -96,4 +206,17 @@ main()
   print_message("set File = tetrahedra.msh");
   print_message("set File = empty.msh");
   print_message("set File = no_cells.msh");
+  print_damaged_files();
+
+  // A cell of two physical volumes stands twice in Gmsh's version 2, but is one cell.
+  damage("two_blocks_v2.msh", [](Lines &lines) {
+    *find(lines, "21")   = "22";
+    *find(lines, "20 5") = *find(lines, "20 5") + "\n22 5 2 7 2 13 14 17 16 22 23 26 25";
+  });
+  for (const char *volume : {"", "\nset Volume = 7"})
+    std::cout << "cells in two volumes: "
+              << make_geometry("file", std::string("set File = damaged_two_blocks_v2.msh") + volume)
+                   ->create(1., "", ".")
+                   .cells.size()
+              << '\n';
 }

@@ -128,6 +128,13 @@ OF_SCENES = (delete_key, misspell_key, misspell_value, change_number, change_num
 def mesh(rng, scene, data):
     """A fault in the mesh file of a scene."""
     lines = data.split(b"\n")
+    # Of these formats each line of numbers counts.
+    counted = data.startswith((b"$MeshFormat", b"# vtk"))
+    wrong = False
+
+    def of_numbers(line):
+        return counted and re.fullmatch(rb"[-+.,\deE\s]*\d[-+.,\deE\s]*", line) is not None
+
     kind = rng.choice(("cut", "byte", "number", "line", "swap", "double"))
     i = rng.randrange(len(lines))
     if kind == "cut":
@@ -142,16 +149,19 @@ def mesh(rng, scene, data):
         match = rng.choice(list(re.finditer(rb"[-+.\deE]*\d[.\deE]*", lines[i])))
         new = rng.choice((b"nan", b"inf", b"-1", b"0", b"999999999", b"99999999999999999999",
                           b"1e300", b"x", b""))
+        wrong = of_numbers(lines[i]) and new in (b"nan", b"inf", b"x")
         lines[i] = lines[i][:match.start()] + new + lines[i][match.end():]
         what = f"{new!r} for {match[0]!r} in line {i + 1}"
     elif kind == "line":
         what = f"without line {i + 1}"
+        wrong = of_numbers(lines[i])
         del lines[i]
     elif kind == "double":
         what = f"line {i + 1} twice"
+        wrong = of_numbers(lines[i])
         lines.insert(i, lines[i])
     else:
         j = rng.randrange(len(lines))
         lines[i], lines[j] = lines[j], lines[i]
         what = f"lines {i + 1} and {j + 1} exchanged"
-    return Mutation("mesh, " + what, scene, b"\n".join(lines))
+    return Mutation("mesh, " + what, scene, b"\n".join(lines), wrong)

@@ -1,6 +1,7 @@
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/exact_surface.h>
 #include <touchstone/mesh/mesh_file.h>
+#include <touchstone/mesh/mesh_text.h>
 #include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/exceptions.h>
@@ -188,10 +189,7 @@ namespace Touchstone
                                         : extension == ".inp" ? read_abaqus(in)
                                                               : read_vtk(in);
           if (mesh.cells.empty())
-            throw std::runtime_error("The file has no hexahedra.");
-          for (const Point<3> &x : mesh.vertices)
-            if (!std::isfinite(x.norm()))
-              throw std::runtime_error("A node has a coordinate that is not a finite number.");
+            throw MeshFileError("The file has no hexahedra.");
           return mesh;
         }
       catch (const std::bad_alloc &)
@@ -202,13 +200,13 @@ namespace Touchstone
                            "the mesh file announces more nodes or cells than memory can hold",
                            "save the mesh again; the file may be damaged");
         }
-      catch (const std::exception &error)
+      catch (const MeshFileError &error)
         {
           throw InputError(section,
                            "File",
                            file,
                            std::string("the mesh file cannot be used. ") + error.what(),
-                           "save the mesh again, with hexahedra of order one, in ASCII.");
+                           error.remedy);
         }
     }
 
@@ -305,8 +303,19 @@ namespace Touchstone
                   face[v] = found->second;
               }
             std::sort(face.begin(), face.end());
-            if (belongs)
-              marks[face] = group.number;
+            if (!belongs)
+              continue;
+            const auto [known, is_new] = marks.insert({face, group.number});
+            if (!is_new && known->second != group.number)
+              throw InputError(section,
+                               "File",
+                               file,
+                               "a face of the body is marked as boundary " +
+                                 std::to_string(known->second) + " and as boundary " +
+                                 std::to_string(group.number) +
+                                 (group.name.empty() ? "" : ", '" + group.name + "'"),
+                               "mark each face once, and name both boundaries in the scene where "
+                               "both are meant");
           }
 
       std::set<types::boundary_id> used;

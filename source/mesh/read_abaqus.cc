@@ -1,10 +1,11 @@
 #include <touchstone/mesh/mesh_file.h>
+#include <touchstone/mesh/mesh_text.h>
 
 #include <algorithm>
 #include <istream>
 #include <map>
+#include <set>
 #include <sstream>
-#include <stdexcept>
 
 namespace Touchstone
 {
@@ -35,42 +36,6 @@ namespace Touchstone
       return words;
     }
 
-    unsigned long
-    number(const std::string &word)
-    {
-      std::size_t   end   = 0;
-      unsigned long value = 0;
-      try
-        {
-          value = std::stoul(word, &end);
-        }
-      catch (const std::exception &)
-        {
-        }
-      if (word.empty() || end != word.size())
-        throw std::runtime_error("'" + word + "' stands where a whole number should.");
-      return value;
-    }
-
-    double
-    coordinate(const std::string &word)
-    {
-      std::size_t end   = 0;
-      double      value = 0.;
-      try
-        {
-          value = std::stod(word, &end);
-        }
-      catch (const std::exception &)
-        {
-        }
-      if (word.empty() || end != word.size())
-        throw std::runtime_error("'" + word + "' stands where a coordinate should.");
-      return value;
-    }
-
-
-
     /** Reads line by line and remembers the keyword line that rules. */
     class AbaqusReader
     {
@@ -79,27 +44,37 @@ namespace Touchstone
       read(std::istream &in);
 
     private:
-      MeshFile mesh;
+      MeshFile     mesh;
+      unsigned int line_number = 0;
       /** The keyword and its parameters, in capitals; values as written. */
       std::string                        keyword;
       std::map<std::string, std::string> parameters;
       /** Numbers of an element whose line goes on. */
       std::vector<unsigned long> pending;
+      unsigned int               line_of_pending = 0;
 
       std::map<unsigned long, unsigned int> node;
       /** Cells and faces by the number of the element. */
       std::map<unsigned long, unsigned int> cell, face;
+      /** Line of an element's number. */
+      std::map<unsigned long, unsigned int> element_line;
       /** Numbers of the elements of each ELSET. */
       std::map<std::string, std::vector<unsigned long>> sets;
       /** In the order of the file, for the sets' numbers. */
       std::vector<std::string> set_names;
 
       void
+      read_line(const std::string &line);
+      void
       read_keyword(const std::string &line);
+      void
+      read_node(const std::vector<std::string> &words);
       void
       read_element(const std::vector<std::string> &words);
       void
       add_to_set(const std::string &name, unsigned long element);
+      const std::vector<unsigned long> &
+      known_set(const std::string &name) const;
       void
       read_set(const std::vector<std::string> &words);
       void
@@ -113,45 +88,71 @@ namespace Touchstone
     {
       for (std::string line; std::getline(in, line);)
         {
-          const std::vector<std::string> words = split(line);
-          if (words.empty() || line.compare(0, 2, "**") == 0)
-            continue;
-          if (line[0] == '*')
-            read_keyword(line);
-          else if (keyword == "*NODE")
+          ++line_number;
+          try
             {
-              if (words.size() < 4)
-                throw std::runtime_error("The file ends, or is damaged, in *NODE.");
-              if (!node.insert({number(words[0]), mesh.vertices.size()}).second)
-                throw std::runtime_error("Node " + words[0] +
-                                         " appears twice; save the model as one flat input "
-                                         "without parts and instances.");
-              mesh.vertices.emplace_back(coordinate(words[1]),
-                                         coordinate(words[2]),
-                                         coordinate(words[3]));
+              read_line(line);
             }
-          else if (keyword == "*ELEMENT")
-            read_element(words);
-          else if (keyword == "*ELSET")
-            read_set(words);
-          else if (keyword == "*SURFACE")
-            read_surface(words);
+          catch (const MeshFileError &error)
+            {
+              throw MeshFileError(line_number, error.what(), error.remedy);
+            }
         }
       if (!pending.empty())
-        throw std::runtime_error("The file ends, or is damaged, in *ELEMENT.");
+        throw MeshFileError(line_of_pending, "The file ends, or is damaged, in *ELEMENT.");
 
       for (const std::string &name : set_names)
         for (const auto &[groups, elements] :
              {std::make_pair(&mesh.volumes, &cell), std::make_pair(&mesh.surfaces, &face)})
           {
             MeshFile::Group group{static_cast<unsigned int>(groups->size() + 1), name, {}};
-            for (const unsigned long element : sets[name])
+            // A set may name an element more than once.
+            for (const unsigned long element :
+                 std::set<unsigned long>(sets[name].begin(), sets[name].end()))
               if (const auto found = elements->find(element); found != elements->end())
                 group.members.push_back(found->second);
             if (!group.members.empty())
               groups->push_back(group);
           }
+      mesh.join_copies(false);
       return std::move(mesh);
+    }
+
+
+
+    void
+    AbaqusReader::read_line(const std::string &line)
+    {
+      const std::vector<std::string> words = split(line);
+      if (words.empty() || line.compare(0, 2, "**") == 0)
+        return;
+      if (line[0] == '*')
+        read_keyword(line);
+      else if (keyword == "*NODE")
+        read_node(words);
+      else if (keyword == "*ELEMENT")
+        read_element(words);
+      else if (keyword == "*ELSET")
+        read_set(words);
+      else if (keyword == "*SURFACE")
+        read_surface(words);
+    }
+
+
+
+    void
+    AbaqusReader::read_node(const std::vector<std::string> &words)
+    {
+      if (words.size() < 4)
+        throw MeshFileError("The file ends, or is damaged, in *NODE.");
+      if (!node.insert({whole_number(words[0]), mesh.vertices.size()}).second)
+        throw MeshFileError("Node " + words[0] + " appears twice.",
+                            "remove one of the two, or, if the parts of an assembly number "
+                            "their nodes alike, save the model as one flat input without parts "
+                            "and instances");
+      mesh.vertices.emplace_back(finite_number(words[1]),
+                                 finite_number(words[2]),
+                                 finite_number(words[3]));
     }
 
 
@@ -160,7 +161,7 @@ namespace Touchstone
     AbaqusReader::read_keyword(const std::string &line)
     {
       if (!pending.empty())
-        throw std::runtime_error("The file is damaged in *ELEMENT.");
+        throw MeshFileError("The file is damaged in *ELEMENT.");
       const std::vector<std::string> words = split(line);
       keyword                              = upper(words[0]);
       parameters.clear();
@@ -200,35 +201,43 @@ namespace Touchstone
                                     "SC8",
                                     "CSS8"})
             if (type.compare(0, std::string(solid).size(), solid) == 0)
-              throw std::runtime_error("It has elements of type " + type + ".");
+              throw MeshFileError("It has elements of type " + type + ".");
           if (type.empty())
-            throw std::runtime_error("It has elements without a TYPE.");
+            throw MeshFileError("It has elements without a TYPE.");
+          if (parameters.count("ELSET") > 0)
+            sets.insert({parameters["ELSET"], {}});
           return; // beams, springs and the like
         }
 
+      if (pending.empty())
+        line_of_pending = line_number;
       for (const std::string &word : words)
-        pending.push_back(number(word));
+        pending.push_back(whole_number(word));
       const unsigned int n = is_cell ? 8 : 4;
       if (pending.size() < n + 1)
         return;
       if (pending.size() > n + 1)
-        throw std::runtime_error("Element " + std::to_string(pending[0]) + " of type " + type +
-                                 " has too many nodes.");
+        throw MeshFileError("Element " + std::to_string(pending[0]) + " of type " + type +
+                            " has too many nodes.");
 
+      const auto [known, is_new] = element_line.insert({pending[0], line_of_pending});
+      if (!is_new)
+        throw MeshFileError("Element " + std::to_string(pending[0]) + " stands in line " +
+                              std::to_string(known->second) + " already.",
+                            "remove one of the two from the file, or give it a number of its own");
       std::vector<unsigned int> v;
       for (unsigned int i = 1; i <= n; ++i)
         {
           const auto found = node.find(pending[i]);
           if (found == node.end())
-            throw std::runtime_error("Element " + std::to_string(pending[0]) + " uses node " +
-                                     std::to_string(pending[i]) +
-                                     ", which the file does not have.");
+            throw MeshFileError("Element " + std::to_string(pending[0]) + " uses node " +
+                                std::to_string(pending[i]) + ", which the file does not have.");
           v.push_back(found->second);
         }
       if (is_cell)
         {
           cell[pending[0]] = mesh.cells.size();
-          mesh.add_cell(v);
+          mesh.add_cell(v, line_of_pending);
         }
       else
         {
@@ -245,9 +254,21 @@ namespace Touchstone
     void
     AbaqusReader::add_to_set(const std::string &name, const unsigned long element)
     {
-      if (sets.count(name) == 0)
+      if (std::find(set_names.begin(), set_names.end(), name) == set_names.end())
         set_names.push_back(name);
       sets[name].push_back(element);
+    }
+
+
+
+    const std::vector<unsigned long> &
+    AbaqusReader::known_set(const std::string &name) const
+    {
+      const auto found = sets.find(name);
+      if (found == sets.end())
+        throw MeshFileError("There is no set '" + name + "' before this line.",
+                            "define the set of elements, or correct its name; capitals count");
+      return found->second;
     }
 
 
@@ -259,20 +280,20 @@ namespace Touchstone
       if (parameters.count("GENERATE") > 0)
         {
           if (words.size() < 2)
-            throw std::runtime_error("The file ends, or is damaged, in *ELSET.");
-          const unsigned long step  = words.size() > 2 ? number(words[2]) : 1;
-          const unsigned long first = number(words[0]), last = number(words[1]);
+            throw MeshFileError("The file ends, or is damaged, in *ELSET.");
+          const unsigned long step  = words.size() > 2 ? whole_number(words[2]) : 1;
+          const unsigned long first = whole_number(words[0]), last = whole_number(words[1]);
           if (step == 0 || last < first || (last - first) / step > 100000000ul)
-            throw std::runtime_error("The file is damaged in *ELSET, GENERATE.");
+            throw MeshFileError("The file is damaged in *ELSET, GENERATE.");
           for (unsigned long e = first; e <= last; e += step)
             add_to_set(name, e);
           return;
         }
       for (const std::string &word : words)
         if (std::isdigit(word[0]))
-          add_to_set(name, number(word));
+          add_to_set(name, whole_number(word));
         else
-          for (const unsigned long e : std::vector<unsigned long>(sets[word]))
+          for (const unsigned long e : std::vector<unsigned long>(known_set(word)))
             add_to_set(name, e);
     }
 
@@ -290,9 +311,9 @@ namespace Touchstone
 
       std::vector<unsigned long> elements;
       if (std::isdigit(words[0][0]))
-        elements.push_back(number(words[0]));
+        elements.push_back(whole_number(words[0]));
       else
-        elements = sets[words[0]];
+        elements = known_set(words[0]);
 
       const std::string name = parameters["NAME"];
       auto group = std::find_if(mesh.surfaces.begin(), mesh.surfaces.end(), [&](auto &g) {

@@ -1,9 +1,9 @@
 #include <touchstone/mesh/mesh_file.h>
+#include <touchstone/mesh/mesh_text.h>
 
+#include <cstdlib>
 #include <map>
 #include <set>
-#include <sstream>
-#include <stdexcept>
 
 namespace Touchstone
 {
@@ -16,7 +16,7 @@ namespace Touchstone
     {
     public:
       explicit GmshReader(std::istream &in)
-        : in(in)
+        : text(in)
       {
       }
 
@@ -24,27 +24,19 @@ namespace Touchstone
       read();
 
     private:
-      std::istream &in;
-      MeshFile      mesh;
-      double        version = 0.;
+      MeshText text;
+      MeshFile mesh;
+      double   version      = 0.;
+      bool     has_entities = false;
 
       /** Index of a node's number. */
       std::map<unsigned long, unsigned int> node;
+      /** Line of an element's number. */
+      std::map<unsigned long, unsigned int> element;
       /** Physical groups of each surface (2) and volume (3) of version 4. */
       std::map<unsigned long, std::vector<unsigned int>> physical[4];
       /** Names of physical surfaces and volumes. */
       std::map<unsigned int, std::string> names[4];
-
-      /** The next word as a number; an error if the file ends or has none. */
-      template <typename Number>
-      Number
-      next(const char *what)
-      {
-        Number value;
-        if (!(in >> value))
-          throw std::runtime_error(std::string("The file ends, or is damaged, in ") + what + ".");
-        return value;
-      }
 
       void
       read_format();
@@ -59,7 +51,11 @@ namespace Touchstone
       void
       read_node(unsigned long number);
       void
+      new_element(unsigned long number);
+      void
       read_element(unsigned int type, const std::vector<unsigned int> &groups);
+      void
+      check_sum(unsigned long found, unsigned long announced, const char *what);
     };
 
 
@@ -67,10 +63,19 @@ namespace Touchstone
     MeshFile
     GmshReader::read()
     {
-      bool        has_elements = false;
-      std::string word;
-      while (in >> word)
+      std::set<std::string> sections;
+      std::string           word;
+      while (text.word(word))
         {
+          const std::string end = "$End" + word.substr(1);
+          if (word[0] != '$')
+            text.fail("The word '" + word + "' stands where a section like $Nodes should begin.");
+          if (word != "$MeshFormat" && version == 0.)
+            text.fail("$MeshFormat should stand before " + word + ".");
+          const bool is_known = word == "$MeshFormat" || word == "$PhysicalNames" ||
+                                word == "$Entities" || word == "$Nodes" || word == "$Elements";
+          if (is_known && !sections.insert(word).second)
+            text.fail("The file has a second " + word + ".");
           if (word == "$MeshFormat")
             read_format();
           else if (word == "$PhysicalNames")
@@ -80,23 +85,24 @@ namespace Touchstone
           else if (word == "$Nodes")
             read_nodes();
           else if (word == "$Elements")
-            {
-              read_elements();
-              has_elements = true;
-            }
-          else if (word[0] != '$')
-            throw std::runtime_error("The word '" + word +
-                                     "' stands where a section like "
-                                     "$Nodes should begin.");
-          // Whatever is left of the section, or all of one that is not needed.
-          const std::string end = "$End" + word.substr(1);
-          while (word != end)
-            if (!(in >> word))
-              throw std::runtime_error("The file ends before " + end + ".");
-        }
-      if (!has_elements)
-        throw std::runtime_error("The file has no $Elements.");
+            read_elements();
 
+          const std::string section = word;
+          if (!text.word(word))
+            text.fail("The file ends before " + end + ".");
+          if (is_known && word != end)
+            text.fail("'" + word + "' stands where " + section + " should end: " + section +
+                        " has more entries than it announces, or is damaged.",
+                      "save the mesh again, or correct the number at the head of " + section +
+                        " if you know all of its lines to be right");
+          while (word != end)
+            if (!text.word(word))
+              text.fail("The file ends before " + end + ".");
+        }
+      if (sections.count("$Elements") == 0)
+        throw MeshFileError("The file has no $Elements.");
+
+      mesh.join_copies(version < 3.);
       for (auto *groups : {&mesh.surfaces, &mesh.volumes})
         for (MeshFile::Group &group : *groups)
           group.name = names[groups == &mesh.surfaces ? 2 : 3][group.number];
@@ -108,13 +114,14 @@ namespace Touchstone
     void
     GmshReader::read_format()
     {
-      version           = next<double>("$MeshFormat");
-      const bool binary = next<int>("$MeshFormat") != 0;
-      if (binary)
-        throw std::runtime_error("The file is binary; save it as ASCII.");
+      const char *what = "$MeshFormat";
+      version          = text.real(what);
+      if (text.number(what) != 0)
+        text.fail("The file is binary; save it as ASCII.");
       if (!((version >= 2. && version < 3.) || (version >= 4.1 && version < 5.)))
-        throw std::runtime_error("The format is version " + std::to_string(version) +
-                                 "; save it as version 2.2 or 4.1.");
+        text.fail("The format is version " + std::to_string(version) +
+                  "; save it as version 2.2 or 4.1.");
+      text.number(what); // size of a floating point number
     }
 
 
@@ -122,17 +129,22 @@ namespace Touchstone
     void
     GmshReader::read_names()
     {
-      const auto n = next<unsigned int>("$PhysicalNames");
-      for (unsigned int i = 0; i < n; ++i)
+      const char *what = "$PhysicalNames";
+      for (auto left = text.number(what); left > 0; --left)
         {
-          const auto  d      = next<unsigned int>("$PhysicalNames");
-          const auto  number = next<unsigned int>("$PhysicalNames");
-          std::string quoted;
-          std::getline(in, quoted);
-          const auto first = quoted.find('"'), last = quoted.rfind('"');
+          const auto        d      = text.number(what);
+          const auto        number = text.number(what);
+          const std::string quoted = text.rest_of_line();
+          const auto        first = quoted.find('"'), last = quoted.rfind('"');
           if (d > 3 || first == last)
-            throw std::runtime_error("$PhysicalNames is damaged.");
-          names[d][number] = quoted.substr(first + 1, last - first - 1);
+            text.fail("$PhysicalNames is damaged.");
+          const std::string name = quoted.substr(first + 1, last - first - 1);
+          for (const auto &[other, known] : names[d])
+            if (other == number || (known == name && d > 1))
+              text.fail("'" + known + "' is the name of physical group " + std::to_string(other) +
+                          ", and '" + name + "' that of " + std::to_string(number) + ".",
+                        "give each physical group one name of its own");
+          names[d][number] = name;
         }
     }
 
@@ -141,21 +153,27 @@ namespace Touchstone
     void
     GmshReader::read_entities()
     {
+      has_entities       = true;
       const char   *what = "$Entities";
       unsigned long n[4];
       for (unsigned long &count : n)
-        count = next<unsigned long>(what);
+        count = text.number(what);
       for (unsigned int d = 0; d < 4; ++d)
         for (unsigned long i = 0; i < n[d]; ++i)
           {
-            const auto tag = next<unsigned long>(what);
+            const auto tag = text.number(what);
             for (unsigned int b = 0; b < (d == 0 ? 3 : 6); ++b)
-              next<double>(what);
-            for (auto left = next<unsigned long>(what); left > 0; --left)
-              physical[d][tag].push_back(std::abs(next<int>(what)));
+              text.real(what);
+            std::vector<unsigned int> groups;
+            for (auto left = text.number(what); left > 0; --left)
+              groups.push_back(std::abs(text.signed_number(what)));
+            if (!physical[d].insert({tag, groups}).second)
+              text.fail("Entity " + std::to_string(tag) + " of dimension " + std::to_string(d) +
+                          " appears twice.",
+                        "remove one of the two from the file");
             if (d > 0)
-              for (auto left = next<unsigned long>(what); left > 0; --left)
-                next<long>(what);
+              for (auto left = text.number(what); left > 0; --left)
+                text.signed_number(what);
           }
     }
 
@@ -164,11 +182,22 @@ namespace Touchstone
     void
     GmshReader::read_node(const unsigned long number)
     {
-      Point<3> x;
-      for (unsigned int d = 0; d < 3; ++d)
-        x[d] = next<double>("$Nodes");
-      node[number] = mesh.vertices.size();
-      mesh.vertices.push_back(x);
+      mesh.vertices.push_back(text.point("$Nodes"));
+      if (!node.insert({number, mesh.vertices.size() - 1}).second)
+        text.fail("Node " + std::to_string(number) + " appears twice.",
+                  "remove one of the two from the file, or save the mesh again");
+    }
+
+
+
+    void
+    GmshReader::check_sum(const unsigned long found,
+                          const unsigned long announced,
+                          const char         *what)
+    {
+      if (found != announced)
+        text.fail(std::string(what) + " announces " + std::to_string(announced) +
+                  " entries and has " + std::to_string(found) + ".");
     }
 
 
@@ -177,31 +206,41 @@ namespace Touchstone
     GmshReader::read_nodes()
     {
       const char *what = "$Nodes";
-      const auto  n    = next<unsigned long>(what);
       if (version < 3.)
         {
-          for (unsigned long i = 0; i < n; ++i)
-            read_node(next<unsigned long>(what));
+          for (auto left = text.number(what); left > 0; --left)
+            read_node(text.number(what));
           return;
         }
-      for (unsigned int i = 0; i < 3; ++i)
-        next<unsigned long>(what); // number of nodes, smallest and largest tag
+      const auto n         = text.number(what);
+      const auto announced = text.number(what);
+      text.number(what); // smallest
+      text.number(what); // and largest number of a node
       for (unsigned long block = 0; block < n; ++block)
         {
-          next<int>(what);
-          next<long>(what);
-          if (next<int>(what) != 0)
-            throw std::runtime_error("The nodes have parametric coordinates; save the file "
-                                     "without them.");
-          const auto n_block = next<unsigned int>(what);
-          if (n_block > MeshFile::bytes_left(in) / 2)
-            throw std::runtime_error("The file ends, or is damaged, in $Nodes.");
-          std::vector<unsigned long> numbers(n_block);
+          text.number(what);
+          text.signed_number(what);
+          if (text.number(what) != 0)
+            text.fail("The nodes have parametric coordinates; save the file without them.");
+          std::vector<unsigned long> numbers(text.announced(what));
           for (unsigned long &number : numbers)
-            number = next<unsigned long>(what);
+            number = text.number(what);
           for (const unsigned long number : numbers)
             read_node(number);
         }
+      check_sum(mesh.vertices.size(), announced, what);
+    }
+
+
+
+    void
+    GmshReader::new_element(const unsigned long number)
+    {
+      const auto [known, is_new] = element.insert({number, text.line()});
+      if (!is_new)
+        text.fail("Element " + std::to_string(number) + " stands in line " +
+                    std::to_string(known->second) + " already.",
+                  "remove one of the two from the file, or save the mesh again");
     }
 
 
@@ -210,37 +249,43 @@ namespace Touchstone
     GmshReader::read_elements()
     {
       const char *what = "$Elements";
-      const auto  n    = next<unsigned long>(what);
+      const auto  n    = text.number(what);
       if (version < 3.)
         {
           for (unsigned long i = 0; i < n; ++i)
             {
-              next<unsigned long>(what);
-              const auto                type = next<unsigned int>(what);
-              std::vector<unsigned int> tags(next<unsigned int>(what));
-              for (unsigned int &tag : tags)
-                tag = std::abs(next<int>(what));
+              new_element(text.number(what));
+              const unsigned int        type = text.number(what);
+              std::vector<unsigned int> groups;
               // The first tag is the physical group, or zero for none.
-              tags.resize(tags.empty() || tags[0] == 0 ? 0 : 1);
-              read_element(type, tags);
+              const auto n_tags = text.number(what);
+              for (unsigned long t = 0; t < n_tags; ++t)
+                if (const long tag = text.signed_number(what); t == 0 && tag != 0)
+                  groups.push_back(std::abs(tag));
+              read_element(type, groups);
             }
           return;
         }
-      for (unsigned int i = 0; i < 3; ++i)
-        next<unsigned long>(what);
+      const auto announced = text.number(what);
+      text.number(what);
+      text.number(what);
       for (unsigned long block = 0; block < n; ++block)
         {
-          const auto d    = next<unsigned int>(what);
-          const auto tag  = next<unsigned long>(what);
-          const auto type = next<unsigned int>(what);
+          const auto d    = text.number(what);
+          const auto tag  = text.number(what);
+          const auto type = text.number(what);
           if (d > 3)
-            throw std::runtime_error("$Elements is damaged.");
-          for (auto left = next<unsigned long>(what); left > 0; --left)
+            text.fail("$Elements is damaged.");
+          if (has_entities && physical[d].count(tag) == 0)
+            text.fail("The elements belong to entity " + std::to_string(tag) + " of dimension " +
+                      std::to_string(d) + ", which $Entities does not have.");
+          for (auto left = text.number(what); left > 0; --left)
             {
-              next<unsigned long>(what);
+              new_element(text.number(what));
               read_element(type, physical[d][tag]);
             }
         }
+      check_sum(element.size(), announced, what);
     }
 
 
@@ -249,75 +294,44 @@ namespace Touchstone
     GmshReader::read_element(const unsigned int type, const std::vector<unsigned int> &groups)
     {
       // Elements of order one; the codes are those of the Gmsh manual.
-      constexpr unsigned int quadrangle = 3, hexahedron = 5, edge = 1, triangle = 2, point = 15;
+      constexpr unsigned int                            quadrangle = 3, hexahedron = 5;
+      static const std::map<unsigned int, unsigned int> n_nodes = {
+        {15, 1}, {1, 2}, {2, 3}, {quadrangle, 4}, {hexahedron, 8}};
       if (type == 4 || type == 6 || type == 7)
-        throw std::runtime_error("It has tetrahedra, prisms or pyramids.");
-      const bool is_other = type == edge || type == triangle || type == point;
-      if (type != quadrangle && type != hexahedron && !is_other)
-        throw std::runtime_error("It has elements of Gmsh's type " + std::to_string(type) +
-                                 ", perhaps of higher order; save it with order 1.");
+        text.fail("It has tetrahedra, prisms or pyramids.");
+      const auto known = n_nodes.find(type);
+      if (known == n_nodes.end())
+        text.fail("It has elements of Gmsh's type " + std::to_string(type) +
+                  ", perhaps of higher order; save it with order 1.");
 
-      std::string line;
-      std::getline(in, line);
-      if (is_other)
-        return;
-      std::istringstream        words(line);
-      std::vector<unsigned int> vertices;
-      for (unsigned long number; words >> number;)
+      std::vector<unsigned int> vertices(known->second);
+      for (unsigned int &vertex : vertices)
         {
-          const auto found = node.find(number);
+          if (text.at_end_of_line())
+            text.fail_in("$Elements");
+          const auto number = text.number("$Elements");
+          const auto found  = node.find(number);
           if (found == node.end())
-            throw std::runtime_error("An element uses node " + std::to_string(number) +
-                                     ", which the file does not have.");
-          vertices.push_back(found->second);
+            text.fail("An element uses node " + std::to_string(number) +
+                      ", which the file does not have.");
+          vertex = found->second;
         }
-      if (vertices.size() != (type == hexahedron ? 8 : 4))
-        throw std::runtime_error("The file ends, or is damaged, in $Elements.");
+      if (!text.at_end_of_line())
+        text.fail("An element of Gmsh's type " + std::to_string(type) + " has more than its " +
+                  std::to_string(known->second) + " nodes.");
 
       const bool is_cell = type == hexahedron;
       if (is_cell)
-        mesh.add_cell(vertices);
-      else
+        mesh.add_cell(vertices, text.line());
+      else if (type == quadrangle)
         mesh.faces.push_back({{vertices[0], vertices[1], vertices[2], vertices[3]}});
+      else
+        return;
       for (const unsigned int number : groups)
         MeshFile::group(is_cell ? mesh.volumes : mesh.surfaces, number)
           .members.push_back((is_cell ? mesh.cells.size() : mesh.faces.size()) - 1);
     }
   } // namespace
-
-
-
-  void
-  MeshFile::add_cell(const std::vector<unsigned int> &v)
-  {
-    CellData<3> cell;
-    cell.vertices = {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
-    cells.push_back(cell);
-  }
-
-
-
-  std::size_t
-  MeshFile::bytes_left(std::istream &in)
-  {
-    const auto here = in.tellg();
-    in.seekg(0, std::ios::end);
-    const auto end = in.tellg();
-    in.seekg(here);
-    return end > here ? static_cast<std::size_t>(end - here) : 0;
-  }
-
-
-
-  MeshFile::Group &
-  MeshFile::group(std::vector<Group> &groups, const unsigned int number)
-  {
-    for (Group &group : groups)
-      if (group.number == number)
-        return group;
-    groups.push_back({number, "", {}});
-    return groups.back();
-  }
 
 
 

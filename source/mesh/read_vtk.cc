@@ -1,8 +1,10 @@
 #include <touchstone/mesh/mesh_file.h>
+#include <touchstone/mesh/mesh_text.h>
 
 #include <algorithm>
-#include <istream>
-#include <stdexcept>
+#include <cctype>
+#include <cmath>
+#include <set>
 
 namespace Touchstone
 {
@@ -10,54 +12,221 @@ namespace Touchstone
 
   namespace
   {
-    template <typename Number>
-    Number
-    next(std::istream &in, const std::string &what)
-    {
-      Number value;
-      if (!(in >> value))
-        throw std::runtime_error("The file ends, or is damaged, in " + what + ".");
-      return value;
-    }
-
     struct VtkCell
     {
       std::vector<unsigned int> vertices;
-      unsigned int              type   = 0;
+      unsigned int              type = 0, line = 0;
       int                       number = 0;
     };
 
-    /** How many points or cells follow. Each takes two bytes and more: a damaged file
-     * must not make the program ask for memory without end. */
-    unsigned int
-    announced(std::istream &in, const std::string &what)
+    /** One pass through a legacy .vtk file, keyword by keyword. */
+    class VtkReader
     {
-      const auto n = next<unsigned int>(in, what);
-      if (n > MeshFile::bytes_left(in) / 2)
-        throw std::runtime_error("The file ends, or is damaged, in " + what + ".");
-      return n;
+    public:
+      explicit VtkReader(std::istream &in)
+        : text(in)
+      {
+      }
+
+      MeshFile
+      read();
+
+    private:
+      MeshText             text;
+      MeshFile             mesh;
+      std::vector<VtkCell> cells;
+      /** Whether CELL_DATA, not POINT_DATA, rules, and its numbers have been found. */
+      bool has_cell_data = false, has_numbers = false;
+
+      void
+      read_header();
+      void
+      read_points();
+      void
+      read_cells();
+      void
+      read_types();
+      /** @return whether the numbers were read, not skipped */
+      bool
+      read_scalars();
+      void
+      add(const VtkCell &cell);
+    };
+
+
+
+    void
+    VtkReader::read_header()
+    {
+      if (text.rest_of_line().find("vtk DataFile") == std::string::npos)
+        throw MeshFileError("The first line does not say 'vtk DataFile'.");
+      text.next_line();
+      text.rest_of_line(); // title
+      if (text.text("the header") != "ASCII")
+        text.fail("The file is binary; save it as ASCII.");
+      text.text("the header");
+      if (text.text("the header") != "UNSTRUCTURED_GRID")
+        text.fail("The file does not hold an UNSTRUCTURED_GRID.");
     }
+
+
+
+    void
+    VtkReader::read_points()
+    {
+      mesh.vertices.resize(text.announced("POINTS"));
+      text.text("POINTS"); // type of the numbers
+      for (Point<3> &x : mesh.vertices)
+        x = text.point("POINTS");
+    }
+
+
+
+    void
+    VtkReader::read_cells()
+    {
+      cells.resize(text.announced("CELLS"));
+      const unsigned long announced = text.number("CELLS");
+      const unsigned int  head      = text.line();
+      unsigned long       found     = 0;
+      if (text.next_character() == 'O')
+        text.fail("CELLS has OFFSETS; save the file as version 4.2 or earlier.");
+      for (VtkCell &cell : cells)
+        {
+          const unsigned long n = text.number("CELLS");
+          cell.line             = text.line();
+          for (unsigned long v = 0; v < n; ++v)
+            {
+              const unsigned long vertex = text.number("CELLS");
+              if (vertex >= mesh.vertices.size())
+                text.fail("A cell uses point " + std::to_string(vertex) + " of " +
+                          std::to_string(mesh.vertices.size()) + ", counted from 0.");
+              cell.vertices.push_back(vertex);
+            }
+          found += n + 1;
+        }
+      if (found != announced)
+        throw MeshFileError(head,
+                            "CELLS announces " + std::to_string(announced) + " numbers, its " +
+                              std::to_string(cells.size()) + " cells have " +
+                              std::to_string(found) + ".",
+                            MeshFileError::default_remedy);
+    }
+
+
+
+    void
+    VtkReader::read_types()
+    {
+      if (const unsigned long n = text.number("CELL_TYPES"); n != cells.size())
+        text.fail("CELL_TYPES announces " + std::to_string(n) + " cells, CELLS " +
+                  std::to_string(cells.size()) + ".");
+      for (VtkCell &cell : cells)
+        cell.type = text.number("CELL_TYPES");
+    }
+
+
 
     /** Numbers of the cells: the field MaterialID or CellEntityIds, as deal.II
      * and Gmsh write it, or else the last one. */
-    void
-    read_cell_data(std::istream &in, std::vector<VtkCell> &cells)
+    bool
+    VtkReader::read_scalars()
     {
-      for (std::string word; in >> word;)
-        if (word == "SCALARS")
-          {
-            const auto name = next<std::string>(in, "SCALARS");
-            next<std::string>(in, "SCALARS");
-            while (next<std::string>(in, "SCALARS") != "LOOKUP_TABLE")
-              ;
-            next<std::string>(in, "SCALARS");
-            for (VtkCell &cell : cells)
-              cell.number = std::max(0., next<double>(in, "SCALARS " + name));
-            if (name == "MaterialID" || name == "CellEntityIds")
-              return;
-          }
-        else if (word == "POINT_DATA")
-          return;
+      const std::string name = text.text("SCALARS");
+      text.text("SCALARS"); // type
+      const bool one_component = text.at_end_of_line() || text.number("SCALARS") == 1;
+      if (text.text("SCALARS") != "LOOKUP_TABLE")
+        text.fail_in("SCALARS");
+      text.text("SCALARS"); // its name
+      if (!has_cell_data || has_numbers || !one_component)
+        return false;
+      for (VtkCell &cell : cells)
+        cell.number = std::max(0., text.real("SCALARS"));
+      has_numbers = name == "MaterialID" || name == "CellEntityIds";
+      return true;
+    }
+
+
+
+    void
+    VtkReader::add(const VtkCell &cell)
+    {
+      constexpr unsigned int quad = 9, hexahedron = 12, first_solid = 10;
+      if (cell.type == quad || cell.type == hexahedron)
+        {
+          const unsigned int n = cell.type == quad ? 4 : 8;
+          if (cell.vertices.size() != n)
+            throw MeshFileError(cell.line,
+                                "A cell of VTK's type " + std::to_string(cell.type) + " has " +
+                                  std::to_string(cell.vertices.size()) + " points, not " +
+                                  std::to_string(n) + ".");
+        }
+      else if (cell.type >= first_solid || cell.type == 0)
+        throw MeshFileError(cell.line,
+                            "It has cells of VTK's type " + std::to_string(cell.type) + ".");
+
+      if (cell.type == hexahedron)
+        {
+          MeshFile::group(mesh.volumes, cell.number).members.push_back(mesh.cells.size());
+          mesh.add_cell(cell.vertices, cell.line);
+        }
+      else if (cell.type == quad)
+        {
+          const auto &v = cell.vertices;
+          MeshFile::group(mesh.surfaces, cell.number).members.push_back(mesh.faces.size());
+          mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
+        }
+    }
+
+
+
+    MeshFile
+    VtkReader::read()
+    {
+      read_header();
+      std::set<std::string> sections;
+      // The section whose numbers have all been read.
+      std::string section;
+      for (std::string word; text.word(word);)
+        {
+          if (!section.empty() && !std::isalpha(word[0]))
+            text.fail("'" + word + "' stands where " + section + " should end: it has more " +
+                        "entries than it announces, or is damaged.",
+                      "save the mesh again, or correct the number at the head of " + section +
+                        " if you know all of its lines to be right");
+          section.clear();
+          if (word == "POINTS" || word == "CELLS" || word == "CELL_TYPES")
+            {
+              if (!sections.insert(word).second)
+                text.fail("The file has a second " + word + ".");
+              if (word == "POINTS")
+                read_points();
+              else if (word == "CELLS")
+                read_cells();
+              else
+                read_types();
+              section = word;
+            }
+          else if (word == "CELL_DATA")
+            {
+              if (const unsigned long n = text.number("CELL_DATA"); n != cells.size())
+                text.fail("CELL_DATA announces " + std::to_string(n) + " cells, CELLS " +
+                          std::to_string(cells.size()) + ".");
+              has_cell_data = true;
+              section       = word;
+            }
+          else if (word == "POINT_DATA")
+            has_cell_data = false;
+          else if (word == "SCALARS" && read_scalars())
+            section = word;
+        }
+      for (const char *needed : {"POINTS", "CELLS", "CELL_TYPES"})
+        if (sections.count(needed) == 0)
+          throw MeshFileError(std::string("The file has no ") + needed + ".");
+      for (const VtkCell &cell : cells)
+        add(cell);
+      mesh.join_copies(false);
+      return std::move(mesh);
     }
   } // namespace
 
@@ -66,74 +235,6 @@ namespace Touchstone
   MeshFile
   read_vtk(std::istream &in)
   {
-    std::string line;
-    std::getline(in, line);
-    if (line.find("vtk DataFile") == std::string::npos)
-      throw std::runtime_error("The first line does not say 'vtk DataFile'.");
-    std::getline(in, line); // title
-    if (next<std::string>(in, "the header") != "ASCII")
-      throw std::runtime_error("The file is binary; save it as ASCII.");
-    next<std::string>(in, "the header");
-    if (next<std::string>(in, "the header") != "UNSTRUCTURED_GRID")
-      throw std::runtime_error("The file does not hold an UNSTRUCTURED_GRID.");
-
-    MeshFile             mesh;
-    std::vector<VtkCell> cells;
-    for (std::string word; in >> word;)
-      if (word == "POINTS")
-        {
-          mesh.vertices.resize(announced(in, word));
-          next<std::string>(in, word);
-          for (Point<3> &x : mesh.vertices)
-            for (unsigned int d = 0; d < 3; ++d)
-              x[d] = next<double>(in, word);
-        }
-      else if (word == "CELLS")
-        {
-          cells.resize(announced(in, word));
-          next<unsigned int>(in, word);
-          if ((in >> std::ws).peek() == 'O')
-            throw std::runtime_error("CELLS has OFFSETS; save the file as version 4.2 or "
-                                     "earlier.");
-          for (VtkCell &cell : cells)
-            {
-              const auto n = next<unsigned int>(in, word);
-              for (unsigned int v = 0; v < n; ++v)
-                {
-                  cell.vertices.push_back(next<unsigned int>(in, word));
-                  if (cell.vertices.back() >= mesh.vertices.size())
-                    throw std::runtime_error("A cell uses a point that the file does not "
-                                             "have.");
-                }
-            }
-        }
-      else if (word == "CELL_TYPES")
-        {
-          next<unsigned int>(in, word);
-          for (VtkCell &cell : cells)
-            cell.type = next<unsigned int>(in, word);
-        }
-      else if (word == "CELL_DATA")
-        {
-          next<unsigned int>(in, word);
-          read_cell_data(in, cells);
-        }
-
-    constexpr unsigned int quad = 9, hexahedron = 12, first_solid = 10;
-    for (const VtkCell &cell : cells)
-      if (cell.type == hexahedron && cell.vertices.size() == 8)
-        {
-          MeshFile::group(mesh.volumes, cell.number).members.push_back(mesh.cells.size());
-          mesh.add_cell(cell.vertices);
-        }
-      else if (cell.type == quad && cell.vertices.size() == 4)
-        {
-          const auto &v = cell.vertices;
-          MeshFile::group(mesh.surfaces, cell.number).members.push_back(mesh.faces.size());
-          mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
-        }
-      else if (cell.type >= first_solid || cell.type == 0)
-        throw std::runtime_error("It has cells of VTK's type " + std::to_string(cell.type) + ".");
-    return mesh;
+    return VtkReader(in).read();
   }
 } // namespace Touchstone

@@ -1,0 +1,105 @@
+#include <touchstone/mesh/mesh_file.h>
+#include <touchstone/mesh/mesh_text.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  MeshFile::add_cell(const std::vector<unsigned int> &v, const unsigned int line)
+  {
+    CellData<3> cell;
+    cell.vertices = {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
+    cells.push_back(cell);
+    cell_lines.push_back(line);
+  }
+
+
+
+  MeshFile::Group &
+  MeshFile::group(std::vector<Group> &groups, const unsigned int number)
+  {
+    for (Group &group : groups)
+      if (group.number == number)
+        return group;
+    groups.push_back({number, "", {}});
+    return groups.back();
+  }
+
+
+
+  namespace
+  {
+    /** For each cell the first one in the file that has the same vertices. */
+    std::vector<unsigned int>
+    first_copies(const std::vector<CellData<3>> &cells)
+    {
+      std::vector<std::vector<unsigned int>> sorted(cells.size());
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        {
+          sorted[c] = cells[c].vertices;
+          std::sort(sorted[c].begin(), sorted[c].end());
+        }
+      std::vector<unsigned int> order(cells.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::vector<unsigned int> first = order;
+      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+        return std::tie(sorted[a], a) < std::tie(sorted[b], b);
+      });
+      for (unsigned int i = 1; i < order.size(); ++i)
+        if (sorted[order[i]] == sorted[order[i - 1]])
+          first[order[i]] = first[order[i - 1]];
+      return first;
+    }
+  } // namespace
+
+
+
+  void
+  MeshFile::join_copies(const bool one_for_each_volume)
+  {
+    const std::vector<unsigned int> first = first_copies(cells);
+
+    // A cell and its copies may have one volume each, and not the same.
+    std::vector<unsigned int> copies(cells.size(), 0), volumes_of(cells.size(), 0);
+    for (const unsigned int f : first)
+      ++copies[f];
+    for (Group &volume : volumes)
+      {
+        std::vector<bool>         known(cells.size(), false);
+        std::vector<unsigned int> members;
+        for (const unsigned int c : volume.members)
+          if (!known[first[c]])
+            {
+              known[first[c]] = true;
+              ++volumes_of[first[c]];
+              members.push_back(first[c]);
+            }
+        volume.members = members;
+      }
+
+    std::vector<unsigned int> number(cells.size()), lines;
+    std::vector<CellData<3>>  kept;
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      if (const unsigned int f = first[c]; f == c)
+        {
+          number[c] = kept.size();
+          kept.push_back(cells[c]);
+          lines.push_back(cell_lines[c]);
+        }
+      else if (!one_for_each_volume || volumes_of[f] < copies[f] ||
+               cells[c].vertices != cells[f].vertices)
+        throw MeshFileError(cell_lines[c],
+                            "This cell has the same nodes as that of line " +
+                              std::to_string(cell_lines[f]) + ".",
+                            "remove one of the two from the file");
+    cells      = kept;
+    cell_lines = lines;
+    for (Group &volume : volumes)
+      for (unsigned int &c : volume.members)
+        c = number[c];
+  }
+} // namespace Touchstone
