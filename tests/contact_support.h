@@ -157,9 +157,7 @@ namespace Touchstone
          const std::string              &body,
          const std::vector<std::string> &boundaries) const
     {
-      std::set<dealii::types::boundary_id> ids;
-      for (const std::string &name : boundaries)
-        ids.insert(forest.boundary_id(scene.body_index(body), name, "", ""));
+      const BoundaryIds ids = forest.boundary_ids(scene.body_index(body), boundaries, "", "");
       return std::make_unique<Surface>(
         solid, forest, scene.body_index(body), ids, parameters.contact_geometry == "manifold");
     }

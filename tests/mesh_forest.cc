@@ -90,10 +90,10 @@ main(int argc, char **argv)
       for (const char *name : {"top", "5", "left"})
         for (unsigned int b = 0; b < 2; ++b)
           std::cout << "  " << name << " of body " << b << ": "
-                    << forest.boundary_id(b, name, "s", "k") << '\n';
+                    << *forest.boundary(b, name, "s", "k").begin() << '\n';
       std::cout << "  exact surface of a plane side: "
                 << (forest.surface(0) ? "yes FAILED" : "none") << '\n';
-      print_error([&] { forest.boundary_id(0, "outer", "Body lower", "Fixed"); });
+      print_error([&] { forest.boundary(0, "outer", "Body lower", "Fixed"); });
     }
 
   const std::string tubes =

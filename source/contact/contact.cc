@@ -57,11 +57,7 @@ namespace Touchstone
                               const std::string              &key) {
           const auto ids = forest.boundary_ids(scene.body_index(body), boundaries, section, key);
           auto       surface =
-            std::make_unique<Surface>(solid,
-                                      forest,
-                                      scene.body_index(body),
-                                      std::set<types::boundary_id>(ids.begin(), ids.end()),
-                                      exact);
+            std::make_unique<Surface>(solid, forest, scene.body_index(body), ids, exact);
           if (surface->largest_face() == 0.)
             throw InputError(section, key, "", "these boundaries have no faces", "check the mesh.");
           return surface;

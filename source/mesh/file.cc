@@ -289,42 +289,43 @@ namespace Touchstone
                        const std::map<unsigned int, unsigned int> &vertex_numbers,
                        const std::string                          &section) const
     {
-      std::map<FaceVertices, types::boundary_id> marks;
+      std::map<FaceVertices, std::set<types::boundary_id>> marks;
+      types::boundary_id                                   next = unmarked + 1;
       for (const MeshFile::Group &group : mesh_file.surfaces)
-        for (const unsigned int f : group.members)
-          {
-            FaceVertices face{};
-            bool         belongs = true;
-            for (unsigned int v = 0; v < 4 && belongs; ++v)
-              {
-                const auto found = vertex_numbers.find(mesh_file.faces[f][v]);
-                belongs          = found != vertex_numbers.end();
-                if (belongs)
-                  face[v] = found->second;
-              }
-            std::sort(face.begin(), face.end());
-            if (!belongs)
-              continue;
-            const auto [known, is_new] = marks.insert({face, group.number});
-            if (!is_new && known->second != group.number)
-              throw InputError(section,
-                               "File",
-                               file,
-                               "a face of the body is marked as boundary " +
-                                 std::to_string(known->second) + " and as boundary " +
-                                 std::to_string(group.number) +
-                                 (group.name.empty() ? "" : ", '" + group.name + "'"),
-                               "mark each face once, and name both boundaries in the scene where "
-                               "both are meant");
-          }
+        {
+          next = std::max(next, group.number + 1);
+          for (const unsigned int f : group.members)
+            {
+              FaceVertices face{};
+              bool         belongs = true;
+              for (unsigned int v = 0; v < 4 && belongs; ++v)
+                {
+                  const auto found = vertex_numbers.find(mesh_file.faces[f][v]);
+                  belongs          = found != vertex_numbers.end();
+                  if (belongs)
+                    face[v] = found->second;
+                }
+              std::sort(face.begin(), face.end());
+              if (belongs)
+                marks[face].insert(group.number);
+            }
+        }
 
-      std::set<types::boundary_id> used;
+      std::set<types::boundary_id>                               used;
+      std::map<std::set<types::boundary_id>, types::boundary_id> shared_ids;
       add_boundary_faces(mesh, [&](FaceVertices face) {
         std::sort(face.begin(), face.end());
         const auto found = marks.find(face);
-        const auto id    = found != marks.end() ? found->second : unmarked;
-        used.insert(id);
-        return std::make_pair(id, numbers::flat_manifold_id);
+        const auto of =
+          found != marks.end() ? found->second : std::set<types::boundary_id>{unmarked};
+        used.insert(of.begin(), of.end());
+        if (of.size() == 1)
+          return std::make_pair(*of.begin(), numbers::flat_manifold_id);
+        // A face of several boundaries gets an id of its own, which all of them have.
+        const auto [id, is_new] = shared_ids.insert({of, next});
+        if (is_new)
+          mesh.shared[next++] = of;
+        return std::make_pair(id->second, numbers::flat_manifold_id);
       });
 
       if (used.count(unmarked) > 0)
@@ -375,11 +376,17 @@ namespace Touchstone
                                  name,
                                  "the body has no boundary of this name",
                                  "use a name from the file or from 'Boundary names'");
-              mesh.surfaces[found->second] = shape.surface;
+              // With the faces that it shares with others.
+              std::set<types::boundary_id> ids{found->second};
+              for (const auto &[id, of] : mesh.shared)
+                if (of.count(found->second) > 0)
+                  ids.insert(id);
+              for (const types::boundary_id id : ids)
+                mesh.surfaces[id] = shape.surface;
 
               double farthest = 0., size = 0.;
               for (CellData<2> &face : mesh.subcells.boundary_quads)
-                if (face.boundary_id == found->second)
+                if (ids.count(face.boundary_id) > 0)
                   {
                     face.manifold_id = next;
                     for (const unsigned int v : face.vertices)

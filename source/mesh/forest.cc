@@ -148,11 +148,18 @@ namespace Touchstone
         const auto ids = append(mesh, body, all);
 
         names.emplace_back();
+        std::map<types::boundary_id, BoundaryIds> ids_of;
         for (const auto &[own, id] : ids)
-          names.back()[std::to_string(own)] = id;
+          if (const auto shared = mesh.shared.find(own); shared != mesh.shared.end())
+            for (const types::boundary_id of : shared->second)
+              ids_of[of].insert(id);
+          else
+            ids_of[own].insert(id);
+        for (const auto &[own, list] : ids_of)
+          names.back()[std::to_string(own)] = list;
         for (const auto &[name, own] : mesh.boundary_names)
-          if (ids.count(own) > 0)
-            names.back()[name] = ids.at(own);
+          if (ids_of.count(own) > 0)
+            names.back()[name] = ids_of.at(own);
         for (const auto &[own, surface] : mesh.surfaces)
           if (ids.count(own) > 0)
             surfaces[ids.at(own)] = surface;
@@ -165,8 +172,7 @@ namespace Touchstone
         const auto ids = [&](const std::string              &body,
                              const std::vector<std::string> &boundaries,
                              const std::string              &key) {
-          const auto list = boundary_ids(scene.body_index(body), boundaries, pair.section(), key);
-          return std::set<types::boundary_id>(list.begin(), list.end());
+          return boundary_ids(scene.body_index(body), boundaries, pair.section(), key);
         };
         const auto slaves = ids(pair.slave_body, pair.slave_boundaries, "Slave boundaries");
         contact_work->add_pair(all,
@@ -244,11 +250,11 @@ namespace Touchstone
 
 
 
-  types::boundary_id
-  Forest::boundary_id(const unsigned int body,
-                      const std::string &name,
-                      const std::string &section,
-                      const std::string &key) const
+  BoundaryIds
+  Forest::boundary(const unsigned int body,
+                   const std::string &name,
+                   const std::string &section,
+                   const std::string &key) const
   {
     const auto found = names[body].find(name);
     if (found != names[body].end())
@@ -266,17 +272,17 @@ namespace Touchstone
 
 
 
-  std::vector<types::boundary_id>
-  Forest::boundary_ids(const unsigned int              body,
-                       const std::vector<std::string> &names,
-                       const std::string              &section,
-                       const std::string              &key) const
+  std::vector<BoundaryIds>
+  Forest::boundaries(const unsigned int              body,
+                     const std::vector<std::string> &names,
+                     const std::string              &section,
+                     const std::string              &key) const
   {
-    std::vector<types::boundary_id>           result;
-    std::map<types::boundary_id, std::string> seen;
+    std::vector<BoundaryIds>           result;
+    std::map<BoundaryIds, std::string> seen;
     for (const std::string &name : names)
       {
-        result.push_back(boundary_id(body, name, section, key));
+        result.push_back(boundary(body, name, section, key));
         const auto [other, is_new] = seen.insert({result.back(), name});
         if (!is_new)
           throw InputError(section,
@@ -293,14 +299,28 @@ namespace Touchstone
 
 
 
+  BoundaryIds
+  Forest::boundary_ids(const unsigned int              body,
+                       const std::vector<std::string> &names,
+                       const std::string              &section,
+                       const std::string              &key) const
+  {
+    BoundaryIds result;
+    for (const BoundaryIds &ids : boundaries(body, names, section, key))
+      result.insert(ids.begin(), ids.end());
+    return result;
+  }
+
+
+
   std::string
   Forest::boundary_name(const types::boundary_id id) const
   {
     std::string result = std::to_string(id);
     for (const auto &of_body : names)
-      for (const auto &[name, number] : of_body)
+      for (const auto &[name, ids] : of_body)
         // Numbers come before letters, a name is better.
-        if (number == id)
+        if (ids.count(id) > 0)
           result = name;
     return result;
   }

@@ -86,12 +86,10 @@ namespace Touchstone
                  const std::string              &section,
                  const std::string              &key)
     {
-      const unsigned int           body = scene.body_index(body_name);
-      std::set<types::boundary_id> ids;
-      for (const std::string &name : boundaries)
-        ids.insert(forest.boundary_id(body, name, section, key));
-      const Surface surface(solid, forest, body, ids, /*exact=*/false);
-      Json          list = Json::array();
+      const unsigned int body = scene.body_index(body_name);
+      const BoundaryIds  ids  = forest.boundary_ids(body, boundaries, section, key);
+      const Surface      surface(solid, forest, body, ids, /*exact=*/false);
+      Json               list = Json::array();
       for (const Face &face : surface.owned_faces())
         {
           Json nodes = Json::array();

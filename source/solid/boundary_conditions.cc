@@ -67,23 +67,23 @@ namespace Touchstone
         const BodyParameters &body    = scene.bodies[b];
         const std::string     section = "Body " + body.name;
         // Each list once, under whatever name: a name and a number can mean the same.
-        const auto fixed    = forest.boundary_ids(b, body.fixed, section, "Fixed"),
-                   symmetry = forest.boundary_ids(b, body.symmetry, section, "Symmetry"),
+        const auto fixed    = forest.boundaries(b, body.fixed, section, "Fixed"),
+                   symmetry = forest.boundaries(b, body.symmetry, section, "Symmetry"),
                    condition_ids =
-                     forest.boundary_ids(b, body.conditions, section, "Boundary conditions");
+                     forest.boundaries(b, body.conditions, section, "Boundary conditions");
         for (std::size_t k = 0; k < fixed.size(); ++k)
           {
             const std::string &name = body.fixed[k];
-            const auto         id   = fixed[k];
+            const BoundaryIds &id   = fixed[k];
             supports.push_back({body.name, name, Tensor<1, dim>()});
             for (unsigned int d = 0; d < dim; ++d)
               prescribe_on(id, axis(d), nullptr, b, supports.size() - 1);
           }
-        std::map<types::boundary_id, Tensor<1, dim>> planes;
+        std::map<BoundaryIds, Tensor<1, dim>> planes;
         for (std::size_t k = 0; k < symmetry.size(); ++k)
           {
             const std::string &name = body.symmetry[k];
-            const auto         id   = symmetry[k];
+            const BoundaryIds &id   = symmetry[k];
             if (std::count(fixed.begin(), fixed.end(), id) > 0)
               throw InputError(section,
                                "Symmetry",
@@ -100,11 +100,11 @@ namespace Touchstone
         for (std::size_t k = 0; k < condition_ids.size(); ++k)
           {
             const std::string &name = body.conditions[k];
-            const auto         id   = condition_ids[k];
+            const BoundaryIds &id   = condition_ids[k];
             check_not_held(section + "/Boundary " + name,
                            body.boundaries.at(name),
                            std::count(fixed.begin(), fixed.end(), id) > 0,
-                           planes.count(id) > 0 ? planes[id] : Tensor<1, dim>());
+                           planes.count(id) > 0 ? planes.at(id) : Tensor<1, dim>());
             const BoundaryParameters &condition = body.boundaries.at(name);
             const auto parse = [&, where = section + "/Boundary " + name](const std::string &key,
                                                                           const std::string &text) {
@@ -144,9 +144,9 @@ namespace Touchstone
 
 
   Tensor<1, dim>
-  BoundaryConditions::plane_normal(const types::boundary_id boundary,
-                                   const std::string       &section,
-                                   const std::string       &name) const
+  BoundaryConditions::plane_normal(const BoundaryIds &boundary,
+                                   const std::string &section,
+                                   const std::string &name) const
   {
     const FE_Q<dim>   scalar_fe(1);
     FEFaceValues<dim> values(solid.mapping,
@@ -158,7 +158,7 @@ namespace Touchstone
     for (const auto &cell : solid.dof_handler.get_triangulation().active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f) && cell->face(f)->boundary_id() == boundary)
+          if (cell->at_boundary(f) && boundary.count(cell->face(f)->boundary_id()) > 0)
             {
               values.reinit(cell, f);
               for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
@@ -186,11 +186,11 @@ namespace Touchstone
 
 
   void
-  BoundaryConditions::prescribe_on(const types::boundary_id boundary,
-                                   const Tensor<1, dim>    &direction,
-                                   const Function          &value,
-                                   const unsigned int       body,
-                                   const unsigned int       support)
+  BoundaryConditions::prescribe_on(const BoundaryIds    &boundary,
+                                   const Tensor<1, dim> &direction,
+                                   const Function       &value,
+                                   const unsigned int    body,
+                                   const unsigned int    support)
   {
     const auto        &fe = solid.fe;
     std::set<Index>    seen;
@@ -198,7 +198,7 @@ namespace Touchstone
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
-          if (cell->at_boundary(f) && cell->face(f)->boundary_id() == boundary)
+          if (cell->at_boundary(f) && boundary.count(cell->face(f)->boundary_id()) > 0)
             {
               cell->get_dof_indices(dofs);
               for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
@@ -297,7 +297,7 @@ namespace Touchstone
       if (!cell->is_artificial())
         for (const unsigned int f : cell->face_indices())
           for (const Load &load : loads)
-            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == load.boundary)
+            if (cell->at_boundary(f) && load.boundary.count(cell->face(f)->boundary_id()) > 0)
               {
                 values.reinit(cell, f);
                 cell->get_dof_indices(dofs);

@@ -29,7 +29,7 @@ namespace Touchstone
       if (cell->is_locally_owned() || (with_ghosts && cell->is_ghost()))
         for (const unsigned int f : cell->face_indices())
           for (const Load &load : loads)
-            if (cell->at_boundary(f) && cell->face(f)->boundary_id() == load.boundary)
+            if (cell->at_boundary(f) && load.boundary.count(cell->face(f)->boundary_id()) > 0)
               {
                 values.reinit(cell, f);
                 cell->get_dof_indices(dofs);

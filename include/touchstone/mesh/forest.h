@@ -12,6 +12,9 @@
 
 namespace Touchstone
 {
+  /** @brief Boundary ids of the faces of a boundary, or of several. */
+  using BoundaryIds = std::set<dealii::types::boundary_id>;
+
   /**
    * @brief All bodies of a scene in one distributed triangulation.
    *
@@ -23,7 +26,7 @@ namespace Touchstone
   {
     // In this order: the mesh is made with the names, and the reference below is to it.
     /** Boundary names of each body, with ids that are unique in the forest. */
-    std::vector<std::map<std::string, dealii::types::boundary_id>>               names;
+    std::vector<std::map<std::string, BoundaryIds>>                              names;
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
     unsigned int                                                                 level = 0;
     bool has_weights                                                                   = false;
@@ -65,22 +68,30 @@ namespace Touchstone
     n_bodies() const;
 
     /**
-     * @brief The boundary id of a boundary, by its name or its number.
+     * @brief The boundary ids of the faces of a boundary, by its name or its number: more
+     * than one if other boundaries share some of its faces.
      * @throws InputError in the name of @p section and @p key, which lists the
      * boundaries that the body has.
      */
-    dealii::types::boundary_id
-    boundary_id(unsigned int       body,
-                const std::string &name,
-                const std::string &section,
-                const std::string &key) const;
+    BoundaryIds
+    boundary(unsigned int       body,
+             const std::string &name,
+             const std::string &section,
+             const std::string &key) const;
 
     /**
-     * @brief The ids of the boundaries in a list, in its order.
+     * @brief The boundaries in a list, in its order.
      * @throws InputError in the name of @p section and @p key if the body has no such
      * boundary, or if two entries, a name and a number perhaps, mean the same.
      */
-    std::vector<dealii::types::boundary_id>
+    std::vector<BoundaryIds>
+    boundaries(unsigned int                    body,
+               const std::vector<std::string> &names,
+               const std::string              &section,
+               const std::string              &key) const;
+
+    /** @brief The boundary ids of all of them together. */
+    BoundaryIds
     boundary_ids(unsigned int                    body,
                  const std::vector<std::string> &names,
                  const std::string              &section,

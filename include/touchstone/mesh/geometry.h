@@ -10,6 +10,7 @@
 
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ namespace Touchstone
     dealii::SubCellData subcells;
     /** Names of boundary ids; a boundary can also be called by its number. */
     std::map<std::string, dealii::types::boundary_id> boundary_names;
+    /** Boundary ids of faces that belong to several boundaries, with the ids of these. */
+    std::map<dealii::types::boundary_id, std::set<dealii::types::boundary_id>> shared;
     /** Manifolds of cells and faces for refinement and curved mappings. */
     std::map<dealii::types::manifold_id, std::shared_ptr<dealii::Manifold<3>>> manifolds;
     /** Exact shape of curved boundaries, for contact. */

@@ -106,9 +106,9 @@ namespace Touchstone
 
     struct Load
     {
-      dealii::types::boundary_id boundary;
-      std::array<Function, dim>  traction;
-      Function                   pressure;
+      BoundaryIds               boundary;
+      std::array<Function, dim> traction;
+      Function                  pressure;
     };
 
     const Solid            &solid;
@@ -127,7 +127,7 @@ namespace Touchstone
     void
     add_tractions(double t, Vector &force) const;
     void
-    prescribe_on(dealii::types::boundary_id    boundary,
+    prescribe_on(const BoundaryIds            &boundary,
                  const dealii::Tensor<1, dim> &direction,
                  const Function               &value,
                  unsigned int                  body,
@@ -135,9 +135,9 @@ namespace Touchstone
 
     /** Outward normal of a plane boundary, the same on all ranks. */
     dealii::Tensor<1, dim>
-    plane_normal(dealii::types::boundary_id boundary,
-                 const std::string         &section,
-                 const std::string         &name) const;
+    plane_normal(const BoundaryIds &boundary,
+                 const std::string &section,
+                 const std::string &name) const;
   };
 } // namespace Touchstone
 

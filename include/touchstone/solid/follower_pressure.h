@@ -32,7 +32,7 @@ namespace Touchstone
 
     /** @param pressure Of the reference position and time, force per deformed area. */
     void
-    add(dealii::types::boundary_id boundary, const std::shared_ptr<const Formula> &pressure)
+    add(const BoundaryIds &boundary, const std::shared_ptr<const Formula> &pressure)
     {
       loads.push_back({boundary, pressure});
     }
@@ -56,7 +56,7 @@ namespace Touchstone
   private:
     struct Load
     {
-      dealii::types::boundary_id     boundary;
+      BoundaryIds                    boundary;
       std::shared_ptr<const Formula> pressure;
     };
 
