@@ -60,10 +60,8 @@ namespace Touchstone
 
 
 
-    /** @param cycle The active set has come back. What curved surfaces leave of the gap of an
-     * active row then does not count: a row that presses would open over it, close, and so on. */
     Wish
-    wish(const ContactRow &row, const double gap_tolerance, const bool cycle)
+    wish(const ContactRow &row, const double gap_tolerance)
     {
       if (row.tied || row.status == ContactStatus::no_partner)
         return {};
@@ -71,7 +69,7 @@ namespace Touchstone
         return {-row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.,
                 status_of_closing(row)};
       const double scale = row.stiffness * row.size;
-      const double trial = row.lambda / scale - (cycle ? 0. : row.gap / row.size);
+      const double trial = row.lambda / scale - row.gap / row.size;
       if (trial < -gap_tolerance)
         return {-trial, ContactStatus::open};
       if (!row.friction || row.dropped())
@@ -159,9 +157,7 @@ namespace Touchstone
   Contact::ActiveSetUpdate
   Contact::update_active_set(const double gap_tolerance, const unsigned int caution)
   {
-    const auto demand = [&](const ContactRow &row) {
-      return wish(row, gap_tolerance, caution > 0).strength;
-    };
+    const auto demand = [&](const ContactRow &row) { return wish(row, gap_tolerance).strength; };
 
     // With caution only the rows that ask more than half as strongly as the
     // strongest change, then only the first row that asks at all: that rule ends
@@ -205,7 +201,7 @@ namespace Touchstone
           // What sticks without elastic slip must not have moved.
           if (row.friction && !row.friction->carried && !row.dropped())
             result.gap = std::max(result.gap, slip_off_direction(row) / row.size);
-          const Wish next = wish(row, gap_tolerance, caution > 0);
+          const Wish next = wish(row, gap_tolerance);
           if (next.strength > 0. && next.strength >= threshold &&
               (only.empty() || only == order(row)))
             {
