@@ -35,6 +35,19 @@ namespace
                                        "set Cells        = 1, 6, 3",
                                        slave_and_master("outer", "inner", "inner", "outer"));
 
+  // A plate over half a ball, whose flanks are too steep to face it.
+  const std::string ball = two_bodies("lower",
+                                      "set Type   = ball\n"
+                                      "set Centre = 0.5, 0.45, 0\n"
+                                      "set Radius = 1\n"
+                                      "set Keep   = both, both, +\n"
+                                      "set Cells  = 2, 3",
+                                      "upper",
+                                      "set Lower corner = -0.9, -0.7, 1\n"
+                                      "set Upper corner = 1.7, 1.8, 2\n"
+                                      "set Cells        = 3, 4, 1",
+                                      slave_and_master("upper", "bottom", "lower", "surface"));
+
   const std::string obstacle = R"(
 set Bodies        = upper
 set Obstacles     = rigid
@@ -214,6 +227,15 @@ main(int argc, char **argv)
               check(name + ", tubes, degree 2", tubes, {normal, with, degree_2}, 0., 0.005);
             }
         }
+    }
+  for (const std::string kind : {"averaged", "smoothed"})
+    {
+      check("steep flanks, " + kind, ball, {set("Master normal", kind), averaged}, 0., 0.005);
+      check("steep flanks of facets, " + kind,
+            ball,
+            {set("Master normal", kind), averaged, faceted},
+            0.,
+            0.005);
     }
   check("smoothed, within the other body",
         tubes,

@@ -45,6 +45,10 @@ subsection Contact pair pair
 end
 )";
 
+  /** The slave boundary goes over an edge of the master: rows change their areas. */
+  const std::vector<std::string> over_edge = {"Body upper/Geometry/Lower corner=0.42, 0.1, 1",
+                                              "Body upper/Geometry/Upper corner=1.18, 0.9, 2"};
+
   const std::string obstacle = R"(
 set Bodies        = lower, upper
 set Obstacles     = rigid
@@ -145,10 +149,11 @@ end
     Case(const std::string &text,
          const std::string &pairing,
          const std::string &enforcement_name,
-         const Friction    &friction)
+         const Friction    &friction,
+         const bool         beyond_edge)
       : friction(friction)
       , enforcement_name(enforcement_name)
-      , made(text, overrides(pairing, enforcement_name, friction))
+      , made(text, overrides(pairing, enforcement_name, friction, beyond_edge))
       , contact(made.scene, made.forest, made.solid)
       , enforcement(EnforcementRegistry::make(enforcement_name, made.scene.contact))
       , u(made.solid.owned, MPI_COMM_WORLD)
@@ -273,22 +278,24 @@ end
       terms.finish();
     }
 
-    /** Conditions of the active rows of this rank in their order, as the rows make
-     * them. */
+    /** Conditions of the active rows of this rank as the rows make them, in the order in which
+     * they are offered: those along normals first. */
     template <class Visit>
     void
     for_each_condition(const Visit &visit)
     {
       unsigned int k = 0;
-      for (ContactRow &row : rows())
-        {
-          const unsigned int accepted = row.accepted, refused = row.refused;
-          const auto         conditions = start_row(row, false);
-          row.accepted                  = accepted;
-          row.refused                   = refused;
-          for (unsigned int i = 0; i < conditions.size(); ++i)
-            visit(k++, row, i, conditions[i]);
-        }
+      for (const bool stick : {false, true})
+        for (ContactRow &row : rows())
+          {
+            const unsigned int accepted = row.accepted, refused = row.refused;
+            const auto         conditions = start_row(row, false);
+            row.accepted                  = accepted;
+            row.refused                   = refused;
+            for (unsigned int i = 0; i < conditions.size(); ++i)
+              if ((i > 0) == stick)
+                visit(k++, row, i, conditions[i]);
+          }
     }
 
     /** A displacement at all nodes that the system refers to. */
@@ -372,10 +379,15 @@ end
 
   private:
     static std::vector<std::string>
-    overrides(const std::string &pairing, const std::string &enforcement, const Friction &friction)
+    overrides(const std::string &pairing,
+              const std::string &enforcement,
+              const Friction    &friction,
+              const bool         beyond_edge)
     {
       std::vector<std::string> result = {"Contact/Enforcement=" + enforcement,
                                          "Contact pair pair/Behaviour=" + friction.behaviour};
+      if (beyond_edge)
+        result.insert(result.end(), over_edge.begin(), over_edge.end());
       if (pairing != "obstacle")
         result.push_back("Contact pair pair/Pairing=" + pairing);
       // Soft enough that the cone is not too large for slip.
@@ -573,9 +585,10 @@ end
         const std::string &pairing,
         const std::string &enforcement,
         const Friction    &friction,
-        const bool         with_numbers)
+        const bool         with_numbers,
+        const bool         beyond_edge = false)
   {
-    Case       c(text, pairing, enforcement, friction);
+    Case       c(text, pairing, enforcement, friction, beyond_edge);
     const auto frozen     = errors_of(c, false);
     const auto consistent = errors_of(c, true);
 
@@ -589,7 +602,8 @@ end
                    row.friction->excess <= 0.);
       }
     const unsigned int count = Utilities::MPI::sum(c.n_rows, MPI_COMM_WORLD);
-    out << pairing << ", " << enforcement << ", " << friction.name << " (" << count << " rows, "
+    out << pairing << ", " << enforcement << ", " << friction.name
+        << (beyond_edge ? ", over an edge" : "") << " (" << count << " rows, "
         << Utilities::MPI::sum(c.n_penetrate, MPI_COMM_WORLD) << " penetrate):";
     for (unsigned int i = 0; i < n_errors; ++i)
       {
@@ -630,4 +644,8 @@ main(int argc, char **argv)
             friction.behaviour == "frictionless")
           check(
             pairing == "obstacle" ? obstacle : blocks, pairing, enforcement, friction, argc > 1);
+  // Cones that depend on the area.
+  for (const Friction &friction : frictions)
+    if (friction.behaviour == "tresca")
+      check(blocks, "averaged", "lagrange multipliers", friction, argc > 1, true);
 }

@@ -25,6 +25,8 @@ BALANCE = 1e-6
 PENETRATION = 1e-6
 # Relative to the largest pressure, in pictures.
 PRESSURE = 1e-4
+# Relative to the size of the scene: slip that has no direction.
+ROUND_OFF = 1e-10
 
 
 def largest_force(scene, result):
@@ -165,7 +167,7 @@ def against_slip(scene, result):
         shear, slip = node.shear(), node.slip
         size = norm(shear) * norm(slip)
         if pair.behaviour == "frictionless" or node.status != 1 or size == 0 or \
-                norm(slip) < 1e-3 * longest or \
+                norm(slip) < max(1e-3 * longest, ROUND_OFF * scene.size()) or \
                 norm(shear) < 1e-2 * abs(node.normal_traction()):
             continue
         cosine = sum(a * b for a, b in zip(shear, slip)) / size

@@ -41,8 +41,8 @@ namespace Touchstone
       {
         // TODO: the radius L of the cone, a force, from the normal force, the area
         // (pressure = force / area), the length of the slip path up to the last step,
-        // and whether the node slips. The second number is dL / d(normal force): a
-        // wrong one costs iterations, not accuracy.
+        // and whether the node slips. The second number is dL / d(normal force), a third
+        // would be dL / d(area): a wrong one costs iterations, not accuracy.
         return {coefficient * input.normal_force, coefficient};
       }
 

@@ -70,8 +70,8 @@ namespace Touchstone
         const double tanh   = std::tanh(p / p_0);
         const double mu     = mu_0 - (mu_0 - mu_1) * tanh;
         const double dmu_dp = -(mu_0 - mu_1) * (1. - tanh * tanh) / p_0;
-        // L = mu(lambda / A) lambda, dL / dlambda = mu + p mu'.
-        return {mu * input.normal_force, mu + p * dmu_dp};
+        // L = mu(lambda / A) lambda, dL / dlambda = mu + p mu', dL / dA = -p^2 mu'.
+        return {mu * input.normal_force, mu + p * dmu_dp, -p * p * dmu_dp};
       }
 
     private:

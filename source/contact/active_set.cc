@@ -99,7 +99,14 @@ namespace Touchstone
         {
           row.clear_force();
           if (row.friction && row.active())
-            row.friction->base = row.friction->start;
+            {
+              row.friction->base = row.friction->start;
+              // Springs of regularised friction resist from the next linear system on; their
+              // force acts after it.
+              if (row.friction->carried)
+                respond(row);
+              row.force = Tensor<1, dim>();
+            }
           return;
         }
       if (row.status == ContactStatus::stick && !row.friction->carried)
@@ -185,6 +192,12 @@ namespace Touchstone
                        (row.tied ? row.gap_vector.norm() - row.granted_gap
                                  : std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
                          row.size);
+          // What is left of a gap is elastic slip of the other rows of a shared node, and so
+          // friction.
+          if (row.friction && row.friction->shared && row.active() && row.normal_accepted)
+            result.gap = std::max(result.gap,
+                                  std::abs(row.gap - row.granted_gap) / row.size * row.friction->c /
+                                    row.stiffness);
           // What sticks without elastic slip must not have moved.
           if (row.friction && !row.friction->carried && !row.dropped())
             result.gap = std::max(result.gap, slip_off_direction(row) / row.size);

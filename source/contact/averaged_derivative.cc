@@ -43,12 +43,69 @@ namespace Touchstone
       /** The smallest gap at any point, and at the nodes. */
       Closest<n> least, own[n];
 
+      /** @param master_face And its differentiation at the point. */
       void
       add(const FaceDifferentiator        &slave,
           const OverlapPointDerivative<n> &point,
-          const FaceDerivative            &master,
-          bool                             smooth);
+          const FaceGeometry              &master_face,
+          const FaceDerivative            &master);
     };
+
+    /** The weight of a point as the inclination of the surfaces reduces it: changes @p weight and
+     * @p d_weight, numbered as OverlapPointDerivative does. @return false if nothing is left. */
+    template <unsigned int n>
+    bool
+    take_facing_part(const Face                                   &slave,
+                     const OverlapPointDerivative<n>              &point,
+                     const FaceGeometry                           &master,
+                     const Tensor<1, dim>                         &normal,
+                     double                                       &weight,
+                     typename OverlapPointDerivative<n>::Gradient &d_weight)
+    {
+      const Tensor<1, dim> plane = plane_normal(slave);
+      const FacingPart     part(
+        facing_cosine(plane, normal, master.face(), master.exact_surface(), point.master));
+      if (part.by_cosine == 0.)
+        return part.value > 0.;
+      const FaceShapes     shapes(master.face().degree, point.master);
+      const FacePoint      x       = evaluate(master.face(), master.exact_surface(), point.master);
+      const Tensor<1, dim> product = cross_product_3d(x.tangents[0], x.tangents[1]);
+      const double         sign    = product * normal < 0. ? 1. : -1.;
+      const Tensor<1, dim> own     = sign * product / product.norm();
+      const Tensor<1, dim> by_product = sign * (plane * normalisation_derivative(product));
+      // d cosine by the tangents of the master surface.
+      const Tensor<1, dim> by_t[2] = {cross_product_3d(x.tangents[1], by_product),
+                                      cross_product_3d(by_product, x.tangents[0])};
+      std::array<Tensor<1, dim>, 3> second;
+      if (master.exact_surface() != nullptr)
+        second = master.second_derivatives(point.master);
+      else
+        {
+          const auto hessians = shape_hessians(master.face().degree, point.master);
+          for (unsigned int m = 0; m < n; ++m)
+            for (unsigned int s = 0; s < 3; ++s)
+              second[s] +=
+                hessians[m][s] * (master.face().reference[m] + master.face().displacement[m]);
+        }
+      const double by_xi[2] = {by_t[0] * second[0] + by_t[1] * second[1],
+                               by_t[0] * second[1] + by_t[1] * second[2]};
+      const auto   by_slave = plane_normal_derivatives(slave);
+
+      typename OverlapPointDerivative<n>::Gradient d_cosine;
+      for (unsigned int v = 0; v < OverlapPointDerivative<n>::n_variables; ++v)
+        d_cosine[v] = by_xi[0] * point.d_master[0][v] + by_xi[1] * point.d_master[1][v];
+      for (unsigned int m = 0; m < n; ++m)
+        for (unsigned int e = 0; e < dim; ++e)
+          {
+            d_cosine[dim * m + e] += (own * by_slave[m])[e];
+            d_cosine[dim * (n + m) + e] +=
+              shapes.gradient[m][0] * by_t[0][e] + shapes.gradient[m][1] * by_t[1][e];
+          }
+      for (unsigned int v = 0; v < OverlapPointDerivative<n>::n_variables; ++v)
+        d_weight[v] = part.value * d_weight[v] + weight * part.by_cosine * d_cosine[v];
+      weight *= part.value;
+      return part.value > 0.;
+    }
 
 
 
@@ -56,12 +113,17 @@ namespace Touchstone
     void
     Integrals<n>::add(const FaceDifferentiator        &slave,
                       const OverlapPointDerivative<n> &point,
-                      const FaceDerivative            &master,
-                      const bool                       smooth)
+                      const FaceGeometry              &master_face,
+                      const FaceDerivative            &master)
     {
+      const bool         smooth   = master_face.smooth();
       const FacePosition on_slave = slave.position(point.slave);
       const FaceShapes  &shapes   = on_slave.shapes;
-      const double       w        = point.weight;
+      double             w        = point.weight;
+      Gradient           d_w      = point.d_weight;
+      if (!take_facing_part<n>(
+            slave.geometry.face(), point, master_face, master.normal, w, d_w))
+        return;
 
       // The integrands q and their derivatives.
       double   value[n_columns];
@@ -140,7 +202,7 @@ namespace Touchstone
           const double wn = w * shapes.value[j];
           Gradient     d_wn;
           for (unsigned int v = 0; v < n_variable; ++v)
-            d_wn[v] = shapes.value[j] * point.d_weight[v] + w * d_shape[j][v];
+            d_wn[v] = shapes.value[j] * d_w[v] + w * d_shape[j][v];
           for (unsigned int k = 0; k <= j; ++k)
             {
               mass[j][k] += wn * shapes.value[k];
@@ -280,10 +342,7 @@ namespace Touchstone
         const Master &master = masters.try_emplace(face, search.geometry(*face)).first->second;
         auto         &part   = parts.emplace_back(face, Integrals<n>()).second;
         for (const auto &point : points)
-          part.add(on_slave,
-                   point,
-                   master.differentiator.at(point.master),
-                   master.geometry.smooth());
+          part.add(on_slave, point, master.geometry, master.differentiator.at(point.master));
         nodes.insert(nodes.end(), face->nodes.begin(), face->nodes.begin() + n);
       }
     if (parts.empty())
@@ -333,6 +392,11 @@ namespace Touchstone
           for (unsigned int v = 0; v < n_variables; ++v)
             d_mass[(v * n + k) * n + j] = d_mass[(v * n + j) * n + k];
         }
+    double total = 0.;
+    for (unsigned int j = 0; j < n; ++j)
+      total += q(j, 0);
+    if (total <= 0.)
+      return; // nothing faces the face
     if (basis)
       to_trace_basis(*basis, mass, q, d_mass, d_q, n_variables);
     // What the rows of its nodes take of the covered part.
@@ -342,11 +406,8 @@ namespace Touchstone
     std::array<double, Face::max_nodes> areas{};
     for (unsigned int i = 0; i < n; ++i)
       areas[i] = q(i, 0);
-    const CoverShares        shares(n,
-                             areas,
-                             whole_areas(slave, basis, /*reference=*/true),
-                             gradual,
-                             /*with_derivative=*/true);
+    const auto               whole = whole_areas(slave, basis, /*reference=*/true);
+    const CoverShares        shares(n, areas, whole, gradual, /*with_derivative=*/true);
     const FullMatrix<double> weights = shares.weights(mass);
     FullMatrix<double>       solution(n, n_columns); // M^-1 Q
     mass.mmult(solution, q);
@@ -356,6 +417,15 @@ namespace Touchstone
       return k >= n  ? Stencil{{nodes[k - n], 1.}}
              : basis ? basis->stencil(k)
                      : Stencil{{slave.nodes[k], 1.}};
+    };
+
+    // The area of a row is that part of the reference area which is covered now; where all of it
+    // is, it stays so.
+    const auto present      = whole_areas(slave, basis, /*reference=*/false);
+    const auto d_present    = whole_area_derivatives(slave, basis);
+    const auto area_changes = [&](const unsigned int k) {
+      return rows.at(own[k]).row->friction &&
+             std::abs(shares.share[k][k] - present[k]) > 1e-10 * present[k];
     };
 
     std::vector<double> d(n_columns);
@@ -374,6 +444,7 @@ namespace Touchstone
               stencil.push_back(entry == row.stencil.end() ? numbers::invalid_unsigned_int
                                                            : entry->second);
             }
+        const bool covered_in_part = area_changes(k);
         // The weight function in the shape functions, psi'_k = sum_j dual_j N_j.
         double dual[n];
         for (unsigned int j = 0; j < n; ++j)
@@ -400,6 +471,12 @@ namespace Touchstone
                   d[c] += dual[j] * dq[c] - taken * solution(j, c);
               }
             const double d_given = d_q[(v * n + k) * n_columns] - d_share[k];
+            double       d_reference = 0.;
+            if (covered_in_part)
+              d_reference = whole[k] / present[k] *
+                            (d_share[k] - (v / dim < n ? shares.share[k][k] / present[k] *
+                                                           d_present[v / dim][v % dim][k] :
+                                                         0.));
             for (const auto &[node, weight] : moved(v / dim))
               {
                 const unsigned int e  = v % dim;
@@ -409,6 +486,11 @@ namespace Touchstone
                 row.d_area[to][e] += weight * d[0];
                 row.d_kept[to][e] += weight * d_share[k];
                 row.d_given[to][e] += weight * d_given;
+                if (covered_in_part)
+                  {
+                    result.area.resize(result.nodes.size());
+                    result.area[to][e] += weight * d_reference;
+                  }
                 for (unsigned int c = 0; c < dim; ++c)
                   {
                     result.gap_vector[to][c][e] += weight * d[1 + c];
@@ -549,6 +631,8 @@ namespace Touchstone
     const GapCorrection &correction = row.correction;
     for (auto *list : {&row.d_area, &row.d_kept, &row.d_given, &row.d_least, &row.d_own})
       list->resize(result.nodes.size());
+    if (!result.area.empty())
+      result.area.resize(result.nodes.size());
     for (std::size_t a = 0; a < result.nodes.size(); ++a)
       {
         result.normal[a] = direction * result.normal[a];

@@ -307,6 +307,8 @@ namespace Touchstone
       std::vector<std::array<Values, Face::max_nodes>> mixed(masters.size());
       double                                           least = std::numeric_limits<double>::max();
       Values                                           own;
+      double                                           total = 0.;
+      const Tensor<1, dim>                             plane = plane_normal(slave);
       own.fill(least);
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
@@ -317,6 +319,12 @@ namespace Touchstone
               const FaceShapes shapes(slave.degree, point.slave);
               const FaceShapes master_shapes(master.degree, point.master);
               const auto [x, normal]   = on_master.position_and_normal(point.master, master_shapes);
+              const double part =
+                FacingPart(
+                  facing_cosine(plane, normal, master, on_master.exact_surface(), point.master))
+                  .value;
+              if (part == 0.)
+                continue;
               const Tensor<1, dim> gap = on_slave.position(point.slave, shapes) - x;
               least                    = std::min(least, gap * normal);
               if (point.weight == 0.)
@@ -326,9 +334,11 @@ namespace Touchstone
                       own[j] = std::min(own[j], gap * normal);
                   continue;
                 }
+              const double weight = part * point.weight;
+              total += weight;
               for (unsigned int j = 0; j < n; ++j)
                 {
-                  const double value = point.weight * shapes.value[j];
+                  const double value = weight * shapes.value[j];
                   for (unsigned int k = 0; k < n; ++k)
                     mass[j][k] += value * shapes.value[k];
                   for (unsigned int m = 0; m < master.n_nodes(); ++m)
@@ -340,6 +350,8 @@ namespace Touchstone
             }
         }
 
+      if (total <= 0.)
+        return;
       // The basis N~ of the continuous displacements is C^T N, and the dual one of the
       // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
       // those with N.

@@ -1,6 +1,9 @@
 #include <touchstone/contact/exact_enforcement.h>
 #include <touchstone/contact/row_terms.h>
 
+#include <algorithm>
+#include <set>
+
 namespace Touchstone
 {
   using namespace dealii;
@@ -10,14 +13,16 @@ namespace Touchstone
   {
     for (auto &pair_rows : contact.rows)
       for (ContactRow &row : pair_rows)
-        if (row.active() && !row.tied)
-          {
-            if (row.friction)
-              choose_friction(row);
-            if (solved && row.held())
-              row.friction->augment_unheld(row.stiffness);
-            respond(row);
-          }
+        {
+          // Of open rows, too: they may close before the next linear system.
+          if (row.friction)
+            choose_friction(row);
+          if (!row.active() || row.tied)
+            continue;
+          if (solved && row.held())
+            row.friction->augment_unheld(row.stiffness);
+          respond(row);
+        }
     solved = false;
   }
 
@@ -28,14 +33,27 @@ namespace Touchstone
   {
     accepted.clear();
     prepare(contact, system);
+    const auto offer = [&](ContactRow &row, Condition &condition) {
+      adjust(row, condition);
+      if (row.take(condition, graph.accept(condition, treatment())))
+        accepted.push_back({&row, condition, graph.accepted().size() - 1});
+    };
+    // Nothing may penetrate: what closes gaps precedes what holds nodes along surfaces.
+    std::vector<std::pair<ContactRow *, std::vector<Condition>>> stick;
     for (auto &pair_rows : contact.rows)
       for (ContactRow &row : pair_rows)
-        for (Condition &condition : start_row(row, system.keep_symmetric))
-          {
-            adjust(row, condition);
-            if (row.take(condition, graph.accept(condition, treatment())))
-              accepted.push_back({&row, condition, graph.accepted().size() - 1});
-          }
+        {
+          std::vector<Condition> conditions = start_row(row, system.keep_symmetric);
+          const std::size_t      n          = row.tied ? conditions.size() : 1;
+          for (std::size_t k = 0; k < std::min(n, conditions.size()); ++k)
+            offer(row, conditions[k]);
+          if (conditions.size() > n)
+            stick.emplace_back(&row, std::vector<Condition>(conditions.begin() + n,
+                                                            conditions.end()));
+        }
+    for (auto &[row, conditions] : stick)
+      for (Condition &condition : conditions)
+        offer(*row, condition);
     add_to_system(accepted, system);
   }
 
@@ -48,14 +66,12 @@ namespace Touchstone
       entry.row->force = Tensor<1, dim>();
     for (std::size_t k = 0; k < accepted.size(); ++k)
       accepted[k].row->force += forces[k] * accepted[k].condition.direction;
-    const ContactRow *last = nullptr;
+    std::set<ContactRow *> found;
     for (const Accepted &entry : accepted)
       {
-        // The conditions of a row follow each other.
         ContactRow &row = *entry.row;
-        if (&row == last)
+        if (!found.insert(&row).second)
           continue;
-        last       = &row;
         row.lambda = row.force * row.normal;
         if (!row.friction || !row.held())
           continue;

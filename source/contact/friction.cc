@@ -42,7 +42,7 @@ namespace Touchstone
   void
   FrictionState::clear_force()
   {
-    base = direction = last_direction = rest = coupling = turn = Vec();
+    base = direction = last_direction = rest = coupling = area_coupling = turn = Vec();
     unheld.clear();
     slope = last_slope = Mat();
     limit = excess = 0.;
@@ -75,7 +75,7 @@ namespace Touchstone
   choose_friction(ContactRow &row)
   {
     FrictionState &f = *row.friction;
-    if (!f.exact)
+    if (!f.exact || f.shared)
       {
         f.regularise();
         return;
@@ -127,7 +127,7 @@ namespace Touchstone
     f.limit            = limit.force;
     f.excess           = size - limit.force;
     Vec force;
-    f.direction = f.rest = f.coupling = f.turn = Vec();
+    f.direction = f.rest = f.coupling = f.area_coupling = f.turn = Vec();
     f.slope                                    = Mat();
     if (!slipped)
       {
@@ -146,6 +146,7 @@ namespace Touchstone
         force               = limit.force * direction;
         f.direction         = direction;
         f.coupling          = limit.slope * direction;
+        f.area_coupling     = limit.area_slope * direction;
         f.rest              = (limit.force - limit.slope * std::max(row.lambda, 0.)) * direction;
         const double room   = f.carried ? size : std::max(f.excess, 0.);
         const double kappa  = limit.force < stiffest * row.stiffness / f.c * room

@@ -129,7 +129,6 @@ namespace Touchstone
       visit(f.anchor_way);
       visit(f.anchor_gap);
       visit(f.way_to_touch);
-      visit(f.area);
       visit(f.stored);
       visit(f.slip_length);
       visit(f.work);

@@ -224,21 +224,42 @@ namespace Touchstone
       return false;
     }
 
+    /** The corner that is farthest in a direction along which faces have hardly ever an edge.
+     * Where edges coincide round-off decides which corner clipping begins with. */
+    template <typename Number>
+    std::size_t
+    first_corner(const Polygon<Number> &corners)
+    {
+      const auto way = [&](const std::size_t i) {
+        return 0.927 * value(corners[i].x) + 0.375 * value(corners[i].y);
+      };
+      std::size_t first = 0;
+      for (std::size_t i = 1; i < corners.size(); ++i)
+        if (way(i) > way(first))
+          first = i;
+      return first;
+    }
+
     /** Visit points of a polygon, with weights that integrate shape functions of degree one
-     * and their squares exactly: of quadrilaterals with a common corner, and of a triangle if
-     * the number of corners is odd. With fewer points it would matter which corner comes
-     * first, which round-off decides, and Newton's method would take more iterations. */
+     * and their squares exactly on plane facets: of quadrilaterals with a common corner, and of a
+     * triangle if the number of corners is odd. The error on others depends on the corner that
+     * comes first: if that changed in each iteration, nothing would converge. */
     template <typename Number, typename Visitor>
     void
-    for_each_point(const Polygon<Number> &corners, const Visitor &visit)
+    for_each_point(const Polygon<Number> &corners, const unsigned int degree, const Visitor &visit)
     {
-      static const QGauss<2>        of_square(3);
-      static const QGaussSimplex<2> of_triangle(3);
-      const Point2<Number>         &origin = corners[0];
-      for (std::size_t i = 1; i + 1 < corners.size(); i += 2)
+      // Products of two functions of this degree, each in both directions.
+      static const QGauss<2>                   squares[2]   = {QGauss<2>(3), QGauss<2>(5)};
+      static const QWitherdenVincentSimplex<2> triangles[2] = {QWitherdenVincentSimplex<2>(3),
+                                                               QWitherdenVincentSimplex<2>(5)};
+      const Quadrature<2> &of_square = squares[degree - 1], &of_triangle = triangles[degree - 1];
+      const std::size_t             n = corners.size(), first = first_corner(corners);
+      const auto corner = [&](const std::size_t i) { return corners[(first + i) % n]; };
+      const Point2<Number> origin = corner(0);
+      for (std::size_t i = 1; i + 1 < n; i += 2)
         {
-          const Point2<Number> a = corners[i] - origin, b = corners[i + 1] - origin;
-          if (i + 2 == corners.size())
+          const Point2<Number> a = corner(i) - origin, b = corner(i + 1) - origin;
+          if (i + 2 == n)
             {
               const Number double_area = cross(a, b);
               for (unsigned int q = 0; q < of_triangle.size(); ++q)
@@ -250,7 +271,7 @@ namespace Touchstone
               continue;
             }
           // origin + r a + s c + r s (b - a - c)
-          const Point2<Number> c = corners[i + 2] - origin;
+          const Point2<Number> c = corner(i + 2) - origin;
           const Point2<Number> mixed{b.x - a.x - c.x, b.y - a.y - c.y};
           for (unsigned int q = 0; q < of_square.size(); ++q)
             {
@@ -280,7 +301,7 @@ namespace Touchstone
               if (common.size() < 3 || area(common) < 1e-12 * whole)
                 continue;
               remove_flat_corners(common, 1e-9 * whole);
-              for_each_point(common, visit);
+              for_each_point(common, slave.face.degree, visit);
               for (const Point2<Number> &corner : common)
                 visit(corner, Number(0.));
             }

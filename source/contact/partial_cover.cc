@@ -1,3 +1,4 @@
+#include <touchstone/contact/face_derivative.h>
 #include <touchstone/contact/partial_cover.h>
 
 #include <deal.II/base/quadrature_lib.h>
@@ -28,6 +29,37 @@ namespace Touchstone
      * closer to count as another point; and how far that must be open for the row not to be
      * closer, of the size of a face. */
     constexpr double deep = 2., elsewhere = 0.5, hardly_open = 1e-4, open = 1e-2;
+
+    /** Cosines of the angles between the surfaces from which on less than all and nothing of
+     * the area counts, and one at which it is clear from the averaged normal that all does. */
+    constexpr double inclined = 0.7, steep = 0.3, hardly_inclined = 0.85;
+
+    /** The tangents at the centre of a face, and their product. */
+    struct CentreTangents
+    {
+      FaceShapes     shapes;
+      Tensor<1, dim> t[2], product;
+
+      explicit CentreTangents(const Face &face)
+        : shapes(face.degree, {{0., 0.}})
+      {
+        Tensor<1, dim> outward;
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          {
+            outward += face.normals[m];
+            for (unsigned int a = 0; a < 2; ++a)
+              t[a] += shapes.gradient[m][a] * (face.reference[m] + face.displacement[m]);
+          }
+        product = cross_product_3d(t[0], t[1]);
+        if (product * outward < 0.)
+          {
+            std::swap(t[0], t[1]);
+            product *= -1.;
+            for (unsigned int m = 0; m < face.n_nodes(); ++m)
+              std::swap(shapes.gradient[m][0], shapes.gradient[m][1]);
+          }
+      }
+    };
 
     /** Of the size of a face: on flat faces mean and closest point can be the same. */
     constexpr double round_off = 1e-10;
@@ -80,29 +112,118 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Quadrature points of a face: weight, shape functions and tangents to @p visit. */
+    template <class Visit>
+    void
+    for_each_point(const Face &face, const bool reference, const Visit &visit)
+    {
+      static const QGauss<2> quadrature(3);
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          const FaceShapes shapes(
+            face.degree, {{2. * quadrature.point(q)[0] - 1., 2. * quadrature.point(q)[1] - 1.}});
+          std::array<Tensor<1, dim>, 2> t;
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            {
+              Tensor<1, dim> x = face.reference[m];
+              if (!reference)
+                x += face.displacement[m];
+              for (unsigned int a = 0; a < 2; ++a)
+                t[a] += shapes.gradient[m][a] * x;
+            }
+          visit(4. * quadrature.weight(q), shapes, t);
+        }
+    }
+  } // namespace
+
+
+
   std::array<double, Face::max_nodes>
   whole_areas(const Face &face, const TraceBasis *basis, const bool reference)
   {
-    static const QGauss<2>              quadrature(3);
     std::array<double, Face::max_nodes> result{};
-    for (unsigned int q = 0; q < quadrature.size(); ++q)
-      {
-        const FaceShapes shapes(
-          face.degree, {{2. * quadrature.point(q)[0] - 1., 2. * quadrature.point(q)[1] - 1.}});
-        Tensor<1, dim> t[2];
-        for (unsigned int m = 0; m < face.n_nodes(); ++m)
-          {
-            Tensor<1, dim> x = face.reference[m];
-            if (!reference)
-              x += face.displacement[m];
-            for (unsigned int a = 0; a < 2; ++a)
-              t[a] += shapes.gradient[m][a] * x;
-          }
-        const double weight = 4. * quadrature.weight(q) * cross_product_3d(t[0], t[1]).norm();
-        for (unsigned int m = 0; m < face.n_nodes(); ++m)
-          result[m] += weight * shapes.value[m];
-      }
+    for_each_point(face, reference, [&](const double w, const FaceShapes &shapes, const auto &t) {
+      const double weight = w * cross_product_3d(t[0], t[1]).norm();
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        result[m] += weight * shapes.value[m];
+    });
     return basis ? basis->apply(result) : result;
+  }
+
+
+
+  Tensor<1, dim>
+  plane_normal(const Face &face)
+  {
+    const Tensor<1, dim> product = CentreTangents(face).product;
+    return product / product.norm();
+  }
+
+
+
+  std::array<Tensor<2, dim>, Face::max_nodes>
+  plane_normal_derivatives(const Face &face)
+  {
+    const CentreTangents                        centre(face);
+    const Tensor<2, dim>                        unit = normalisation_derivative(centre.product);
+    std::array<Tensor<2, dim>, Face::max_nodes> result;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      result[m] = unit * (centre.shapes.gradient[m][1] * cross_matrix(centre.t[0]) -
+                          centre.shapes.gradient[m][0] * cross_matrix(centre.t[1]));
+    return result;
+  }
+
+
+
+  std::array<std::array<std::array<double, Face::max_nodes>, dim>, Face::max_nodes>
+  whole_area_derivatives(const Face &face, const TraceBasis *basis)
+  {
+    std::array<std::array<std::array<double, Face::max_nodes>, dim>, Face::max_nodes> result{};
+    for_each_point(face, false, [&](const double w, const FaceShapes &shapes, const auto &t) {
+      const Tensor<1, dim> cross  = cross_product_3d(t[0], t[1]);
+      const Tensor<1, dim> normal = cross / cross.norm();
+      const Tensor<1, dim> by_first = cross_product_3d(t[1], normal),
+                           by_second = cross_product_3d(normal, t[0]);
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        for (unsigned int e = 0; e < dim; ++e)
+          for (unsigned int k = 0; k < face.n_nodes(); ++k)
+            result[m][e][k] += w * shapes.value[k] *
+                               (shapes.gradient[m][0] * by_first[e] +
+                                shapes.gradient[m][1] * by_second[e]);
+    });
+    if (basis)
+      for (auto &of_node : result)
+        for (auto &of_component : of_node)
+          of_component = basis->apply(of_component);
+    return result;
+  }
+
+
+
+  FacingPart::FacingPart(const double cosine)
+  {
+    using Number = Sacado::Fad::SFad<double, 1>;
+    const Number part(smooth_step(Number(1, 0, cosine), steep, inclined));
+    value     = part.val();
+    by_cosine = part.dx(0);
+  }
+
+
+
+  double
+  facing_cosine(const Tensor<1, dim>        &plane,
+                const Tensor<1, dim>        &normal,
+                const Face                  &master,
+                const AnalyticSurface       *exact,
+                const std::array<double, 2> &xi)
+  {
+    if (const double cosine = -(plane * normal); cosine > hardly_inclined)
+      return cosine;
+    const FacePoint      point   = evaluate(master, exact, xi);
+    const Tensor<1, dim> product = cross_product_3d(point.tangents[0], point.tangents[1]);
+    return (product * normal < 0. ? 1. : -1.) * (plane * product) / product.norm();
   }
 
 

@@ -276,7 +276,7 @@ namespace Touchstone
       choose_friction(ContactRow &row, const double epsilon) const override
       {
         FrictionState &f = *row.friction;
-        if (!f.exact)
+        if (!f.exact || f.shared)
           {
             f.regularise();
             return;

@@ -271,6 +271,14 @@ namespace Touchstone
             change.emplace_back(node, slope * matrix);
         add_stiffness(row, change);
       }
+    if (row.derivative && !row.derivative->area.empty() && !system.keep_symmetric &&
+        f.area_coupling.norm_square() > 0.)
+      {
+        NodalForm area;
+        for (std::size_t a = 0; a < row.derivative->nodes.size(); ++a)
+          area.emplace_back(row.derivative->nodes[a], row.derivative->area[a]);
+        add_stiffness(row, -f.area_coupling, area);
+      }
     if (!f.spin_gradient.empty() && !system.keep_symmetric && f.turn.norm_square() > 0.)
       add_stiffness(row, f.turn, f.spin_gradient);
   }

@@ -19,6 +19,9 @@ namespace Touchstone
 
   namespace
   {
+    /** Of the size of a face: closer to it a node lies on its edge. */
+    constexpr double on_edge = 1e-7;
+
     double
     half_diagonal(const BoundingBox<dim> &box)
     {
@@ -374,10 +377,13 @@ namespace Touchstone
               present = {&face, projection};
             if (point.in_contact && point.present_face)
               margin = std::max(margin, hold * size(face));
-            // Points on a common edge are equally close up to round-off: the face
-            // with the smaller key gets the node, on any number of ranks. But a node
-            // that has just slid over the edge must not be called back to it.
-            const double tie = 1e-12 * projection.distance_squared + 1e-26 * reach * reach;
+            // Points on a common edge are equally close: the face with the smaller key gets
+            // the node, on any number of ranks. Normals jump there a little, and meshes
+            // that match or are symmetric put nodes there, where round-off or the jump itself
+            // would choose now this face and now that one. But a node that has just slid over
+            // the edge must not be called back to it.
+            const double edge = on_edge * size(face);
+            const double tie  = 1e-12 * projection.distance_squared + edge * edge;
             if (projection.distance_squared < best_distance - tie ||
                 (best.face && projection.distance_squared < best_distance + tie &&
                  face.key < best.face->key))

@@ -62,13 +62,9 @@ namespace Touchstone
           f.slip_gradient.clear();
           f.spin_gradient.clear();
 
-          if (f.has_anchor)
-            f.slip = f.tangential * (way_from_anchor(row) - f.carry(f.anchor_way));
-          else
-            {
-              f.slip = f.tangential * relative_displacement(row);
-              f.area = row.area;
-            }
+          f.area = row.area;
+          f.slip = f.tangential * (f.has_anchor ? way_from_anchor(row) - f.carry(f.anchor_way) :
+                                                  relative_displacement(row));
         }
   }
 
@@ -128,7 +124,6 @@ namespace Touchstone
     // surface moves with it. What an open node has yet to go is no slip.
     FrictionState &f = *row.friction;
     f.has_anchor     = true;
-    f.area           = row.area;
     f.anchor.clear();
     f.anchor_offset = Tensor<1, dim>();
     if (pairs[row.pair].small)

@@ -36,7 +36,7 @@ namespace Touchstone
       FrictionLimit
       limit(const FrictionInput &input) const override
       {
-        return {strength * input.area, 0.};
+        return {strength * input.area, 0., strength};
       }
 
     private:

@@ -340,6 +340,8 @@ namespace Touchstone
     graph.clear();
     missed           = boundary_conditions.prescribe(time, u, graph);
     state.prescribed = missed <= scene.newton.gap_tolerance * length;
+    if (scene.has_friction())
+      contact.find_shared_nodes(graph);
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);

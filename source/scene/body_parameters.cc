@@ -320,6 +320,11 @@ namespace Touchstone
                 body_force[d],
                 letter + " component of the force on the body, gravity for example, a formula in "
                          "x, y, z, t; empty: none. [force per reference volume]");
+        formula("Reference displacement",
+                reference_displacement[d],
+                letter + " component of the displacement that the result is compared with if "
+                         "'Reference solution/Type' is 'formula', a formula in x, y, z, t; empty: "
+                         "not compared. [length]");
       }
     prm.add_parameter("Boundary conditions",
                       conditions,
@@ -402,7 +407,8 @@ namespace Touchstone
         for (const auto &[key, expression, variables] :
              {std::make_tuple("Initial velocity ", &initial_velocity[d], "x,y,z"),
               std::make_tuple("Initial displacement ", &initial_displacement[d], "x,y,z"),
-              std::make_tuple("Body force ", &body_force[d], "x,y,z,t")})
+              std::make_tuple("Body force ", &body_force[d], "x,y,z,t"),
+              std::make_tuple("Reference displacement ", &reference_displacement[d], "x,y,z,t")})
           if (!expression->empty())
             check_expression(section(), key + letter, *expression, variables);
       }

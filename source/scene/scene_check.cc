@@ -65,7 +65,6 @@ namespace Touchstone
     newton.check("Newton");
     linear_solver.check("Linear solver");
     output.check("Output");
-    reference.check("Reference solution");
 
     if (contact.enforcement == "lagrange multipliers" && linear_solver.iterative())
       throw InputError("Contact",
@@ -82,8 +81,35 @@ namespace Touchstone
                        "makes the system unsymmetric, which 'Belos CG' cannot solve",
                        "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
                        "'Belos GMRES'");
+    check_reference();
+  }
+
+
+
+  void
+  Scene::check_reference() const
+  {
+    reference.check("Reference solution");
     if (!reference.pair.empty())
       check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
+    if (reference.type == "formula")
+      return;
+    const auto no_formula =
+      [&](const std::string &section, const std::string &key, const std::string &text) {
+        if (!text.empty())
+          throw InputError(section,
+                           key,
+                           text,
+                           "means nothing while 'Reference solution/Type' is '" + reference.type +
+                             "'",
+                           "remove it, or set that type to 'formula'");
+      };
+    no_formula("Reference solution", "Pressure", reference.pressure);
+    for (const BodyParameters &body : bodies)
+      for (unsigned int d = 0; d < 3; ++d)
+        no_formula(body.section(),
+                   std::string("Reference displacement ") + "xyz"[d],
+                   body.reference_displacement[d]);
   }
 
 

@@ -379,6 +379,12 @@ namespace Touchstone
                       "Named numbers that the type asks for, for example "
                       "'radius: 10, pressure: 5'.",
                       Patterns::Anything());
+    prm.add_parameter("Pressure",
+                      pressure,
+                      "Contact pressure that the result is compared with if the type is "
+                      "'formula', a formula in x, y, z (reference coordinates of the slave "
+                      "surface) and t; empty: not compared. [force per reference area]",
+                      Patterns::Anything());
   }
 
 
@@ -418,5 +424,7 @@ namespace Touchstone
   ReferenceParameters::check(const std::string &section) const
   {
     numbers(section);
+    if (!pressure.empty())
+      check_expression(section, "Pressure", pressure);
   }
 } // namespace Touchstone

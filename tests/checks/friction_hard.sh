@@ -30,6 +30,19 @@ for enforcement in elimination "lagrange multipliers" "augmented lagrange"; do
     "$(awk -v f="$force" -v a="$answer" 'BEGIN { d = f / a - 1; print d < 0 ? -d : d }')" 1e-8
 done
 
+# A slave edge in the corner of two obstacles: what part of the force there is friction does not
+# depend on the enforcement. (The default tolerance of gaps is 5e-6 of the pressure there.)
+for degree in 1 2; do
+  set -- --set "Discretisation/Degree=$degree" --set "Newton/Gap tolerance=1e-10"
+  run "corner_$degree" 1 "$scenes/friction_corner.prm" "$@"
+  run corner_multipliers 1 "$scenes/friction_corner.prm" "$@" \
+    --set "Contact/Enforcement=lagrange multipliers"
+  same "corner_$degree" corner_multipliers 1e-8
+  run corner_augmented 1 "$scenes/friction_corner.prm" "$@" \
+    --set "Contact/Enforcement=augmented lagrange"
+  same "corner_$degree" corner_augmented 1e-6 area=1
+done
+
 # A belt on the cone from end to end, whose slip reverses: T2 / T1 = exp(mu pi / 2).
 run belt 1 "$scenes/friction_belt.prm"
 tension=$(value belt /results/reactions/belt/first_cut 2)

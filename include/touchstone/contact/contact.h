@@ -64,6 +64,17 @@ namespace Touchstone
     void
     differentiate();
 
+    /**
+     * @brief Find the rows whose friction would not be unique while they stick.
+     *
+     * Against an obstacle only the slave node can move. Where @p supports or other active
+     * rows determine its tangential displacement, any force within the cone is in
+     * equilibrium, and how it is divided would depend on the enforcement and the path of
+     * the iteration. There the elastic slip determines it, doc/theory.md 6.1.
+     */
+    void
+    find_shared_nodes(const ConstraintGraph &supports);
+
     /** @brief What an update of the active set did, over all ranks. */
     struct ActiveSetUpdate
     {

@@ -63,8 +63,6 @@ namespace Touchstone
      * it touches, which is no slip: part of anchor_way. */
     double                anchor_gap = 0.;
     std::array<double, 2> way_to_touch{};
-    /** Tributary area there: a law that takes it sees it constant in a step. */
-    double area = 0.;
     /** Tangential force in the frame that moves with the slave surface. */
     std::array<double, 2> stored{};
     /** Slip path, length, and work done against friction: of the slip that is
@@ -76,6 +74,8 @@ namespace Touchstone
     /** @{ */
     /** Tangential slip since the step began. */
     Vec slip;
+    /** Tributary area of the row. */
+    double area = 0.;
     /** Unit tangents; the first one is carried along with the slave surface. */
     std::array<Vec, 2> frame;
     /** Projector onto the directions that friction can act along, which are tangential and
@@ -101,6 +101,8 @@ namespace Touchstone
     Vec              base;
     /** The base is the force that is carried along with the slave surface. */
     bool carried = false;
+    /** The force of stick is not unique: see Contact::find_shared_nodes(). */
+    bool shared = false;
     /** @} */
 
     /** @name Response, see respond() */
@@ -109,8 +111,8 @@ namespace Touchstone
      * the direction is zero while sticking. */
     Vec direction, last_direction;
     Mat slope, last_slope;
-    /** Linearised, t = rest + coupling lambda - slope ds - turn omega. */
-    Vec rest, coupling, turn;
+    /** Linearised, t = rest + coupling lambda + area_coupling dA - slope ds - turn omega. */
+    Vec rest, coupling, area_coupling, turn;
     /** Radius of the cone, force. */
     double limit = 0.;
     /** |t_tr| - L, force: positive asks for slip, negative for stick. */

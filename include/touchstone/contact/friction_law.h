@@ -14,7 +14,7 @@ namespace Touchstone
   {
     /** Normal contact force, >= 0, force. */
     double normal_force = 0.;
-    /** Tributary area. */
+    /** Tributary area in the reference state, as far as it is covered at present. */
     double area = 0.;
     /** Length of the path that the node has slipped up to the last step. */
     double slip_length = 0.;
@@ -29,6 +29,8 @@ namespace Touchstone
     double force = 0.;
     /** Its derivative with respect to the normal force, no unit. */
     double slope = 0.;
+    /** Its derivative with respect to the area, force per area. */
+    double area_slope = 0.;
   };
 
   /**

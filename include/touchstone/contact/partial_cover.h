@@ -16,6 +16,11 @@ namespace Touchstone
   std::array<double, Face::max_nodes>
   whole_areas(const Face &face, const TraceBasis *basis, bool reference);
 
+  /** @brief The derivatives of whole_areas() in the present position: [m][e][k] is that of the
+   * integral of shape function k with respect to component e of the position of node m, length. */
+  std::array<std::array<std::array<double, Face::max_nodes>, dim>, Face::max_nodes>
+  whole_area_derivatives(const Face &face, const TraceBasis *basis);
+
   /**
    * @brief How the rows of averaged pairing share a slave face that is covered in part.
    *
@@ -62,6 +67,42 @@ namespace Touchstone
     dealii::FullMatrix<double>
     weights(dealii::FullMatrix<double> &mass) const;
   };
+
+  /** @brief Outward unit normal of the tangent plane at the centre of a face. */
+  dealii::Tensor<1, dim>
+  plane_normal(const Face &face);
+
+  /** @brief Its derivatives with respect to the positions of the nodes, per length. */
+  std::array<dealii::Tensor<2, dim>, Face::max_nodes>
+  plane_normal_derivatives(const Face &face);
+
+  /**
+   * @brief By which part the area of a slave face counts where the master surface is inclined to
+   * it, doc/theory.md 3.
+   *
+   * Points face each other along the normal of the slave face. Where the other surface is steep,
+   * as towards the equator of a ball over a coarse plane, their distance and its normal change
+   * within a face by more than a row can represent, and its averages, of weights of both signs,
+   * are no gap and no normal that there is: the force of the row would not act against its gap.
+   */
+  struct FacingPart
+  {
+    double value, by_cosine;
+
+    /** @param cosine Of the angle between the slave face and the master surface. */
+    explicit FacingPart(double cosine);
+  };
+
+  /** @brief Cosine of the angle between the plane of a slave face and a master surface with
+   * averaged @p normal; found from the averaged normal alone where that is well below the angle
+   * at which less than all of the area counts.
+   * @param plane plane_normal() of the slave face. @param exact Or null: facets. */
+  double
+  facing_cosine(const dealii::Tensor<1, dim> &plane,
+                const dealii::Tensor<1, dim> &normal,
+                const Face                   &master,
+                const AnalyticSurface        *exact,
+                const std::array<double, 2>  &xi);
 
   /** @brief Whether a point of a face is one of its nodes. @param shape Value of its shape
    * function there. */

@@ -45,6 +45,8 @@ namespace Touchstone
     std::vector<dealii::Tensor<2, dim>> gap_vector;
     /** weights[m][a] = d w_m / d x_a, in the order of the stencil, per length. */
     std::vector<std::vector<dealii::Tensor<1, dim>>> weights;
+    /** d area / d x_a, length; empty where the area does not change. */
+    std::vector<dealii::Tensor<1, dim>> area;
   };
 
   /**

@@ -152,6 +152,9 @@ namespace Touchstone
     std::array<std::string, 3> initial_velocity, initial_displacement;
     /** Expressions in x, y, z, t: force per reference volume, as gravity is. */
     std::array<std::string, 3> body_force;
+    /** Expressions in x, y, z, t: the displacement that the reference solution "formula"
+     * compares with, length; empty ones are not compared. */
+    std::array<std::string, 3> reference_displacement;
 
     /** @brief "Body NAME". */
     std::string

@@ -89,6 +89,9 @@ namespace Touchstone
     check() const;
     void
     check_pair(const ContactPairParameters &pair) const;
+    /** The reference solution, and that formulas are given only where it uses them. */
+    void
+    check_reference() const;
     /** Formulas of the time alone have finite values at the ends of all steps. */
     void
     check_formulas() const;

@@ -177,6 +177,8 @@ namespace Touchstone
     std::string pair;
     /** Named numbers that the type asks for ("radius: 10, pressure: 5"). */
     std::string values;
+    /** Expression in x, y, z, t: the contact pressure of the reference "formula". */
+    std::string pressure;
 
     /** @brief The named numbers. @throws InputError in the name of @p section. */
     std::map<std::string, double>
