@@ -25,7 +25,8 @@ BALANCE = 1e-6
 PENETRATION = 1e-6
 # Relative to the largest pressure, in pictures.
 PRESSURE = 1e-4
-# Relative to the size of the scene: slip that has no direction.
+# Relative to the size of the scene, slip that has no direction; relative to Young's modulus,
+# pressure that is none.
 ROUND_OFF = 1e-10
 
 
@@ -142,10 +143,12 @@ def tractions(scene, result):
     if not result.nodes:
         return
     largest = max(abs(n.pressure) for n in result.nodes)
+    # Bodies that only touch press each other with what round-off leaves.
+    none = ROUND_OFF * scene.stiffness() / scene.size() ** 2
     for node in result.nodes:
         pair = scene.pairs[node.pair]
         bound = PRESSURE * max(abs(n.pressure) for n in result.nodes if n.pair == node.pair)
-        bound = max(bound, 1e-6 * largest)
+        bound = max(bound, 1e-6 * largest, none)
         shear, p = node.shear(), node.normal_traction()
         limit = {"frictionless": 0.0, "coulomb": pair.coefficient * max(p, 0.0),
                  "tresca": pair.coefficient if node.status > 0 else 0.0}[pair.behaviour]

@@ -76,7 +76,7 @@ def read(folder, exit_code, timed_out, seconds):
     if summary.is_file():
         result.summary = json.loads(summary.read_text(encoding="utf-8"))
     pictures = sorted(folder.glob("contact_*.vtu"))
-    if pictures:
+    if pictures and result.converged():  # others may be written in part
         result.nodes = vtu.read(pictures[-1])
     return result
 

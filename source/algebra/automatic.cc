@@ -38,6 +38,12 @@ namespace Touchstone
         return iterates(n_unknowns) && parameters.contact_operator == "applied";
       }
 
+      bool
+      factorises(const int n_unknowns) const override
+      {
+        return n_unknowns < many_unknowns;
+      }
+
       void
       forget() override
       {

@@ -15,6 +15,12 @@ namespace Touchstone
       {
       }
 
+      bool
+      factorises(int) const override
+      {
+        return true;
+      }
+
       void
       forget() override
       {

@@ -470,13 +470,13 @@ namespace Touchstone
                 for (unsigned int c = 0; c < n_columns; ++c)
                   d[c] += dual[j] * dq[c] - taken * solution(j, c);
               }
-            const double d_given = d_q[(v * n + k) * n_columns] - d_share[k];
+            const double d_given     = d_q[(v * n + k) * n_columns] - d_share[k];
             double       d_reference = 0.;
             if (covered_in_part)
               d_reference = whole[k] / present[k] *
                             (d_share[k] - (v / dim < n ? shares.share[k][k] / present[k] *
-                                                           d_present[v / dim][v % dim][k] :
-                                                         0.));
+                                                           d_present[v / dim][v % dim][k]
+                                                       : 0.));
             for (const auto &[node, weight] : moved(v / dim))
               {
                 const unsigned int e  = v % dim;

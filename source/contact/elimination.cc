@@ -30,15 +30,30 @@ namespace Touchstone
 
     protected:
       ConstraintGraph::Treatment
-      treatment() const override
+      treatment(const ContactRow &row) const override
       {
-        return ConstraintGraph::Treatment::eliminate;
+        return kept.count({row.pair, row.slave}) > 0 ? ConstraintGraph::Treatment::multiplier
+                                                     : ConstraintGraph::Treatment::eliminate;
       }
 
       void
-      prepare(Contact &contact, const LinearSystem &system) override
+      prepare(Contact &contact, LinearSystem &system) override
       {
-        active = active_slaves(contact, system.rhs.get_mpi_communicator());
+        const MPI_Comm communicator = system.rhs.get_mpi_communicator();
+        kept.clear();
+        eliminated = active_slaves(contact, communicator);
+        if (system.takes_multipliers && !system.keep_symmetric)
+          {
+            for (auto &pair_rows : contact.rows)
+              for (ContactRow &row : pair_rows)
+                if (row.active() && row.derivative && refers_to_others(row))
+                  kept.insert({row.pair, row.slave});
+            for (const auto &of_rank : Utilities::MPI::all_gather(
+                   communicator,
+                   std::vector<std::pair<unsigned int, Index>>(kept.begin(), kept.end())))
+              for (const auto &slave : of_rank)
+                eliminated.erase(slave);
+          }
         if (system.keep_symmetric)
           for (auto &pair_rows : contact.rows)
             for (ContactRow &row : pair_rows)
@@ -50,9 +65,11 @@ namespace Touchstone
       void
       adjust(const ContactRow &row, Condition &condition) const override
       {
+        if (kept.count({row.pair, row.slave}) > 0)
+          return;
         Tensor<1, dim> lagged;
         for (auto &[node, coefficients] : condition.gradient)
-          if (node != row.slave && active.count({row.pair, node}) > 0)
+          if (node != row.slave && eliminated.count({row.pair, node}) > 0)
             {
               lagged += coefficients;
               coefficients = Tensor<1, dim>();
@@ -65,18 +82,44 @@ namespace Touchstone
       multipliers(const std::vector<Accepted> &accepted,
                   const LinearSolution        &solution) const override
       {
+        // What is an unknown can take part of the force of a condition at the same node.
+        std::vector<double>       result = ExactEnforcement::multipliers(accepted, solution);
         const std::vector<double> all =
           solution.graph.forces(solution.system.residual(solution.increment, solution.extra),
                                 solution.condense);
-        std::vector<double> result;
-        for (const Accepted &entry : accepted)
-          result.push_back(all[entry.number]);
+        for (std::size_t k = 0; k < accepted.size(); ++k)
+          result[k] += all[accepted[k].number];
         return result;
       }
 
     private:
       using Slaves = std::set<std::pair<unsigned int, Index>>;
-      Slaves active;
+      /** Pairs and slave nodes of rows whose conditions are eliminated, of all ranks, and those
+       * whose forces are unknowns, of this rank. */
+      Slaves eliminated, kept;
+
+      /**
+       * Whether taking other slave nodes to move like itself leaves too much of a condition of the
+       * row. What it leaves comes back in each iteration, so Newton's method would converge
+       * linearly, by about this factor: over one or two nodes in contact, at the edge of what is
+       * covered, hardly at all.
+       */
+      bool
+      refers_to_others(const ContactRow &row) const
+      {
+        constexpr double much = 0.05;
+        ContactRow       copy(row);
+        for (const Condition &condition : start_row(copy, /*keep_symmetric=*/false))
+          {
+            double others = 0.;
+            for (const auto &[node, coefficients] : condition.gradient)
+              if (node != row.slave && eliminated.count({row.pair, node}) > 0)
+                others += coefficients.norm();
+            if (others > much)
+              return true;
+          }
+        return false;
+      }
 
       /** Pairs and slave nodes of all active rows, if any of this rank's rows has a
        * derivative. Collective. */

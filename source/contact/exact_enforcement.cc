@@ -1,6 +1,8 @@
 #include <touchstone/contact/exact_enforcement.h>
 #include <touchstone/contact/row_terms.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <set>
 
@@ -34,9 +36,10 @@ namespace Touchstone
     accepted.clear();
     prepare(contact, system);
     const auto offer = [&](ContactRow &row, Condition &condition) {
+      const ConstraintGraph::Treatment way = treatment(row);
       adjust(row, condition);
-      if (row.take(condition, graph.accept(condition, treatment())))
-        accepted.push_back({&row, condition, graph.accepted().size() - 1});
+      if (row.take(condition, graph.accept(condition, way)))
+        accepted.push_back({&row, condition, graph.accepted().size() - 1, way});
     };
     // Nothing may penetrate: what closes gaps precedes what holds nodes along surfaces.
     std::vector<std::pair<ContactRow *, std::vector<Condition>>> stick;
@@ -48,13 +51,63 @@ namespace Touchstone
           for (std::size_t k = 0; k < std::min(n, conditions.size()); ++k)
             offer(row, conditions[k]);
           if (conditions.size() > n)
-            stick.emplace_back(&row, std::vector<Condition>(conditions.begin() + n,
-                                                            conditions.end()));
+            stick.emplace_back(&row,
+                               std::vector<Condition>(conditions.begin() + n, conditions.end()));
         }
     for (auto &[row, conditions] : stick)
       for (Condition &condition : conditions)
         offer(*row, condition);
-    add_to_system(accepted, system);
+    if (system.takes_multipliers)
+      add_multipliers(accepted, system);
+  }
+
+
+
+  void
+  ExactEnforcement::add_multipliers(const std::vector<Accepted> &accepted, LinearSystem &system)
+  {
+    const auto is_unknown = [](const Accepted &entry) {
+      return entry.treatment == ConstraintGraph::Treatment::multiplier;
+    };
+    const MPI_Comm communicator = system.rhs.get_mpi_communicator();
+    system.n_extra              = std::count_if(accepted.begin(), accepted.end(), is_unknown);
+    const auto counts           = Utilities::MPI::all_gather(communicator, system.n_extra);
+    if (std::all_of(counts.begin(), counts.end(), [](const Index n) { return n == 0; }))
+      return;
+    system.first_extra = system.rhs.size();
+    for (unsigned int r = 0; r < Utilities::MPI::this_mpi_process(communicator); ++r)
+      system.first_extra += counts[r];
+    system.definite = false;
+    Index extra     = system.first_extra;
+    for (const Accepted &entry : accepted)
+      {
+        if (!is_unknown(entry))
+          continue;
+        // Scaled to the size of the stiffness, so that neither block is lost
+        // in the other's round-off.
+        const double scale = entry.row->stiffness;
+        system.terms.push_back({{{extra, scale}}, by_unknowns(entry.condition.motion_form())});
+        system.terms.push_back({by_unknowns(entry.condition.force_form()), {{extra, scale}}});
+        if (!entry.condition.symmetric())
+          system.symmetric = false;
+        system.extra_rhs.push_back(scale * entry.condition.value);
+        ++extra;
+      }
+  }
+
+
+
+  std::vector<double>
+  ExactEnforcement::multipliers(const std::vector<Accepted> &accepted,
+                                const LinearSolution        &solution) const
+  {
+    std::vector<double> result;
+    std::size_t         extra = 0;
+    for (const Accepted &entry : accepted)
+      result.push_back(entry.treatment == ConstraintGraph::Treatment::multiplier
+                         ? -entry.row->stiffness * solution.extra[extra++]
+                         : 0.);
+    return result;
   }
 
 

@@ -128,7 +128,7 @@ namespace Touchstone
     f.excess           = size - limit.force;
     Vec force;
     f.direction = f.rest = f.coupling = f.area_coupling = f.turn = Vec();
-    f.slope                                    = Mat();
+    f.slope                                                      = Mat();
     if (!slipped)
       {
         force = f.hold ? base : trial;

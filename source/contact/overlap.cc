@@ -253,8 +253,8 @@ namespace Touchstone
       static const QWitherdenVincentSimplex<2> triangles[2] = {QWitherdenVincentSimplex<2>(3),
                                                                QWitherdenVincentSimplex<2>(5)};
       const Quadrature<2> &of_square = squares[degree - 1], &of_triangle = triangles[degree - 1];
-      const std::size_t             n = corners.size(), first = first_corner(corners);
-      const auto corner = [&](const std::size_t i) { return corners[(first + i) % n]; };
+      const std::size_t    n = corners.size(), first = first_corner(corners);
+      const auto           corner = [&](const std::size_t i) { return corners[(first + i) % n]; };
       const Point2<Number> origin = corner(0);
       for (std::size_t i = 1; i + 1 < n; i += 2)
         {

@@ -182,16 +182,16 @@ namespace Touchstone
   {
     std::array<std::array<std::array<double, Face::max_nodes>, dim>, Face::max_nodes> result{};
     for_each_point(face, false, [&](const double w, const FaceShapes &shapes, const auto &t) {
-      const Tensor<1, dim> cross  = cross_product_3d(t[0], t[1]);
-      const Tensor<1, dim> normal = cross / cross.norm();
-      const Tensor<1, dim> by_first = cross_product_3d(t[1], normal),
+      const Tensor<1, dim> cross     = cross_product_3d(t[0], t[1]);
+      const Tensor<1, dim> normal    = cross / cross.norm();
+      const Tensor<1, dim> by_first  = cross_product_3d(t[1], normal),
                            by_second = cross_product_3d(normal, t[0]);
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         for (unsigned int e = 0; e < dim; ++e)
           for (unsigned int k = 0; k < face.n_nodes(); ++k)
-            result[m][e][k] += w * shapes.value[k] *
-                               (shapes.gradient[m][0] * by_first[e] +
-                                shapes.gradient[m][1] * by_second[e]);
+            result[m][e][k] +=
+              w * shapes.value[k] *
+              (shapes.gradient[m][0] * by_first[e] + shapes.gradient[m][1] * by_second[e]);
     });
     if (basis)
       for (auto &of_node : result)

@@ -452,11 +452,12 @@ namespace Touchstone
     system            = std::make_unique<LinearSystem>();
     system->stiffness = &integration->stiffness();
     system->rhs.reinit(solid.owned, solid.communicator);
-    system->rhs            = applied;
-    system->first_extra    = system->rhs.size();
-    system->tolerance      = linear_tolerance;
-    system->keep_symmetric = solver->symmetric_only();
-    system->symmetric      = system->keep_symmetric || solid.symmetric();
+    system->rhs               = applied;
+    system->first_extra       = system->rhs.size();
+    system->tolerance         = linear_tolerance;
+    system->keep_symmetric    = solver->symmetric_only();
+    system->symmetric         = system->keep_symmetric || solid.symmetric();
+    system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
     if (!system->keep_symmetric &&
         (consistent(scene) || (slow && scene.contact.linearisation == "automatic")))
       contact.differentiate();

@@ -81,6 +81,13 @@ namespace Touchstone
       return false;
     }
 
+    /** @brief Whether a system of that size is factorised, so that it need not be definite. */
+    virtual bool
+    factorises(int /*n_unknowns*/) const
+    {
+      return false;
+    }
+
     /** @brief Drop what is kept from one solve for the next: what follows must not
      * depend on what was before, as a checkpoint knows nothing of it. Collective. */
     virtual void

@@ -69,6 +69,8 @@ namespace Touchstone
     /** The solver takes symmetric systems only: unsymmetric parts are lagged. */
     bool keep_symmetric = false;
     bool symmetric      = true;
+    /** The solver takes multipliers, too. */
+    bool takes_multipliers = false;
     /** Positive definite: no multipliers. */
     bool definite = true;
     /** Relative residual that an iterative solution needs. */

@@ -41,23 +41,23 @@ namespace Touchstone
     update(Contact &contact) override;
 
   protected:
-    /** A condition of a row that the graph has accepted, and its number there. */
+    /** A condition of a row that the graph has accepted, its number there, and how it is met. */
     struct Accepted
     {
-      ContactRow *row;
-      Condition   condition;
-      std::size_t number;
+      ContactRow                *row;
+      Condition                  condition;
+      std::size_t                number;
+      ConstraintGraph::Treatment treatment;
     };
 
-    /** @brief How the conditions are met. */
+    /** @brief How the conditions of a row are met. */
     virtual ConstraintGraph::Treatment
-    treatment() const = 0;
+    treatment(const ContactRow &row) const = 0;
 
-    /** @brief Add what the conditions need to the system. Collective. */
-    virtual void
-    add_to_system(const std::vector<Accepted> & /*accepted*/, LinearSystem & /*system*/)
-    {
-    }
+    /** @brief Make the forces of conditions that are met by multipliers unknowns of the system.
+     * Collective. */
+    static void
+    add_multipliers(const std::vector<Accepted> &accepted, LinearSystem &system);
 
     /** @brief A last change of a condition before it is offered to the graph. */
     virtual void
@@ -67,13 +67,14 @@ namespace Touchstone
 
     /** @brief Conditions are about to be offered. Collective. */
     virtual void
-    prepare(Contact & /*contact*/, const LinearSystem & /*system*/)
+    prepare(Contact & /*contact*/, LinearSystem & /*system*/)
     {
     }
 
-    /** @brief The forces of the accepted conditions, along their directions. Collective. */
+    /** @brief The forces of the accepted conditions, along their directions: those that are
+     * unknowns, and zero. Collective. */
     virtual std::vector<double>
-    multipliers(const std::vector<Accepted> &accepted, const LinearSolution &solution) const = 0;
+    multipliers(const std::vector<Accepted> &accepted, const LinearSolution &solution) const;
 
   private:
     /** Of the last system, and what its solution has made of them. */
