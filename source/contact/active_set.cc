@@ -99,7 +99,14 @@ namespace Touchstone
         {
           row.clear_force();
           if (row.friction && row.active())
-            row.friction->base = row.friction->start;
+            {
+              row.friction->base = row.friction->start;
+              // Springs of regularised friction resist from the next linear system on; their
+              // force acts after it.
+              if (row.friction->carried)
+                respond(row);
+              row.force = Tensor<1, dim>();
+            }
           return;
         }
       if (row.status == ContactStatus::stick && !row.friction->carried)

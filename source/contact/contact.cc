@@ -1,5 +1,6 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/start_check.h>
+#include <touchstone/contact/unresolved_contact.h>
 #include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
@@ -495,6 +496,57 @@ namespace Touchstone
         sum.search += pairs[p].pairing->search_work();
       }
     return sum;
+  }
+
+
+
+  std::string
+  Contact::unresolved() const
+  {
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (const std::string text = pairs[p].tied ? "" : unresolved(p); !text.empty())
+        return "contact pair '" + pairs[p].parameters->name + "': " + text +
+               ". Rows of slave nodes cannot describe this contact: refine the slave surface" +
+               (pairs[p].master ? ", exchange slave and master, or round the edges" : "");
+    return "";
+  }
+
+
+
+  std::string
+  Contact::unresolved(const unsigned int p) const
+  {
+    const Pair &pair = pairs[p];
+    Vector      owned(solid.owned, solid.communicator), forces;
+    for (const ContactRow &row : rows[p])
+      if (row.active() && row.lambda > 0.)
+        for (unsigned int d = 0; d < dim; ++d)
+          owned(dim * row.slave + d) = row.lambda * row.normal[d];
+    owned.compress(VectorOperation::insert);
+    forces.reinit(ghosted);
+    (*import_ghosts)(owned, forces);
+    // Overlaps can be meant.
+    const bool overlaps = pair.parameters->initial_overlap == "interference";
+    if (!pair.master)
+      return overlaps ? obstacle_within_face(solid,
+                                             *pair.parameters,
+                                             *pair.slave,
+                                             forces,
+                                             [&](const Point<dim> &x) {
+                                               return pair.pairing->distance(x, time);
+                                             })
+                      : "";
+    const UnresolvedContact check(solid,
+                                  *pair.parameters,
+                                  *pair.slave,
+                                  *pair.master,
+                                  pair.slave_body,
+                                  pair.master_body,
+                                  ghosted,
+                                  forces);
+    // Surfaces of small sliding stay where they are.
+    const std::string text = overlaps && !pair.small ? check.overlap() : "";
+    return text.empty() ? check.oblique_force() : text;
   }
 
 

@@ -10,14 +10,16 @@ namespace Touchstone
   {
     for (auto &pair_rows : contact.rows)
       for (ContactRow &row : pair_rows)
-        if (row.active() && !row.tied)
-          {
-            if (row.friction)
-              choose_friction(row);
-            if (solved && row.held())
-              row.friction->augment_unheld(row.stiffness);
-            respond(row);
-          }
+        {
+          // Of open rows, too: they may close before the next linear system.
+          if (row.friction)
+            choose_friction(row);
+          if (!row.active() || row.tied)
+            continue;
+          if (solved && row.held())
+            row.friction->augment_unheld(row.stiffness);
+          respond(row);
+        }
     solved = false;
   }
 

@@ -31,18 +31,12 @@ namespace Touchstone
     /** A face lies behind another if that covers this part of it, and not beside it. */
     constexpr double behind = 0.1;
 
-    Point<dim>
-    position(const Face &face, const unsigned int m)
-    {
-      return face.reference[m] + face.displacement[m];
-    }
-
     BoundingBox<dim>
     box(const Face &face)
     {
-      BoundingBox<dim> result({position(face, 0), position(face, 0)});
+      BoundingBox<dim> result({face.position(0), face.position(0)});
       for (unsigned int m = 1; m < face.n_nodes(); ++m)
-        result.merge_with(BoundingBox<dim>({position(face, m), position(face, m)}));
+        result.merge_with(BoundingBox<dim>({face.position(m), face.position(m)}));
       return result;
     }
 
@@ -162,7 +156,7 @@ namespace Touchstone
     for (unsigned int m = 0; m < slave.n_nodes(); ++m)
       {
         const SlavePoint corner{
-          position(slave, m), slave.reference[m] + slave.committed[m], normal, false, {}};
+          slave.position(m), slave.reference[m] + slave.committed[m], normal, false, {}};
         centre.x += corner.x / slave.n_nodes();
         centre.start += corner.start / slave.n_nodes();
         if (const Face *face = search.entry(corner))

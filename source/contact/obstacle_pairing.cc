@@ -85,6 +85,13 @@ namespace Touchstone
           }
       }
 
+      double
+      distance(const Point<dim> &x, const double time) const override
+      {
+        const Point<dim> y = x - motion_at(time);
+        return (y - surface->project(y)) * surface->normal(y);
+      }
+
     private:
       Tensor<1, dim>
       motion_at(const double time) const

@@ -1,9 +1,8 @@
+#include <touchstone/contact/deformed_cells.h>
 #include <touchstone/contact/start_check.h>
 #include <touchstone/scene/input_error.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/numerics/rtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -82,70 +81,6 @@ namespace Touchstone
         mine.push_back(place(surface, node, u));
       return gather(mine, communicator);
     }
-
-    /** The cells of one body on this rank, with straight edges in the displacement u. */
-    class DeformedCells
-    {
-    public:
-      DeformedCells(const Solid &solid, const unsigned int body, const Vector &u)
-      {
-        std::vector<std::pair<BoundingBox<dim>, std::size_t>> boxes;
-        for (const auto &cell : solid.dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned() && cell->material_id() == body)
-            {
-              std::array<Point<dim>, 8> corners;
-              for (unsigned int v = 0; v < 8; ++v)
-                {
-                  corners[v] = cell->vertex(v);
-                  for (unsigned int d = 0; d < dim; ++d)
-                    corners[v][d] += u(cell->vertex_dof_index(v, d));
-                }
-              boxes.emplace_back(BoundingBox<dim>(
-                                   std::vector<Point<dim>>(corners.begin(), corners.end())),
-                                 cells.size());
-              cells.push_back(corners);
-            }
-        tree = pack_rtree(boxes);
-      }
-
-      bool
-      contain(const Point<dim> &x) const
-      {
-        namespace query = boost::geometry::index;
-        for (const auto &entry : tree | query::adaptors::queried(query::intersects(x)))
-          if (contains(cells[entry.second], x))
-            return true;
-        return false;
-      }
-
-    private:
-      std::vector<std::array<Point<dim>, 8>>          cells;
-      RTree<std::pair<BoundingBox<dim>, std::size_t>> tree;
-
-      /** Whether @p x lies in one of the six tetrahedra around the cell's diagonal. */
-      static bool
-      contains(const std::array<Point<dim>, 8> &c, const Point<dim> &x)
-      {
-        constexpr unsigned int around[7] = {1, 3, 2, 6, 4, 5, 1};
-        for (unsigned int k = 0; k < 6; ++k)
-          {
-            Tensor<2, dim> edges;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                edges[d][0] = c[around[k]][d] - c[0][d];
-                edges[d][1] = c[around[k + 1]][d] - c[0][d];
-                edges[d][2] = c[7][d] - c[0][d];
-              }
-            if (std::abs(determinant(edges)) == 0.)
-              continue;
-            const Tensor<1, dim> part = invert(edges) * (x - c[0]);
-            if (part[0] >= 0. && part[1] >= 0. && part[2] >= 0. &&
-                part[0] + part[1] + part[2] <= 1.)
-              return true;
-          }
-        return false;
-      }
-    };
 
     /** Of the @p places (the same on all ranks) that lie within a body the largest
      * distance to the closest of the @p others that looks the other way. */

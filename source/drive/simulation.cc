@@ -244,6 +244,8 @@ namespace Touchstone
   Simulation::describe(const NonConvergence &failure, const bool repeated) const
   {
     std::string text = failure.what();
+    if (!failure.shorter_step_may_help())
+      return text;
     if (const std::string place = problem->worst_place(); !place.empty())
       text += "; farthest from a solution: " + place;
     text += problem->suspicion();
@@ -314,6 +316,7 @@ namespace Touchstone
             newton += adapt(step, next);
             const std::string remarks = problem->remarks();
             const auto        loose   = problem->check_loose_bodies();
+            problem->check_contact();
             part = problem->try_commit(scene.time_integration.smallest_step * nominal / now);
             if (part < 1.)
               {
@@ -345,10 +348,11 @@ namespace Touchstone
         catch (const NonConvergence &failure)
           {
             const bool repeated = repeated_failure.add(failure, last_state, problem->worst_place());
+            const bool hopeless = repeated || !failure.shorter_step_may_help();
             const std::string reason = describe(failure, repeated);
             problem->rollback();
             part = 1.;
-            if (cuts >= parameters.maximum_cuts || repeated)
+            if (cuts >= parameters.maximum_cuts || hopeless)
               {
                 // With other parameters it may go on, from the size that the user asked for.
                 stop(reason + " (step " + std::to_string(step) + " at time " +

@@ -152,6 +152,15 @@ namespace Touchstone
 
 
 
+  void
+  StepProblem::check_contact() const
+  {
+    if (const std::string text = contact.unresolved(); !text.empty())
+      throw UnresolvedContactFailure(text);
+  }
+
+
+
   std::string
   StepProblem::changing_place() const
   {

@@ -11,7 +11,15 @@ namespace Touchstone
    */
   class NonConvergence : public std::runtime_error
   {
+  public:
     using std::runtime_error::runtime_error;
+
+    /** @brief Whether a shorter step can do better. */
+    virtual bool
+    shorter_step_may_help() const
+    {
+      return true;
+    }
   };
 
   /** @brief Newton ran out of iterations, or its residual grew without bound. */
@@ -60,6 +68,19 @@ namespace Touchstone
   class LostContact : public NonConvergence
   {
     using NonConvergence::NonConvergence;
+  };
+
+  /** @brief The bodies touch in a way that contact rows cannot describe. */
+  class UnresolvedContactFailure : public NonConvergence
+  {
+  public:
+    using NonConvergence::NonConvergence;
+
+    bool
+    shorter_step_may_help() const override
+    {
+      return false;
+    }
   };
 
   /** @brief A step has made energy from nothing. */

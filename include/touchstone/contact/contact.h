@@ -212,6 +212,11 @@ namespace Touchstone
     Work
     work() const;
 
+    /** @brief Contact in the state of the last update() that rows of slave nodes and master faces
+     * cannot describe, in words; empty if there is none. Collective. */
+    std::string
+    unresolved() const;
+
     /** @brief Text on gaps and overlaps as the bodies are placed, a line per pair. */
     std::vector<std::string>
     start_report() const;
@@ -256,6 +261,9 @@ namespace Touchstone
     double           time     = 0.;
     const double     end_time;
 
+    /** See unresolved(), for one pair. */
+    std::string
+    unresolved(unsigned int pair) const;
     /** A place of a row in an order that does not depend on the partition. */
     std::vector<double>
     order(const ContactRow &row) const;

@@ -48,6 +48,13 @@ namespace Touchstone
     {
       return (degree + 1) * (degree + 1);
     }
+
+    /** @brief Present position of the node @p m. */
+    dealii::Point<dim>
+    position(const unsigned int m) const
+    {
+      return reference[m] + displacement[m];
+    }
   };
 
   /** @brief Face coordinates of the node @p m. */

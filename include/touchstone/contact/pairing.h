@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -98,6 +99,14 @@ namespace Touchstone
     virtual void
     remember(const PairingMemory &)
     {
+    }
+
+    /** @brief Distance of a point from the master, negative within it, length; infinite where
+     * that is not known without a search. */
+    virtual double
+    distance(const dealii::Point<dim> & /*x*/, double /*time*/) const
+    {
+      return std::numeric_limits<double>::infinity();
     }
 
     /** @brief What its searches came to so far; nothing where there is none. */

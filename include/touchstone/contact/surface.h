@@ -95,6 +95,15 @@ namespace Touchstone
       return place(node)->normal;
     }
 
+    /** @brief The faces of the surface around an owned node, each with its number of the node
+     * there. */
+    std::vector<std::pair<const Face *, unsigned int>>
+    faces_around(Index node) const
+    {
+      const auto &faces = place(node)->faces;
+      return {faces.begin(), faces.end()};
+    }
+
     /** @brief For each owned node weights of node positions whose sum is a tangent
      * of the surface there; it moves with the body. In the order of owned_nodes(). */
     std::vector<Stencil>

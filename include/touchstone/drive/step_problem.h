@@ -65,6 +65,11 @@ namespace Touchstone
     std::vector<std::string>
     check_loose_bodies() const;
 
+    /** @brief Look for contact that rows of slave nodes and master faces cannot describe: its
+     * forces would be wrong. Collective. @throws UnresolvedContactFailure */
+    void
+    check_contact() const;
+
     /** @brief Where the present state is farthest from a solution: the contact row that
      * changes, or else the node that is farthest out of balance, with body, place and pair.
      * Collective. */

@@ -1,0 +1,88 @@
+#ifndef touchstone_contact_unresolved_contact_h
+#define touchstone_contact_unresolved_contact_h
+
+#include <touchstone/contact/search.h>
+#include <touchstone/contact/surface.h>
+#include <touchstone/scene/contact_parameters.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Looks in a state of balance for contact that rows of slave nodes and master faces
+   * cannot describe: edges that have passed through each other, vertices of the master within
+   * slave faces whose nodes touch nothing, and forces that are not normal to the slave surface.
+   *
+   * The surfaces must have been moved to the state. See doc/theory.md, section 4.
+   */
+  class UnresolvedContact
+  {
+  public:
+    /** @param u      Displacement, with ghosts.
+     * @param forces  Normal contact forces of the pair on its slave nodes, with the ghosts
+     *                of the slave surface. */
+    UnresolvedContact(const Solid                 &solid,
+                      const ContactPairParameters &parameters,
+                      const Surface               &slave,
+                      const Surface               &master,
+                      unsigned int                 slave_body,
+                      unsigned int                 master_body,
+                      const Vector                &u,
+                      const Vector                &forces);
+
+    /** @brief The deepest crossing of two edges, or else the deepest vertex of the master in a
+     * slave face, in words; empty if there is none. The same on all ranks. Collective. */
+    std::string
+    overlap() const;
+
+    /** @brief Where the largest force is that is not normal to the slave surface, in words;
+     * empty if there is none. The same on all ranks. Collective. */
+    std::string
+    oblique_force() const;
+
+  private:
+    const Solid                 &solid;
+    const ContactPairParameters &parameters;
+    const Surface               &slave, &master;
+    const unsigned int           slave_body, master_body;
+    const Vector                &u, &forces;
+
+    /** A place where a body reaches into another. */
+    struct Overlap
+    {
+      /** Of the slave and of the master. */
+      dealii::Point<dim> slave, master;
+      double             depth;
+    };
+    /** The master faces around this rank's slave faces. Collective. */
+    Search
+    search() const;
+    /** Edges that cross. @param least_depth As a fraction of the shorter one; negative for
+     * edges that only come close. */
+    std::vector<Overlap>
+    crossing_edges(const std::vector<Face> &master_faces, double least_depth) const;
+    std::vector<Overlap>
+    hidden_vertices(const std::vector<Face> &master_faces) const;
+    /** The deepest of those that lie in the other body, from all ranks; depth zero if there
+     * is none. */
+    Overlap
+    deepest(const std::vector<Overlap> &found, bool edges) const;
+    dealii::Tensor<1, dim>
+    force(Index node) const;
+  };
+
+  /** @brief The same for an obstacle that reaches into a slave face whose nodes touch nothing;
+   * empty if it does not. Collective.
+   * @param gap Distance of a point from the obstacle, negative within, length. */
+  std::string
+  obstacle_within_face(const Solid                                             &solid,
+                       const ContactPairParameters                             &parameters,
+                       const Surface                                           &slave,
+                       const Vector                                            &forces,
+                       const std::function<double(const dealii::Point<dim> &)> &gap);
+} // namespace Touchstone
+
+#endif
