@@ -283,9 +283,9 @@ namespace Touchstone
        * turn the change of normals and contact points into forces, the larger the stiffer the
        * springs. */
       bool
-      by_gap(const ContactRow &) const override
+      by_gap(const ContactRow &row) const override
       {
-        return !merged;
+        return !merged || (row.friction && row.tied);
       }
 
       void
