@@ -279,13 +279,13 @@ namespace Touchstone
           augment(row);
       }
 
-      /** The normal force is that of the linearised gap. One of the gap itself would
+      /** Without friction the force is that of the linearised gap. One of the gap itself would
        * turn the change of normals and contact points into forces, the larger the stiffer the
        * springs. */
       bool
       by_gap(const ContactRow &row) const override
       {
-        return !merged || (row.friction && row.tied);
+        return !merged || row.friction;
       }
 
       void

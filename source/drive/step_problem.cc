@@ -16,15 +16,13 @@ namespace Touchstone
 
   namespace
   {
-    /** Slip makes the system unsymmetric anyway, and a factorisation costs the same then. Without
-     * friction a symmetric one wins more than the iterations that it takes longer cost, and where
-     * @p iterates solves large systems, the derivatives of averaged rows cost as much as the rest
-     * (doc/benchmarks.md, "Frozen or consistent"). */
+    /** Slip makes the system unsymmetric anyway. Without friction a symmetric
+     * factorisation wins more than the iterations that it takes longer cost. */
     bool
-    consistent(const Scene &scene, const bool iterates)
+    consistent(const Scene &scene)
     {
       return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && scene.has_friction() && !iterates);
+             (scene.contact.linearisation == "automatic" && scene.has_friction());
     }
   } // namespace
 
@@ -458,8 +456,7 @@ namespace Touchstone
     system->keep_symmetric = solver->symmetric_only();
     system->symmetric      = system->keep_symmetric || solid.symmetric();
     if (!system->keep_symmetric &&
-        (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (slow && scene.contact.linearisation == "automatic")))
+        (consistent(scene) || (slow && scene.contact.linearisation == "automatic")))
       contact.differentiate();
     contact.drop_circles(graph, enforcement->smallest_circle());
     enforcement->enforce(contact, graph, *system);
