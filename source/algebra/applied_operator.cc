@@ -18,9 +18,15 @@ namespace Touchstone
     , force(map)
     , part(map)
   {
-    motion = std::make_unique<Factor>(*this, system.constraints, scale, &inhomogeneity);
-    if (system.test_constraints)
-      test = std::make_unique<Factor>(*this, *system.test_constraints, scale, nullptr);
+    motion = std::make_unique<Factor>(
+      *this, system.constraints, system.basis_change, scale, &inhomogeneity);
+    if (system.test_constraints || system.test_basis_change)
+      test = std::make_unique<Factor>(
+        *this,
+        system.test_constraints ? *system.test_constraints : system.constraints,
+        system.test_basis_change ? *system.test_basis_change : system.basis_change,
+        scale,
+        nullptr);
     int any = 0, here = !system.terms.empty();
     map.Comm().MaxAll(&here, &any, 1);
     if (any != 0)
@@ -41,11 +47,12 @@ namespace Touchstone
 
   AppliedOperator::Factor::Factor(const AppliedOperator           &owner,
                                   const AffineConstraints<double> &constraints,
+                                  const AffineConstraints<double> &basis_change,
                                   const Epetra_Vector             *scale,
                                   Epetra_Vector                   *shift)
   {
     LocalNumbers numbers(owner.map);
-    Expansion expansion(constraints, owner.system.basis_change, owner.system.rhs.size(), numbers);
+    Expansion expansion(constraints, basis_change, owner.system.rhs.size(), numbers);
     std::vector<SparseRow> rows;
     for (int i = 0; i < owner.map.NumMyElements(); ++i)
       if (const Expansion::Line *line = expansion.line(i))

@@ -108,7 +108,7 @@ namespace Touchstone
     , columns(columns)
     , motion(system.constraints, system.basis_change, system.rhs.size(), columns)
     , test(system.test_constraints ? *system.test_constraints : system.constraints,
-           system.basis_change,
+           system.test_basis_change ? *system.test_basis_change : system.basis_change,
            system.rhs.size(),
            row_numbers)
     , places(rows.NumMyElements(), -1)

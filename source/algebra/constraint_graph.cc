@@ -299,11 +299,11 @@ namespace Touchstone
 
 
   bool
-  ConstraintGraph::symmetric() const
+  ConstraintGraph::symmetric(const Treatment treatment) const
   {
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
-        if (condition.treatment == Treatment::eliminate && !condition.symmetric)
+        if (condition.treatment == treatment && !condition.symmetric)
           return false;
     return true;
   }
@@ -379,10 +379,11 @@ namespace Touchstone
 
 
   AffineConstraints<double>
-  ConstraintGraph::basis_change(const AffineConstraints<double> &constraints,
-                                const IndexSet                  &owned,
-                                const IndexSet                  &relevant,
-                                const MPI_Comm                   communicator) const
+  ConstraintGraph::make_basis_change(Side ReducedCondition::         *kind,
+                                     const AffineConstraints<double> &constraints,
+                                     const IndexSet                  &owned,
+                                     const IndexSet                  &relevant,
+                                     const MPI_Comm                   communicator) const
   {
     int here = 0;
     for (const auto &[node, reduced] : nodes)
@@ -398,7 +399,7 @@ namespace Touchstone
         far.push_back(entry.first);
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
-        for (const auto &[unknown, coefficient] : condition.motion.others)
+        for (const auto &[unknown, coefficient] : (condition.*kind).others)
           far.push_back(unknown);
     const IndexSet            needed = with(relevant, far);
     AffineConstraints<double> known(needed);
@@ -428,7 +429,7 @@ namespace Touchstone
                 else if (plain(unknown))
                   entries[unknown] += factor;
               };
-              const Side &side = condition.motion;
+              const Side &side = condition.*kind;
               for (unsigned int d = 0; d < dim; ++d)
                 if (d != condition.pivot && side.direction[d] != 0.)
                   add(dim * node + d, -side.direction[d]);

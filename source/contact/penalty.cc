@@ -41,7 +41,7 @@ namespace Touchstone
             {
               if (!row.active() || row.dropped())
                 continue;
-              if (solved && !by_gap(row))
+              if (solved && !row.friction && !by_gap(row))
                 respond(row); // the force of the linear solve
               else
                 evaluate(row);
@@ -197,7 +197,8 @@ namespace Touchstone
             row.lambda = row.force * row.normal;
             return;
           }
-        row.lambda = row.augmented_lambda - epsilon * row.gap;
+        if (by_gap(row))
+          row.lambda = row.augmented_lambda - epsilon * row.gap;
         if (row.friction)
           choose_friction(row, epsilon);
         respond(row);
@@ -211,6 +212,7 @@ namespace Touchstone
     public:
       explicit Penalty(const ContactParameters &parameters)
         : SpringEnforcement(100. * parameters.penalty_factor)
+        , factor(100. * parameters.penalty_factor)
       {
       }
 
@@ -222,10 +224,24 @@ namespace Touchstone
       }
 
     private:
+      const double factor;
+
       void
       grant(ContactRow &row, bool) const override
       {
-        row.granted_gap = row.tied ? row.gap_vector.norm() : row.gap;
+        if (by_gap(row))
+          row.granted_gap = row.tied ? row.gap_vector.norm() : row.gap;
+        else
+          row.granted_gap = -row.lambda / (factor * row.stiffness);
+      }
+
+      /** Friction and stick go by the normal force. Before balance that of the gap is as wrong as
+       * the gap times the stiffness of the spring: stiff springs would stick all rows at first,
+       * and turn them by geometric stiffness, whatever the solution. */
+      bool
+      by_gap(const ContactRow &row) const override
+      {
+        return row.tied || !row.friction;
       }
 
       void

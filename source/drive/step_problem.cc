@@ -512,6 +512,16 @@ namespace Touchstone
               graph.accept(spring, ConstraintGraph::Treatment::spring);
         system->basis_change =
           graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
+        if (!system->keep_symmetric &&
+            !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
+          {
+            system->test_basis_change = graph.test_basis_change(
+              system->test_constraints ? *system->test_constraints : system->constraints,
+              solid.owned,
+              needed,
+              solid.communicator);
+            system->symmetric = false;
+          }
       }
     condensed =
       std::make_unique<CondensedSystem>(*system,

@@ -37,6 +37,11 @@ push multipliers 1 "$answer" 1e-6 --set "Contact/Enforcement=lagrange multiplier
 push augmented 1 "$answer" 1e-6 --set "Contact/Enforcement=augmented lagrange" --set "$gmres"
 push regularised 1 "$answer" 1e-4 --set "Contact/Friction=regularised" --set "$gmres"
 push penalty 1 "$answer" 1e-2 --set "Contact/Enforcement=penalty"
+push stiff_penalty 1 "$answer" 1e-5 --set "Contact/Enforcement=penalty" --set "$gmres" \
+  --set "Contact/Penalty factor=100"
+below stiff_penalty "Newton iterations in 4 steps" "$(value stiff_penalty /iterations/newton)" 24
+below stiff_penalty "iterations of GMRES in the mean" \
+  "$(value stiff_penalty /iterations/linear_mean)" 20
 push one_step 1 "$answer" 1e-2 --set "$gmres" --set "Load stepping/Steps=1"
 push sixteen_steps 1 "$answer" 1e-2 --set "$gmres" --set "Load stepping/Steps=16"
 

@@ -49,10 +49,11 @@ namespace Touchstone
     class Factor
     {
     public:
-      /** @param constraints Lines of the factor, together with the system's change of basis.
-       *  @param shift       Takes their inhomogeneities, unless null. */
+      /** @param constraints  Lines of the factor, together with the change of basis.
+       *  @param shift        Takes their inhomogeneities, unless null. */
       Factor(const AppliedOperator                   &owner,
              const dealii::AffineConstraints<double> &constraints,
+             const dealii::AffineConstraints<double> &basis_change,
              const Epetra_Vector                     *scale,
              Epetra_Vector                           *shift);
 

@@ -165,7 +165,28 @@ namespace Touchstone
     basis_change(const dealii::AffineConstraints<double> &constraints,
                  const dealii::IndexSet                  &owned,
                  const dealii::IndexSet                  &relevant,
-                 MPI_Comm                                 communicator) const;
+                 MPI_Comm                                 communicator) const
+    {
+      return make_basis_change(
+        &ReducedCondition::motion, constraints, owned, relevant, communicator);
+    }
+
+    /**
+     * @brief The same for the test functions: those of other unknowns do no work against the
+     * forces of springs, or a spring whose force is not along its elongation (friction) would
+     * be as large in the equations of its neighbours as in its own.
+     *
+     * @param constraints What test_constraints() has returned, or constraints() where these
+     *                    are the same.
+     */
+    dealii::AffineConstraints<double>
+    test_basis_change(const dealii::AffineConstraints<double> &constraints,
+                      const dealii::IndexSet                  &owned,
+                      const dealii::IndexSet                  &relevant,
+                      MPI_Comm                                 communicator) const
+    {
+      return make_basis_change(&ReducedCondition::force, constraints, owned, relevant, communicator);
+    }
 
     /**
      * @brief The forces of the conditions that are eliminated, in the order of accepted();
@@ -183,10 +204,10 @@ namespace Touchstone
     std::vector<double>
     forces(const Vector &residual, const std::function<void(Vector &)> &condense) const;
 
-    /** @brief Whether all conditions to be eliminated are symmetric: then both
-     * kinds of constraints are the same. Of this rank only. */
+    /** @brief Whether all conditions treated in this way are symmetric: then both
+     * kinds of constraints, or changes of basis, are the same. Of this rank only. */
     bool
-    symmetric() const;
+    symmetric(Treatment treatment = Treatment::eliminate) const;
 
   private:
     /** Coefficients of the node, of other unknowns, and the right-hand side. */
@@ -218,6 +239,13 @@ namespace Touchstone
                      const dealii::IndexSet                  &owned,
                      const dealii::IndexSet                  &relevant,
                      MPI_Comm                                 communicator) const;
+
+    dealii::AffineConstraints<double>
+    make_basis_change(Side ReducedCondition::                 *side,
+                      const dealii::AffineConstraints<double> &constraints,
+                      const dealii::IndexSet                  &owned,
+                      const dealii::IndexSet                  &relevant,
+                      MPI_Comm                                 communicator) const;
 
     std::vector<Condition>                         conditions;
     std::map<Index, std::vector<ReducedCondition>> nodes;

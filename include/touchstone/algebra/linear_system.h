@@ -63,6 +63,8 @@ namespace Touchstone
      * there are no inhomogeneities.
      */
     dealii::AffineConstraints<double> basis_change;
+    /** The same for the test functions, of the same unknowns, where it is not the same. */
+    std::optional<dealii::AffineConstraints<double>> test_basis_change;
     /** Out-of-balance forces, and right-hand side of the extra unknowns. */
     Vector              rhs;
     std::vector<double> extra_rhs;
