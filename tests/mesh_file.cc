@@ -153,16 +153,12 @@ namespace
     print_damaged("two_blocks.inp", [](Lines &lines) {
       lines.insert(find(lines, "*ELSET"), "9, 10, 11, 14, 13, 19, 20, 23, 22");
     });
-    // One number for two cells, a set that is not there, a face of two boundaries.
+    // One number for two cells, a set that is not there.
     print_damaged("two_blocks.inp", [](Lines &lines) {
       lines.insert(find(lines, "*ELSET"), "5, 14, 15, 18, 17, 23, 24, 27, 26");
     });
     print_damaged("two_blocks.inp",
                   [](Lines &lines) { *find(lines, "TOPCELLS, S2") = "TOPCELS, S2"; });
-    print_damaged("two_blocks_v2.msh", [](Lines &lines) {
-      *find(lines, "21") = "22";
-      lines.insert(find(lines, "14 5"), "22 3 2 2 1 1 2 5 4");
-    });
     // Numbers that are none, or only at their beginning.
     for (const char *node : {"5 nan 0.5 0", "5 0.5 1e400 0", "5 0.5 0.5x 0", "-5 0.5 0.5 0"})
       print_damaged("two_blocks_v2.msh", [&](Lines &lines) { *find(lines, "5 0.5") = node; });
@@ -219,4 +215,23 @@ main()
                    ->create(1., "", ".")
                    .cells.size()
               << '\n';
+
+  // A face that stands in two boundaries belongs to both.
+  damage("two_blocks_v2.msh", [](Lines &lines) {
+    *find(lines, "21") = "22";
+    lines.insert(find(lines, "14 5"), "22 3 2 2 1 1 2 5 4");
+  });
+  const BodyMesh mesh =
+    make_geometry("file", "set File = damaged_two_blocks_v2.msh")->create(1., "", ".");
+  for (const auto &[id, boundaries] : mesh.shared)
+    {
+      std::cout << "faces of boundary";
+      for (const auto boundary : boundaries)
+        std::cout << ' ' << boundary;
+      std::cout << ": "
+                << std::count_if(mesh.subcells.boundary_quads.begin(),
+                                 mesh.subcells.boundary_quads.end(),
+                                 [id = id](const auto &face) { return face.boundary_id == id; })
+                << '\n';
+    }
 }

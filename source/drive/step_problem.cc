@@ -16,13 +16,15 @@ namespace Touchstone
 
   namespace
   {
-    /** Slip makes the system unsymmetric anyway. Without friction a symmetric
-     * factorisation wins more than the iterations that it takes longer cost. */
+    /** Slip makes the system unsymmetric anyway, and a factorisation costs the same then. Without
+     * friction a symmetric one wins more than the iterations that it takes longer cost, and where
+     * @p iterates solves large systems, the derivatives of averaged rows cost as much as the rest
+     * (doc/benchmarks.md, "Frozen or consistent"). */
     bool
-    consistent(const Scene &scene)
+    consistent(const Scene &scene, const bool iterates)
     {
       return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && scene.has_friction());
+             (scene.contact.linearisation == "automatic" && scene.has_friction() && !iterates);
     }
   } // namespace
 
@@ -459,7 +461,8 @@ namespace Touchstone
     system->symmetric         = system->keep_symmetric || solid.symmetric();
     system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
     if (!system->keep_symmetric &&
-        (consistent(scene) || (slow && scene.contact.linearisation == "automatic")))
+        (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
+         (slow && scene.contact.linearisation == "automatic")))
       contact.differentiate();
     contact.drop_circles(graph, enforcement->smallest_circle());
     enforcement->enforce(contact, graph, *system);
@@ -515,11 +518,12 @@ namespace Touchstone
         if (!system->keep_symmetric &&
             !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
           {
-            system->test_basis_change = graph.test_basis_change(
-              system->test_constraints ? *system->test_constraints : system->constraints,
-              solid.owned,
-              needed,
-              solid.communicator);
+            system->test_basis_change =
+              graph.test_basis_change(system->test_constraints ? *system->test_constraints
+                                                               : system->constraints,
+                                      solid.owned,
+                                      needed,
+                                      solid.communicator);
             system->symmetric = false;
           }
       }

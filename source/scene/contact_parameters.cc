@@ -275,7 +275,7 @@ namespace Touchstone
       "Within a Newton iteration, normals, contact points and slip directions "
       "change with the bodies ('consistent', quadratic convergence), or not "
       "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
-      "where the linear solver takes unsymmetric systems, and for the rest of a step "
+      "where a direct solver takes unsymmetric systems, and for the rest of a step "
       "in which a frozen iteration has gained little.",
       Patterns::Selection("automatic|consistent|frozen"));
   }
