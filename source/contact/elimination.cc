@@ -46,7 +46,7 @@ namespace Touchstone
           {
             for (auto &pair_rows : contact.rows)
               for (ContactRow &row : pair_rows)
-                if (row.active() && row.derivative && refers_to_others(row))
+                if (row.active() && row.friction && row.derivative && refers_to_others(row))
                   kept.insert({row.pair, row.slave});
             for (const auto &of_rank : Utilities::MPI::all_gather(
                    communicator,
@@ -102,7 +102,8 @@ namespace Touchstone
        * Whether taking other slave nodes to move like itself leaves too much of a condition of the
        * row. What it leaves comes back in each iteration, so Newton's method would converge
        * linearly, by about this factor: over one or two nodes in contact, at the edge of what is
-       * covered, hardly at all.
+       * covered, hardly at all. Without friction the iterations with frozen normals that precede
+       * have seen to most of it, and where gaps have kinks multipliers go to and fro between them.
        */
       bool
       refers_to_others(const ContactRow &row) const

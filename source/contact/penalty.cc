@@ -197,7 +197,8 @@ namespace Touchstone
             row.lambda = row.force * row.normal;
             return;
           }
-        if (by_gap(row))
+        // With friction the force of a linear solve stays until the next one.
+        if (!row.friction || by_gap(row))
           row.lambda = row.augmented_lambda - epsilon * row.gap;
         if (row.friction)
           choose_friction(row, epsilon);
@@ -232,7 +233,8 @@ namespace Touchstone
         if (by_gap(row))
           row.granted_gap = row.tied ? row.gap_vector.norm() : row.gap;
         else
-          row.granted_gap = -row.lambda / (factor * row.stiffness);
+          // After a change of the mesh springs begin with the force from before.
+          row.granted_gap = (row.augmented_lambda - row.lambda) / (factor * row.stiffness);
       }
 
       /** Friction and stick go by the normal force. Before balance that of the gap is as wrong as

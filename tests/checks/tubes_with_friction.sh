@@ -38,7 +38,7 @@ push augmented 1 "$answer" 1e-6 --set "Contact/Enforcement=augmented lagrange" -
 push regularised 1 "$answer" 1e-4 --set "Contact/Friction=regularised" --set "$gmres"
 push penalty 1 "$answer" 1e-2 --set "Contact/Enforcement=penalty"
 push stiff_penalty 1 "$answer" 1e-5 --set "Contact/Enforcement=penalty" --set "$gmres" \
-  --set "Contact/Penalty factor=100"
+  --set "Contact/Penalty factor=100" --set "Contact/Linearisation=consistent"
 below stiff_penalty "Newton iterations in 4 steps" "$(value stiff_penalty /iterations/newton)" 24
 below stiff_penalty "iterations of GMRES in the mean" \
   "$(value stiff_penalty /iterations/linear_mean)" 20
