@@ -151,6 +151,7 @@ namespace Touchstone
     };
 
     const LinearSolverRegistry::Entry<AutomaticSolver>
-      entry("automatic", "Belos CG or GMRES for large systems without multipliers, else MUMPS");
+      automatic_entry("automatic",
+                      "Belos CG or GMRES for large systems without multipliers, else MUMPS");
   } // namespace
 } // namespace Touchstone

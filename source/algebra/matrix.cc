@@ -11,7 +11,7 @@ namespace Touchstone
 
   namespace
   {
-    constexpr unsigned int block = dim * dim;
+    constexpr unsigned int block_size = dim * dim;
   }
 
 
@@ -123,9 +123,9 @@ namespace Touchstone
                 ExcMessage("The matrices have different patterns."));
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (std::size_t k = pattern->start[node]; k < pattern->start[node + 1]; ++k)
-        for (unsigned int e = 0; e < block; ++e)
-          entries[block * k + e] +=
-            factors.begin()[dim * node + e % dim] * added.entries[block * k + e];
+        for (unsigned int e = 0; e < block_size; ++e)
+          entries[block_size * k + e] +=
+            factors.begin()[dim * node + e % dim] * added.entries[block_size * k + e];
   }
 
 
@@ -135,7 +135,8 @@ namespace Touchstone
   {
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
-        entries[block * pattern->diagonal(node) + (dim + 1) * d] += values.begin()[dim * node + d];
+        entries[block_size * pattern->diagonal(node) + (dim + 1) * d] +=
+          values.begin()[dim * node + d];
   }
 
 
@@ -143,8 +144,8 @@ namespace Touchstone
   void
   Matrix::clear_node(const int row)
   {
-    std::fill(entries.begin() + block * pattern->start[row / dim],
-              entries.begin() + block * pattern->start[row / dim + 1],
+    std::fill(entries.begin() + block_size * pattern->start[row / dim],
+              entries.begin() + block_size * pattern->start[row / dim + 1],
               0.);
   }
 
@@ -159,7 +160,7 @@ namespace Touchstone
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int r = 0; r < dim; ++r)
             {
-              const double value = std::abs(entries[block * k + dim * c + r]);
+              const double value = std::abs(entries[block_size * k + dim * c + r]);
               sums[dim * node + r] += value;
               if (k < pattern->mirrored[node])
                 sums[dim * pattern->column[k] + c] += value;
@@ -175,9 +176,9 @@ namespace Touchstone
     double sum = 0.;
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (std::size_t k = pattern->start[node]; k < pattern->start[node + 1]; ++k)
-        for (unsigned int e = 0; e < block; ++e)
-          sum += (k < pattern->mirrored[node] ? 2. : 1.) * entries[block * k + e] *
-                 entries[block * k + e];
+        for (unsigned int e = 0; e < block_size; ++e)
+          sum += (k < pattern->mirrored[node] ? 2. : 1.) * entries[block_size * k + e] *
+                 entries[block_size * k + e];
     return std::sqrt(Utilities::MPI::sum(sum, pattern->partitioner->get_mpi_communicator()));
   }
 } // namespace Touchstone

@@ -43,6 +43,7 @@ namespace Touchstone
       }
     };
 
-    const LinearSolverRegistry::Entry<Mumps> entry("MUMPS", "sparse direct solver, for any system");
+    const LinearSolverRegistry::Entry<Mumps> mumps_entry("MUMPS",
+                                                         "sparse direct solver, for any system");
   } // namespace
 } // namespace Touchstone

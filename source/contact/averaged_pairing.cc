@@ -19,7 +19,7 @@ namespace Touchstone
   {
     /** Of the shortest edge: nodes that move by less do not change which faces face each
      * other, but for those beside them. */
-    constexpr double small_part = 0.02;
+    constexpr double negligible_motion = 0.02;
 
     /**
      * Rows that pass the patch test: the stencil of a slave node are averages of
@@ -46,7 +46,8 @@ namespace Touchstone
                  master_normal(input.parameters->master_normal),
                  input.solid->communicator)
         , facing(search,
-                 small_part * std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
+                 negligible_motion *
+                   std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
         , kind(master_normal(input.parameters->master_normal))
         , tied(input.parameters->behaviour == "tied")
       {
@@ -229,8 +230,9 @@ namespace Touchstone
       finish_sums(Sums &sum);
     };
 
-    const PairingRegistry::Entry<AveragedPairing>
-      entry("averaged", "averages over the slave faces with a dual basis; passes the patch test");
+    const PairingRegistry::Entry<AveragedPairing> averaged_pairing_entry(
+      "averaged",
+      "averages over the slave faces with a dual basis; passes the patch test");
 
 
 
@@ -318,7 +320,7 @@ namespace Touchstone
             {
               const FaceShapes shapes(slave.degree, point.slave);
               const FaceShapes master_shapes(master.degree, point.master);
-              const auto [x, normal]   = on_master.position_and_normal(point.master, master_shapes);
+              const auto [x, normal] = on_master.position_and_normal(point.master, master_shapes);
               const double part =
                 FacingPart(
                   facing_cosine(plane, normal, master, on_master.exact_surface(), point.master))

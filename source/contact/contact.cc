@@ -19,7 +19,7 @@ namespace Touchstone
     /** A surface that just touches, up to this fraction of a face, starts in
      * contact: otherwise a body that only rests on another would have no support
      * in the first iteration. */
-    constexpr double touching = 1e-6;
+    constexpr double touching_gap = 1e-6;
 
     Tensor<1, dim>
     part_of_force(const ContactRow &row, const Contact::Part part)
@@ -270,7 +270,7 @@ namespace Touchstone
             {
               if (row.tied)
                 row.status = ContactStatus::tied;
-              else if (row.gap < touching * row.size)
+              else if (row.gap < touching_gap * row.size)
                 row.status = ContactStatus::slip;
               if (pair.parameters->initial_overlap != "interference")
                 pair.overlap[k] = std::min(row.gap, 0.);
@@ -565,7 +565,7 @@ namespace Touchstone
             ++partner;
             lowest = std::min(lowest, gap);
             size   = std::max(size, row.size);
-            overlapping += (gap < -touching * row.size);
+            overlapping += (gap < -touching_gap * row.size);
           }
         const unsigned int total     = Utilities::MPI::sum(rows[p].size(), solid.communicator);
         lowest                       = Utilities::MPI::min(lowest, solid.communicator);

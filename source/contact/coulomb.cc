@@ -57,6 +57,7 @@ namespace Touchstone
     };
 
     const FrictionLawRegistry::Entry<Coulomb>
-      entry("coulomb", "the tangential force is at most a coefficient times the normal force.");
+      coulomb_entry("coulomb",
+                    "the tangential force is at most a coefficient times the normal force.");
   } // namespace
 } // namespace Touchstone

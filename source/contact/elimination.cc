@@ -145,6 +145,6 @@ namespace Touchstone
     };
 
     const EnforcementRegistry::Entry<Elimination>
-      entry("elimination", "slave components condensed out; any solver");
+      elimination_entry("elimination", "slave components condensed out; any solver");
   } // namespace
 } // namespace Touchstone

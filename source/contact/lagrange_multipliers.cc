@@ -31,6 +31,7 @@ namespace Touchstone
     };
 
     const EnforcementRegistry::Entry<LagrangeMultipliers>
-      entry("lagrange multipliers", "contact forces as unknowns; needs a direct solver");
+      lagrange_multipliers_entry("lagrange multipliers",
+                                 "contact forces as unknowns; needs a direct solver");
   } // namespace
 } // namespace Touchstone

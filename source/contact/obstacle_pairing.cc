@@ -109,6 +109,7 @@ namespace Touchstone
     };
 
     const PairingRegistry::Entry<ObstaclePairing>
-      entry("obstacle", "rigid surface given by a formula; chosen by the key 'Obstacle'");
+      obstacle_pairing_entry("obstacle",
+                             "rigid surface given by a formula; chosen by the key 'Obstacle'");
   } // namespace
 } // namespace Touchstone

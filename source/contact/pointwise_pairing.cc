@@ -76,7 +76,7 @@ namespace Touchstone
     };
 
     const PairingRegistry::Entry<PointwisePairing>
-      entry("pointwise", "node-to-surface by closest-point projection");
+      pointwise_pairing_entry("pointwise", "node-to-surface by closest-point projection");
 
 
 

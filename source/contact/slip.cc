@@ -249,7 +249,7 @@ namespace Touchstone
      * increment: the normal over a sharp edge with hardly a gap, averages over a
      * sliver of coverage. Such a row is better frozen. */
     bool
-    steep(const ContactRow &row)
+    changes_steeply(const ContactRow &row)
     {
       constexpr double     turns = 30., weights_change = 300.; // over a face
       const RowDerivative &d = *row.derivative;
@@ -277,7 +277,7 @@ namespace Touchstone
         for (std::size_t k = 0; k < rows[p].size(); ++k)
           {
             ContactRow &row = rows[p][k];
-            if (row.derivative && steep(row))
+            if (row.derivative && changes_steeply(row))
               row.derivative.reset();
             if (row.friction && row.derivative)
               set_slip_gradient(row, pairs[p].tangents[k]);

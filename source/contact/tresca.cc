@@ -44,6 +44,7 @@ namespace Touchstone
     };
 
     const FrictionLawRegistry::Entry<Tresca>
-      entry("tresca", "the shear traction is at most a given strength, wherever there is contact.");
+      tresca_entry("tresca",
+                   "the shear traction is at most a given strength, wherever there is contact.");
   } // namespace
 } // namespace Touchstone

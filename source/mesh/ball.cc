@@ -83,8 +83,8 @@ namespace Touchstone
     };
 
     const GeometryRegistry::Entry<Ball>
-      entry("ball",
-            "A ball, or the half, quarter or octant of one, with the boundaries surface and, "
-            "where it is cut, x cut, y cut, z cut.");
+      ball_entry("ball",
+                 "A ball, or the half, quarter or octant of one, with the boundaries surface and, "
+                 "where it is cut, x cut, y cut, z cut.");
   } // namespace
 } // namespace Touchstone

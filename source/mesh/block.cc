@@ -114,11 +114,11 @@ namespace Touchstone
       }
     };
 
-    const GeometryRegistry::Entry<Block>
-      entry("block",
-            "A block with straight edges between any four or eight corners, with the boundaries "
-            "front (from the first corner to the second), right (second to third), back (third "
-            "to fourth), left (fourth to first), bottom (the first four corners), top (those "
-            "opposite), numbered as in a box.");
+    const GeometryRegistry::Entry<Block> block_entry(
+      "block",
+      "A block with straight edges between any four or eight corners, with the boundaries "
+      "front (from the first corner to the second), right (second to third), back (third "
+      "to fourth), left (fourth to first), bottom (the first four corners), top (those "
+      "opposite), numbered as in a box.");
   } // namespace
 } // namespace Touchstone

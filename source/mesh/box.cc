@@ -93,8 +93,8 @@ namespace Touchstone
     };
 
     const GeometryRegistry::Entry<Box>
-      entry("box",
-            "A box with the boundaries left, right (x), front, back (y), bottom, top (z), "
-            "also called 0 to 5.");
+      box_entry("box",
+                "A box with the boundaries left, right (x), front, back (y), bottom, top (z), "
+                "also called 0 to 5.");
   } // namespace
 } // namespace Touchstone

@@ -334,10 +334,10 @@ namespace Touchstone
       return mesh;
     }
 
-    const GeometryRegistry::Entry<Cap>
-      entry("cap",
-            "A block with a spherical, cylindrical or flat contact face, meshed finely around the "
-            "point or line of first contact, with the boundaries contact, far (opposite), x side, "
-            "y side, and where it is cut x cut, y cut; a cylinder lies between y cut and y side.");
+    const GeometryRegistry::Entry<Cap> cap_entry(
+      "cap",
+      "A block with a spherical, cylindrical or flat contact face, meshed finely around the "
+      "point or line of first contact, with the boundaries contact, far (opposite), x side, "
+      "y side, and where it is cut x cut, y cut; a cylinder lies between y cut and y side.");
   } // namespace
 } // namespace Touchstone

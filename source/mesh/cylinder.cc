@@ -148,10 +148,10 @@ namespace Touchstone
       return mesh;
     }
 
-    const GeometryRegistry::Entry<Cylinder>
-      entry("cylinder",
-            "A solid cylinder, or the half or quarter of one, with the boundaries side, start, "
-            "end, and where it is cut first cut (angle 0, for the half also 180 degrees) and "
-            "second cut (90 degrees).");
+    const GeometryRegistry::Entry<Cylinder> cylinder_entry(
+      "cylinder",
+      "A solid cylinder, or the half or quarter of one, with the boundaries side, start, "
+      "end, and where it is cut first cut (angle 0, for the half also 180 degrees) and "
+      "second cut (90 degrees).");
   } // namespace
 } // namespace Touchstone

@@ -414,8 +414,8 @@ namespace Touchstone
     }
 
     const GeometryRegistry::Entry<FileGeometry>
-      entry("file",
-            "A mesh file of Gmsh, Abaqus or VTK, or one of the volumes in it, with the "
-            "boundaries that the file names.");
+      file_entry("file",
+                 "A mesh file of Gmsh, Abaqus or VTK, or one of the volumes in it, with the "
+                 "boundaries that the file names.");
   } // namespace
 } // namespace Touchstone

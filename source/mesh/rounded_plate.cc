@@ -220,11 +220,11 @@ namespace Touchstone
       return mesh;
     }
 
-    const GeometryRegistry::Entry<RoundedPlate>
-      entry("rounded plate",
-            "A rectangular plate with one corner rounded, with the boundaries first side and "
-            "second side (the two that meet in the rounded corner), fillet (the rounding), far "
-            "first side and far second side (opposite to these), back and front (back is where "
-            "the cross product of both directions points away from).");
+    const GeometryRegistry::Entry<RoundedPlate> rounded_plate_entry(
+      "rounded plate",
+      "A rectangular plate with one corner rounded, with the boundaries first side and "
+      "second side (the two that meet in the rounded corner), fillet (the rounding), far "
+      "first side and far second side (opposite to these), back and front (back is where "
+      "the cross product of both directions points away from).");
   } // namespace
 } // namespace Touchstone

@@ -181,9 +181,9 @@ namespace Touchstone
       return mesh;
     }
 
-    const GeometryRegistry::Entry<Tube>
-      entry("tube",
-            "A tube or a sector of it, with straight or conical walls and the boundaries inner, "
-            "outer, start, end, and for a sector first cut, second cut.");
+    const GeometryRegistry::Entry<Tube> tube_entry(
+      "tube",
+      "A tube or a sector of it, with straight or conical walls and the boundaries inner, "
+      "outer, start, end, and for a sector first cut, second cut.");
   } // namespace
 } // namespace Touchstone

@@ -93,9 +93,9 @@ namespace Touchstone
       std::string        slave, master, name;
     };
 
-    const ReferenceRegistry::Entry<BarImpact>
-      entry("bar impact",
-            "two equal bars along x that meet end on, Poisson's ratio 0; values: length, area, "
-            "slave speed, master speed (along x).");
+    const ReferenceRegistry::Entry<BarImpact> bar_impact_entry(
+      "bar impact",
+      "two equal bars along x that meet end on, Poisson's ratio 0; values: length, area, "
+      "slave speed, master speed (along x).");
   } // namespace
 } // namespace Touchstone

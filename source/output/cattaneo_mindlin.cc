@@ -12,7 +12,7 @@ namespace Touchstone
 {
   namespace
   {
-    const ReferenceRegistry::Entry<CattaneoMindlin> entry(
+    const ReferenceRegistry::Entry<CattaneoMindlin> cattaneo_mindlin_entry(
       "cattaneo mindlin",
       "Two cylinders of the same material with axes along y, pressed along z and pushed along x, "
       "compared at the forces that were computed. Values: 'radius' (1/R = 1/R1 + 1/R2), 'young "

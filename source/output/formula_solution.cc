@@ -12,7 +12,7 @@ namespace Touchstone
 {
   namespace
   {
-    const ReferenceRegistry::Entry<FormulaSolution> entry(
+    const ReferenceRegistry::Entry<FormulaSolution> formula_solution_entry(
       "formula",
       "An exact or manufactured solution, given by formulas: 'Reference displacement x', 'y', 'z' "
       "of the bodies and 'Pressure' of the contact pair, as far as they are known. No values.");

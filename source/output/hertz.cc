@@ -12,7 +12,7 @@ namespace Touchstone
 {
   namespace
   {
-    const ReferenceRegistry::Entry<Hertz> entry(
+    const ReferenceRegistry::Entry<Hertz> hertz_entry(
       "hertz",
       "Contact of spheres, compared at the force that was computed. Values: 'radius' (1/R = 1/R1 "
       "+ 1/R2), 'young modulus', 'poisson ratio'; optionally 'second young modulus', 'second "

@@ -9,7 +9,7 @@ namespace Touchstone
 {
   namespace
   {
-    const ReferenceRegistry::Entry<HillTube> entry(
+    const ReferenceRegistry::Entry<HillTube> hill_tube_entry(
       "hill tube",
       "A thick tube about the z axis, incompressible and perfectly plastic (von Mises), in plane "
       "strain, under pressure in its bore, loaded or unloaded (Hill 1950). Values: 'inner radius', "

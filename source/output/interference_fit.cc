@@ -10,7 +10,7 @@ namespace Touchstone
 {
   namespace
   {
-    const ReferenceRegistry::Entry<InterferenceFit> entry(
+    const ReferenceRegistry::Entry<InterferenceFit> interference_fit_entry(
       "interference fit",
       "Two tubes pressed into each other (Lame, plane strain, small overlap). Values: 'inner "
       "radius', 'inner skin radius', 'outer bore radius', 'outer radius', 'slave radius' (one of "

@@ -10,7 +10,7 @@ namespace Touchstone
 {
   namespace
   {
-    const ReferenceRegistry::Entry<PointDisplacement> entry(
+    const ReferenceRegistry::Entry<PointDisplacement> point_displacement_entry(
       "point displacement",
       "The displacement of the node next to a point. Values: 'point x', 'point y', 'point z'; and "
       "those that are known of 'displacement x', 'displacement y', 'displacement z'.");

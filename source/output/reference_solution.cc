@@ -24,7 +24,7 @@ namespace Touchstone
       }
     };
 
-    const ReferenceRegistry::Entry<NoReference> entry("none", "No comparison.");
+    const ReferenceRegistry::Entry<NoReference> reference_solution_entry("none", "No comparison.");
 
 
 

@@ -12,7 +12,7 @@ namespace Touchstone
 {
   namespace
   {
-    const ReferenceRegistry::Entry<UniformStress> entry(
+    const ReferenceRegistry::Entry<UniformStress> uniform_stress_entry(
       "uniform stress",
       "The patch test. Values, all optional but not all zero: 'sxx', 'syy', 'szz', 'sxy', 'syz', "
       "'sxz'; 'origin x', 'origin y', 'origin z' (the point that does not move); 'pressure' of "

@@ -70,8 +70,8 @@ namespace Touchstone
     };
 
     const HyperelasticRegistry::Entry<NeoHookean>
-      entry("neo-Hookean",
-            "for large strain, the energies of shape and volume separate: "
-            "mu/2 (J^(-2/3) tr C - 3) + kappa/2 ((J^2-1)/2 - ln J).");
+      neo_hookean_entry("neo-Hookean",
+                        "for large strain, the energies of shape and volume separate: "
+                        "mu/2 (J^(-2/3) tr C - 3) + kappa/2 ((J^2-1)/2 - ln J).");
   } // namespace
 } // namespace Touchstone

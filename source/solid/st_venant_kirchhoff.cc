@@ -81,9 +81,9 @@ namespace Touchstone
       }
     };
 
-    const HyperelasticRegistry::Entry<StVenantKirchhoff>
-      entry("St. Venant-Kirchhoff",
-            "for large rotations with small strain: lambda/2 (tr E)^2 + mu E:E with the "
-            "Green-Lagrange strain E.");
+    const HyperelasticRegistry::Entry<StVenantKirchhoff> st_venant_kirchhoff_entry(
+      "St. Venant-Kirchhoff",
+      "for large rotations with small strain: lambda/2 (tr E)^2 + mu E:E with the "
+      "Green-Lagrange strain E.");
   } // namespace
 } // namespace Touchstone

@@ -79,6 +79,17 @@ namespace Touchstone
     void
     compute_here();
   };
+
+  // Both numbers of cells have versions for several processors, which are no templates.
+  template <>
+  void
+  ElementStiffness<1>::compute();
+  template <>
+  void
+  ElementStiffness<8>::compute();
+  template <>
+  void
+  ElementStiffness<1>::recover_modes(std::vector<double> &displacement) const;
 } // namespace Touchstone
 
 #endif
