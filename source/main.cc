@@ -1,7 +1,7 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/output/model_export.h>
 #include <touchstone/scene/command_line.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -4,7 +4,7 @@
 
 #include <touchstone/algebra/convergence_watch.h>
 #include <touchstone/algebra/mumps_factors.h>
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include "spring_net.h"
 #include <iostream>

@@ -2,7 +2,7 @@
 // an unsymmetric part as friction makes it; conjugate gradients must refuse the
 // latter, and multigrid extra unknowns.
 
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include "spring_net.h"
 #include <iostream>

@@ -2,8 +2,8 @@
 // precision, whole and as half of a symmetric one, the coarse levels, and that a cycle is
 // symmetric, as conjugate gradients need it, and works.
 
-#include <touchstone/algebra/aggregation.h>
-#include <touchstone/algebra/multigrid.h>
+#include <touchstone/algebra/multigrid/aggregation.h>
+#include <touchstone/algebra/multigrid/multigrid.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,8 +1,8 @@
 // What bodies can do without resistance under given supports and contacts, in
 // words; and that the modes are motions without energy.
 
-#include <touchstone/algebra/rigid_body_modes.h>
 #include <touchstone/solid/boundary_conditions.h>
+#include <touchstone/solid/rigid_body_modes.h>
 
 #include "mesh_common.h"
 

@@ -1,7 +1,7 @@
 // Faces of contact surfaces: shape functions, tangents against central
 // differences, and the closest-point projection against a brute-force search.
 
-#include <touchstone/contact/face_geometry.h>
+#include <touchstone/contact/geometry/face_geometry.h>
 
 #include "mesh_common.h"
 #include <functional>
@@ -126,10 +126,11 @@ namespace
       for (const double b : {-1.25, -1., -0.3, 0.15, 0.7, 1.4})
         for (const double height : {-0.4, -0.01, 0., 0.05, 0.5})
           {
-            const FacePoint  point      = evaluate(face, nullptr, {{a, b}});
-            const Point<dim> x          = point.x + height * size * point.normal();
-            const Projection projection = closest_point_projection(x, FaceGeometry(face, exact, MasterNormal::averaged));
-            const double     distance   = std::sqrt(projection.distance_squared);
+            const FacePoint  point = evaluate(face, nullptr, {{a, b}});
+            const Point<dim> x     = point.x + height * size * point.normal();
+            const Projection projection =
+              closest_point_projection(x, FaceGeometry(face, exact, MasterNormal::averaged));
+            const double distance = std::sqrt(projection.distance_squared);
             worse = std::max(worse, (distance - brute_force(x, face, exact)) / size);
             inconsistent =
               std::max(inconsistent,
@@ -213,7 +214,8 @@ main()
                               Point<dim>(1.1, -1.3, 0.),
                               Point<dim>(0.5, 0.5, 0.3)})
     {
-      const Projection projection = closest_point_projection(x, FaceGeometry(square, nullptr, MasterNormal::averaged));
+      const Projection projection =
+        closest_point_projection(x, FaceGeometry(square, nullptr, MasterNormal::averaged));
       std::cout << x << ": xi " << projection.xi[0] << ' ' << projection.xi[1] << ", beyond outer "
                 << projection.beyond_outer << ", inner " << projection.beyond_inner << '\n';
     }

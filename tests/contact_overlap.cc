@@ -1,7 +1,7 @@
 // Points on the common parts of faces: the pieces of a face that a turned grid covers add up to
 // its mass matrix, whatever their number of corners; coincident edges; corners cut off.
 
-#include <touchstone/contact/overlap.h>
+#include <touchstone/contact/geometry/overlap.h>
 
 #include "mesh_common.h"
 
@@ -77,8 +77,7 @@ namespace
           error                     = std::max(error, std::abs(mass[j][k] / expected_area - exact));
         }
     std::cout << name << ": " << pieces << " pieces, " << points << " points, area "
-              << small(std::abs(area - expected_area), 1e-11) << ", apart "
-              << small(apart, 1e-7);
+              << small(std::abs(area - expected_area), 1e-11) << ", apart " << small(apart, 1e-7);
     if (whole)
       std::cout << ", products of shapes " << small(error, 1e-11);
     std::cout << std::endl;

@@ -2,7 +2,7 @@
 // test it looks at what is found. With arguments, the numbers of slave nodes, it prints
 // times and the exponents of their growth; contrib/search_scaling.sh calls it so.
 
-#include <touchstone/contact/facing_faces.h>
+#include <touchstone/contact/search/facing_faces.h>
 
 #include <deal.II/base/timer.h>
 

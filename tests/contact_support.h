@@ -1,7 +1,7 @@
 #ifndef touchstone_tests_contact_support_h
 #define touchstone_tests_contact_support_h
 
-#include <touchstone/contact/pairing.h>
+#include <touchstone/contact/pairing/pairing.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,8 +3,8 @@
 // a linearisation that keeps normals and stencils constant the differences must be
 // seen. With an argument the errors themselves are printed.
 
-#include <touchstone/contact/enforcement.h>
-#include <touchstone/contact/row_terms.h>
+#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/enforcement/row_terms.h>
 
 #include "contact_support.h"
 #include <array>

@@ -3,7 +3,7 @@
 // another load has left after two iterations. With friction, rows that come into contact within
 // the step, stick and slip; exact enforcements, both pairings.
 
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include "drive_support.h"
 

@@ -3,7 +3,7 @@
 // halves gives what those halves give alone, for each enforcement: displacements,
 // forces, slip, friction work and status of each node.
 
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include "drive_support.h"
 

@@ -3,7 +3,7 @@
 // that makes things much worse is shortened, and a residual that a change of the active
 // set or a support on its way has raised shortens nothing.
 
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/newton.h>
 
 #include <cmath>

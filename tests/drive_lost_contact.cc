@@ -3,7 +3,7 @@
 // with the reason. A body that stays near what it touched is a warning, and one that still
 // touches it nothing at all.
 
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include "drive_support.h"
 

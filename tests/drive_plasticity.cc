@@ -5,7 +5,7 @@
 // work is elastic energy and plastic work. A law without an answer fails on all ranks, and the
 // step can be cut.
 
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/solid/hardening_law.h>
 
 #include "drive_support.h"

@@ -1,9 +1,9 @@
 #ifndef touchstone_tests_extending_support_h
 #define touchstone_tests_extending_support_h
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/scene/command_line.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,8 +1,8 @@
 #ifndef touchstone_tests_mesh_common_h
 #define touchstone_tests_mesh_common_h
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/mesh/body_mesh.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>

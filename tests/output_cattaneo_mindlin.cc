@@ -2,7 +2,7 @@
 // have the right limits; points that carry them show hardly any error, spread over
 // ranks; and figures that are wrong on purpose do.
 
-#include <touchstone/output/cattaneo_mindlin.h>
+#include <touchstone/verification/cattaneo_mindlin.h>
 
 #include <deal.II/base/quadrature_lib.h>
 

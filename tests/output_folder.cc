@@ -3,7 +3,7 @@
 // ranks. Root may write anywhere, so permissions cannot be tested by taking
 // them away.
 
-#include <touchstone/output/folder.h>
+#include <touchstone/base/folder.h>
 #include <touchstone/output/log.h>
 #include <touchstone/output/statistics.h>
 

@@ -1,7 +1,7 @@
 // Hertz: points that carry exactly Hertz's pressure show hardly any error, also
 // when they are spread over the ranks; no contact gives no error at all.
 
-#include <touchstone/output/hertz.h>
+#include <touchstone/verification/hertz.h>
 
 #include <cmath>
 #include <iomanip>

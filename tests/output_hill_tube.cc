@@ -2,7 +2,7 @@
 // plastic radius against its formula, the core against Lame's solution, and bad
 // values. Radii and stresses were computed by hand from the formulae.
 
-#include <touchstone/output/hill_tube.h>
+#include <touchstone/verification/hill_tube.h>
 
 #include <cmath>
 #include <iomanip>

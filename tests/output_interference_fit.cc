@@ -1,6 +1,6 @@
 // Lamé's interference fit: the pressure against known figures, and bad values.
 
-#include <touchstone/output/interference_fit.h>
+#include <touchstone/verification/interference_fit.h>
 
 #include <iomanip>
 #include <iostream>

@@ -1,8 +1,8 @@
 // The model as JSON: the whole file of the smallest scene, and for both degrees that
 // every node is there once, loads are complete and faces look outward.
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/output/model_export.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>

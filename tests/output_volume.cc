@@ -1,9 +1,9 @@
 // Pictures of the bodies and the uniform-stress reference: two boxes on top of
 // each other with the exact displacement of a uniform stress, for both degrees.
 
-#include <touchstone/output/point_displacement.h>
-#include <touchstone/output/uniform_stress.h>
 #include <touchstone/output/volume_output.h>
+#include <touchstone/verification/point_displacement.h>
+#include <touchstone/verification/uniform_stress.h>
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>

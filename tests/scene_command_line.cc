@@ -1,7 +1,7 @@
 // Options, and what is said to those that do not exist.
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/scene/command_line.h>
-#include <touchstone/scene/input_error.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -25,8 +25,7 @@ namespace
         std::cout << "scene '" << line.scene_file << "'" << (line.help ? ", help" : "")
                   << (line.version ? ", version" : "") << (line.validate ? ", validate" : "")
                   << (line.print_parameters ? ", print parameters" : "")
-                  << (line.results_only ? ", results only" : "")
-                  << (line.resume ? ", resume" : "");
+                  << (line.results_only ? ", results only" : "") << (line.resume ? ", resume" : "");
         if (!line.export_model.empty())
           std::cout << ", export model '" << line.export_model << "'";
         for (const std::string &override_text : line.overrides)

@@ -1,7 +1,7 @@
 #ifndef touchstone_tests_scene_support_h
 #define touchstone_tests_scene_support_h
 
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
 #include <touchstone/scene/scene.h>
 
 #include <iostream>

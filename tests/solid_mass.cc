@@ -2,7 +2,7 @@
 // for each kind of mass, degree and shape of cells; massless nodes keep mass and centre;
 // and no motion has negative kinetic energy.
 
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
 #include <touchstone/solid/mass.h>
 
 #include <deal.II/base/quadrature_lib.h>

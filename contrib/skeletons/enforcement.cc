@@ -2,8 +2,8 @@
 // to source/contact/NAME.cc, fill in what is marked TODO, and add NAME to the key
 // "Enforcement" in source/scene/contact_parameters.cc.
 
-#include <touchstone/contact/enforcement.h>
-#include <touchstone/contact/row_terms.h>
+#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/enforcement/row_terms.h>
 
 namespace Touchstone
 {

@@ -2,8 +2,8 @@
 // marked TODO, build: 'set Behaviour = NAME' selects it, and nothing else need
 // be edited.
 
-#include <touchstone/contact/friction_law.h>
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/friction/friction_law.h>
 
 namespace Touchstone
 {

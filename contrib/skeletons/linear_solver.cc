@@ -1,5 +1,5 @@
 #include <touchstone/algebra/linear_solver.h>
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include <Amesos_Klu.h>
 #include <Epetra_LinearProblem.h>

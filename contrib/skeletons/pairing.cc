@@ -2,7 +2,7 @@
 // what is marked TODO, and add NAME to the key "Pairing" in
 // source/scene/contact_parameters.cc.
 
-#include <touchstone/contact/pairing.h>
+#include <touchstone/contact/pairing/pairing.h>
 
 #include <algorithm>
 
@@ -36,11 +36,8 @@ namespace Touchstone
           {
             ContactRow &row = rows[k];
             // The start of the step would let it find what lies on the way from there.
-            const auto  partner = search.find({positions[k],
-                                               positions[k],
-                                               input.slave->normal(nodes[k].node),
-                                               row.active(),
-                                               {}});
+            const auto partner = search.find(
+              {positions[k], positions[k], input.slave->normal(nodes[k].node), row.active(), {}});
             row.stencil.clear();
             if (!partner)
               {

@@ -1,5 +1,5 @@
-#include <touchstone/contact/friction_law.h>
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/friction/friction_law.h>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <touchstone/output/reference_solution.h>
+#include <touchstone/verification/reference_solution.h>
 
 namespace Touchstone
 {

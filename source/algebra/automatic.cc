@@ -1,6 +1,6 @@
 #include <touchstone/algebra/convergence_watch.h>
 #include <touchstone/algebra/linear_solver.h>
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include <algorithm>
 

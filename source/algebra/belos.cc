@@ -1,11 +1,11 @@
-#include <touchstone/algebra/block_diagonal.h>
 #include <touchstone/algebra/condensation.h>
 #include <touchstone/algebra/convergence_watch.h>
 #include <touchstone/algebra/kept_factors.h>
 #include <touchstone/algebra/linear_solver.h>
-#include <touchstone/algebra/multigrid.h>
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/algebra/multigrid/block_diagonal.h>
+#include <touchstone/algebra/multigrid/multigrid.h>
 #include <touchstone/algebra/watched_iteration.h>
+#include <touchstone/base/non_convergence.h>
 
 #include <BelosBlockCGSolMgr.hpp>
 #include <BelosBlockGmresSolMgr.hpp>

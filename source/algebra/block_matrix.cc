@@ -1,5 +1,5 @@
 #include <touchstone/algebra/block_matrix.h>
-#include <touchstone/vectorised.h>
+#include <touchstone/base/vectorised.h>
 
 #include <Epetra_MpiComm.h>
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <touchstone/algebra/constraint_graph.h>
-#include <touchstone/algebra/neighbours.h>
+#include <touchstone/algebra/multigrid/neighbours.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>

@@ -1,5 +1,5 @@
 #include <touchstone/algebra/mumps_factors.h>
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 
 #include <deal.II/base/mpi.h>
 

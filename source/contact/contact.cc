@@ -1,7 +1,7 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/start_check.h>
 #include <touchstone/contact/unresolved_contact.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>

@@ -1,6 +1,6 @@
-#include <touchstone/contact/deformed_cells.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/start_check.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
 

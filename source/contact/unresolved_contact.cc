@@ -1,7 +1,7 @@
-#include <touchstone/contact/deformed_cells.h>
-#include <touchstone/contact/edge_crossing.h>
-#include <touchstone/contact/search.h>
-#include <touchstone/contact/surface_cone.h>
+#include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/geometry/edge_crossing.h>
+#include <touchstone/contact/geometry/surface_cone.h>
+#include <touchstone/contact/search/search.h>
 #include <touchstone/contact/unresolved_contact.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,4 +1,4 @@
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/impact.h>
 
 #include <deal.II/lac/diagonal_matrix.h>

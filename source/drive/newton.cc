@@ -1,4 +1,4 @@
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/newton.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <touchstone/archive/archive.h>
+#include <touchstone/base/input_error.h>
 #include <touchstone/drive/simulation.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,8 +1,8 @@
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/output/resources.h>
-#include <touchstone/scene/input_error.h>
 #include <touchstone/scene/parameter_changes.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,4 +1,4 @@
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/solid/bodies.h>
 

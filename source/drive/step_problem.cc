@@ -1,7 +1,7 @@
-#include <touchstone/algebra/non_convergence.h>
-#include <touchstone/contact/row_terms.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/drive/step_problem.h>
-#include <touchstone/scene/input_error.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/grid/grid_tools.h>

@@ -1,6 +1,6 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/round_lattice.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/grid/manifold_lib.h>
 

@@ -1,5 +1,5 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/mesh/body_mesh.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/geometry_info.h>
 

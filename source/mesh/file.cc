@@ -1,8 +1,8 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/exact_surface.h>
 #include <touchstone/mesh/mesh_file.h>
 #include <touchstone/mesh/mesh_text.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/grid/grid_tools.h>

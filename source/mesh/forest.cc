@@ -1,8 +1,8 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/contact_work.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/mesh/partition.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/distributed/tria.h>

@@ -1,9 +1,9 @@
-#include <touchstone/contact/friction_law.h>
-#include <touchstone/contact/surface.h>
-#include <touchstone/output/folder.h>
+#include <touchstone/base/folder.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/friction/friction_law.h>
+#include <touchstone/contact/geometry/surface.h>
 #include <touchstone/output/json.h>
 #include <touchstone/output/model_export.h>
-#include <touchstone/scene/input_error.h>
 #include <touchstone/solid/boundary_conditions.h>
 
 #include <cmath>

@@ -1,7 +1,7 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/scene/body_parameters.h>
 #include <touchstone/scene/expression.h>
-#include <touchstone/scene/input_error.h>
 #include <touchstone/solid/hardening_law.h>
 #include <touchstone/solid/hyperelastic_law.h>
 #include <touchstone/solid/material_law.h>

@@ -1,6 +1,6 @@
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
 #include <touchstone/scene/command_line.h>
-#include <touchstone/scene/input_error.h>
-#include <touchstone/scene/suggestion.h>
 
 #include <cerrno>
 #include <cstdlib>

@@ -1,7 +1,7 @@
-#include <touchstone/contact/friction_law.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/friction/friction_law.h>
 #include <touchstone/scene/contact_parameters.h>
 #include <touchstone/scene/expression.h>
-#include <touchstone/scene/input_error.h>
 
 #include <cmath>
 #include <set>
@@ -269,15 +269,14 @@ namespace Touchstone
                       "Multiplies the automatic stiffness of these springs, which is ten times "
                       "Young's modulus times tributary area over face size. [no unit]",
                       Patterns::Double());
-    prm.add_parameter(
-      "Linearisation",
-      linearisation,
-      "Within a Newton iteration, normals, contact points and slip directions "
-      "change with the bodies ('consistent', quadratic convergence), or not "
-      "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
-      "where a direct solver takes unsymmetric systems, and for the rest of a step "
-      "in which a frozen iteration has gained little.",
-      Patterns::Selection("automatic|consistent|frozen"));
+    prm.add_parameter("Linearisation",
+                      linearisation,
+                      "Within a Newton iteration, normals, contact points and slip directions "
+                      "change with the bodies ('consistent', quadratic convergence), or not "
+                      "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
+                      "where a direct solver takes unsymmetric systems, and for the rest of a step "
+                      "in which a frozen iteration has gained little.",
+                      Patterns::Selection("automatic|consistent|frozen"));
   }
 
 

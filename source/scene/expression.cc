@@ -1,6 +1,6 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/scene/expression.h>
 #include <touchstone/scene/formula.h>
-#include <touchstone/scene/input_error.h>
 
 #include <cmath>
 #include <iostream>

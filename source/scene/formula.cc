@@ -1,5 +1,5 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/scene/formula.h>
-#include <touchstone/scene/input_error.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -1,4 +1,4 @@
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
 #include <touchstone/scene/parameter_changes.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/scene_text.h>
@@ -19,10 +19,10 @@ namespace Touchstone
       {"Output", "Checkpoints", "Linear solver", "Newton", "Reference solution", "Load stepping"};
 
     /** And single keys, with their section. The end time is looked at in detail. */
-    const std::set<std::pair<std::string, std::string>> free_keys = {
-      {"", "Title"},
-      {"Contact", "Linearisation"},
-      {"Discretisation", "Contact weight"}};
+    const std::set<std::pair<std::string, std::string>> free_keys = {{"", "Title"},
+                                                                     {"Contact", "Linearisation"},
+                                                                     {"Discretisation",
+                                                                      "Contact weight"}};
 
     std::vector<std::string>
     items(const std::string &value)

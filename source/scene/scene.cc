@@ -1,9 +1,9 @@
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
 #include <touchstone/mesh/geometry.h>
-#include <touchstone/scene/input_error.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/scene_entries.h>
 #include <touchstone/scene/scene_text.h>
-#include <touchstone/scene/suggestion.h>
 
 #include <deal.II/base/utilities.h>
 

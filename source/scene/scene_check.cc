@@ -1,7 +1,7 @@
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
 #include <touchstone/scene/formula.h>
-#include <touchstone/scene/input_error.h>
 #include <touchstone/scene/scene.h>
-#include <touchstone/scene/suggestion.h>
 
 #include <algorithm>
 

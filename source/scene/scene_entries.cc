@@ -1,6 +1,6 @@
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
 #include <touchstone/scene/scene_entries.h>
-#include <touchstone/scene/suggestion.h>
 
 #include <deal.II/base/utilities.h>
 

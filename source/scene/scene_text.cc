@@ -1,4 +1,4 @@
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
 #include <touchstone/scene/scene_text.h>
 
 #include <deal.II/base/utilities.h>

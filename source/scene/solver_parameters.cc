@@ -1,5 +1,5 @@
+#include <touchstone/base/input_error.h>
 #include <touchstone/scene/expression.h>
-#include <touchstone/scene/input_error.h>
 #include <touchstone/scene/solver_parameters.h>
 
 #include <deal.II/base/utilities.h>

@@ -1,4 +1,4 @@
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
 #include <touchstone/solid/boundary_conditions.h>
 
 #include <deal.II/base/quadrature_lib.h>

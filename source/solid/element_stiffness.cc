@@ -1,5 +1,5 @@
+#include <touchstone/base/vectorised.h>
 #include <touchstone/solid/element_stiffness.h>
-#include <touchstone/vectorised.h>
 
 namespace Touchstone
 {

@@ -1,4 +1,4 @@
-#include <touchstone/scene/input_error.h>
+#include <touchstone/base/input_error.h>
 #include <touchstone/solid/hardening_law.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/solid/linear_cells.h>
 #include <touchstone/solid/solid.h>
 

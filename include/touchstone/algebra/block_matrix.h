@@ -2,8 +2,8 @@
 #define touchstone_algebra_block_matrix_h
 
 #include <touchstone/algebra/block_pattern.h>
-#include <touchstone/algebra/row_of_blocks.h>
-#include <touchstone/types.h>
+#include <touchstone/algebra/multigrid/row_of_blocks.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/partitioner.h>

@@ -1,7 +1,7 @@
 #ifndef touchstone_algebra_block_pattern_h
 #define touchstone_algebra_block_pattern_h
 
-#include <touchstone/types.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/partitioner.h>
 

@@ -1,9 +1,9 @@
 #ifndef touchstone_algebra_constraint_graph_h
 #define touchstone_algebra_constraint_graph_h
 
+#include <touchstone/algebra/stencil.h>
 #include <touchstone/algebra/vector.h>
-#include <touchstone/contact/stencil.h>
-#include <touchstone/types.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/tensor.h>
@@ -185,7 +185,8 @@ namespace Touchstone
                       const dealii::IndexSet                  &relevant,
                       MPI_Comm                                 communicator) const
     {
-      return make_basis_change(&ReducedCondition::force, constraints, owned, relevant, communicator);
+      return make_basis_change(
+        &ReducedCondition::force, constraints, owned, relevant, communicator);
     }
 
     /**

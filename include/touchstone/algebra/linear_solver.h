@@ -2,7 +2,7 @@
 #define touchstone_algebra_linear_solver_h
 
 #include <touchstone/algebra/condensed_system.h>
-#include <touchstone/registry.h>
+#include <touchstone/base/registry.h>
 #include <touchstone/scene/solver_parameters.h>
 
 #include <Epetra_MultiVector.h>

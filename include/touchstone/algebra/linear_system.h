@@ -2,7 +2,7 @@
 #define touchstone_algebra_linear_system_h
 
 #include <touchstone/algebra/matrix.h>
-#include <touchstone/types.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/lac/affine_constraints.h>

@@ -1,7 +1,7 @@
 #ifndef touchstone_archive_checkpoints_h
 #define touchstone_archive_checkpoints_h
 
-#include <touchstone/output/folder.h>
+#include <touchstone/base/folder.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -3,7 +3,7 @@
 
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/ghost_import.h>
-#include <touchstone/contact/pairing.h>
+#include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/scene/scene.h>
 

@@ -1,8 +1,8 @@
 #ifndef touchstone_contact_results_h
 #define touchstone_contact_results_h
 
+#include <touchstone/base/types.h>
 #include <touchstone/contact/row.h>
-#include <touchstone/types.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

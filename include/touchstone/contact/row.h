@@ -2,9 +2,9 @@
 #define touchstone_contact_row_h
 
 #include <touchstone/algebra/constraint_graph.h>
-#include <touchstone/contact/friction.h>
-#include <touchstone/contact/stencil.h>
-#include <touchstone/types.h>
+#include <touchstone/algebra/stencil.h>
+#include <touchstone/base/types.h>
+#include <touchstone/contact/friction/friction.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>

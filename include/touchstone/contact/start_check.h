@@ -1,8 +1,8 @@
 #ifndef touchstone_contact_start_check_h
 #define touchstone_contact_start_check_h
 
+#include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/row.h>
-#include <touchstone/contact/surface.h>
 #include <touchstone/scene/contact_parameters.h>
 
 #include <vector>

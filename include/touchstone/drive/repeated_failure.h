@@ -1,7 +1,7 @@
 #ifndef touchstone_drive_repeated_failure_h
 #define touchstone_drive_repeated_failure_h
 
-#include <touchstone/algebra/non_convergence.h>
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/newton.h>
 
 #include <optional>

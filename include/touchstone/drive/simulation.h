@@ -2,18 +2,18 @@
 #define touchstone_drive_simulation_h
 
 #include <touchstone/archive/checkpoints.h>
+#include <touchstone/base/folder.h>
 #include <touchstone/drive/refinement.h>
 #include <touchstone/drive/repeated_failure.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/output/contact_output.h>
-#include <touchstone/output/folder.h>
 #include <touchstone/output/log.h>
 #include <touchstone/output/progress.h>
-#include <touchstone/output/reference_solution.h>
 #include <touchstone/output/statistics.h>
 #include <touchstone/output/summary.h>
 #include <touchstone/output/volume_output.h>
 #include <touchstone/output/warnings.h>
+#include <touchstone/verification/reference_solution.h>
 
 #include <deal.II/base/timer.h>
 

@@ -3,12 +3,12 @@
 
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/linear_solver.h>
-#include <touchstone/algebra/rigid_body_modes.h>
 #include <touchstone/contact/contact.h>
-#include <touchstone/contact/enforcement.h>
+#include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/drive/newton.h>
 #include <touchstone/drive/time_integration.h>
 #include <touchstone/solid/boundary_conditions.h>
+#include <touchstone/solid/rigid_body_modes.h>
 
 #include <deal.II/base/timer.h>
 

@@ -1,8 +1,8 @@
 #ifndef touchstone_mesh_contact_work_h
 #define touchstone_mesh_contact_work_h
 
+#include <touchstone/base/types.h>
 #include <touchstone/mesh/geometry.h>
-#include <touchstone/types.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/grid/tria.h>

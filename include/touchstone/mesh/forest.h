@@ -1,9 +1,9 @@
 #ifndef touchstone_mesh_forest_h
 #define touchstone_mesh_forest_h
 
+#include <touchstone/base/types.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/scene/scene.h>
-#include <touchstone/types.h>
 
 #include <deal.II/distributed/tria_base.h>
 #include <deal.II/grid/cell_id.h>

@@ -1,8 +1,8 @@
 #ifndef touchstone_mesh_geometry_h
 #define touchstone_mesh_geometry_h
 
+#include <touchstone/base/registry.h>
 #include <touchstone/mesh/analytic_surface.h>
-#include <touchstone/registry.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/grid/manifold.h>

@@ -1,8 +1,8 @@
 #ifndef touchstone_mesh_partition_h
 #define touchstone_mesh_partition_h
 
+#include <touchstone/base/types.h>
 #include <touchstone/mesh/geometry.h>
-#include <touchstone/types.h>
 
 #include <deal.II/distributed/tria_base.h>
 

@@ -1,7 +1,7 @@
 #ifndef touchstone_output_log_h
 #define touchstone_output_log_h
 
-#include <touchstone/output/folder.h>
+#include <touchstone/base/folder.h>
 
 #include <fstream>
 #include <iosfwd>

@@ -1,7 +1,7 @@
 #ifndef touchstone_output_picture_series_h
 #define touchstone_output_picture_series_h
 
-#include <touchstone/output/folder.h>
+#include <touchstone/base/folder.h>
 
 #include <deal.II/base/data_out_base.h>
 

@@ -1,8 +1,8 @@
 #ifndef touchstone_output_statistics_h
 #define touchstone_output_statistics_h
 
+#include <touchstone/base/folder.h>
 #include <touchstone/contact/results.h>
-#include <touchstone/output/folder.h>
 
 #include <deal.II/base/table_handler.h>
 

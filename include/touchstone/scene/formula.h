@@ -1,7 +1,7 @@
 #ifndef touchstone_scene_formula_h
 #define touchstone_scene_formula_h
 
-#include <touchstone/types.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/mpi.h>

@@ -1,9 +1,9 @@
 #ifndef touchstone_solid_element_kernel_h
 #define touchstone_solid_element_kernel_h
 
+#include <touchstone/base/types.h>
 #include <touchstone/scene/body_parameters.h>
 #include <touchstone/solid/element_stiffness.h>
-#include <touchstone/types.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/symmetric_tensor.h>

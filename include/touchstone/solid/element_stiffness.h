@@ -1,8 +1,8 @@
 #ifndef touchstone_solid_element_stiffness_h
 #define touchstone_solid_element_stiffness_h
 
+#include <touchstone/base/types.h>
 #include <touchstone/scene/body_parameters.h>
-#include <touchstone/types.h>
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #ifndef touchstone_solid_hardening_law_h
 #define touchstone_solid_hardening_law_h
 
-#include <touchstone/registry.h>
+#include <touchstone/base/registry.h>
 
 #include <deal.II/base/parameter_handler.h>
 

@@ -1,8 +1,8 @@
 #ifndef touchstone_solid_hyperelastic_law_h
 #define touchstone_solid_hyperelastic_law_h
 
-#include <touchstone/registry.h>
-#include <touchstone/types.h>
+#include <touchstone/base/registry.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/tensor.h>
 

@@ -1,7 +1,7 @@
 #ifndef touchstone_solid_logarithmic_strain_h
 #define touchstone_solid_logarithmic_strain_h
 
-#include <touchstone/types.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

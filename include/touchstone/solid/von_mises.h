@@ -1,8 +1,8 @@
 #ifndef touchstone_solid_von_mises_h
 #define touchstone_solid_von_mises_h
 
+#include <touchstone/base/types.h>
 #include <touchstone/solid/hardening_law.h>
-#include <touchstone/types.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

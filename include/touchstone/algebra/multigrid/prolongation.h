@@ -1,0 +1,149 @@
+#ifndef touchstone_algebra_multigrid_prolongation_h
+#define touchstone_algebra_multigrid_prolongation_h
+
+#include <touchstone/algebra/block_matrix.h>
+#include <touchstone/algebra/condensation.h>
+#include <touchstone/algebra/multigrid/octet.h>
+
+#include <Epetra_MultiVector.h>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Takes corrections from a level of multigrid to the next finer one, and forces
+   * back: smoothed aggregation.
+   *
+   * Three unknowns make a node, on all levels. An aggregate() of the finer level has six
+   * on the coarser one, its rigid motions: a pair of nodes there, which stay together. They
+   * are smoothed by one step of Jacobi's method. Entries are kept in single precision, those
+   * of galerkin() are exact for them. The product A P is never stored: for linear cells it
+   * is three times as large as A.
+   *
+   * Vanek, Mandel and Brezina (1996), Computing 56.
+   */
+  class Prolongation
+  {
+  public:
+    using VectorType = BlockMatrix<float>::VectorType;
+
+    /** @brief Rigid motions of an aggregate. */
+    static constexpr unsigned int n_modes = 6;
+
+    /** @brief Nodes that an aggregate is on the coarser level. */
+    static constexpr unsigned int n_nodes_of_aggregate = n_modes / dim;
+
+    /** @brief Block of the rows of an aggregate over the unknowns of another. */
+    using AggregateBlock = Octets<n_modes>;
+
+    /** @brief A row over aggregates that stays open while others are worked on; they go by
+     * local or by global numbers. */
+    class AggregateRow
+    {
+    public:
+      AggregateBlock &
+      at(const int aggregate)
+      {
+        const auto found =
+          std::lower_bound(places.begin(), places.end(), std::make_pair(aggregate, 0U));
+        if (found != places.end() && found->first == aggregate)
+          return blocks[found->second];
+        places.emplace(found, aggregate, blocks.size());
+        blocks.push_back({});
+        return blocks.back();
+      }
+
+      /** @brief In ascending order of the aggregates: where their block is. */
+      std::vector<std::pair<int, unsigned int>> places;
+      std::vector<AggregateBlock>               blocks;
+    };
+
+    /**
+     * @param matrix      Symmetric pattern.
+     * @param near_kernel Rigid motions, zero at constrained unknowns; at most n_modes.
+     * @param body        Of this rank's nodes, or of its groups of nodes.
+     * @param group       Nodes that follow each other and stay together: one on the finest
+     *                    level, the nodes of an aggregate on the others.
+     * @param largest     Largest eigenvalue of the matrix over its diagonal.
+     */
+    Prolongation(const BlockMatrix<float>        &matrix,
+                 const Epetra_MultiVector        &near_kernel,
+                 const std::vector<unsigned int> &body,
+                 unsigned int                     group,
+                 double                           largest);
+
+    /** @brief The matrix of the coarser level, P^T A P. @param matrix That of which the
+     * constructor got the blocks, in double precision. Collective. */
+    std::unique_ptr<BlockRows>
+    galerkin(BlockRows &matrix) const;
+
+    /** @brief Rigid motions over the coarser level. */
+    const Epetra_MultiVector &
+    coarse_near_kernel() const
+    {
+      return *coarse_kernel;
+    }
+
+    /** @brief Body of each aggregate of this rank. */
+    const std::vector<unsigned int> &
+    coarse_body() const
+    {
+      return body_of_aggregate;
+    }
+
+    /** @brief Make @p vector fit the coarser level, with ghosts. */
+    void
+    initialize_coarse_vector(VectorType &vector) const
+    {
+      vector.reinit(coarse);
+    }
+
+    /** @brief fine += P coarse. Collective. */
+    void
+    prolongate_and_add(VectorType &fine, const VectorType &coarse) const;
+
+    /** @brief coarse = P^T fine. Collective. */
+    void
+    restrict_to(VectorType &coarse, const VectorType &fine) const;
+
+  private:
+    static constexpr unsigned int block = dim * n_modes;
+
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> fine, coarse;
+    /** Where the blocks of a node of this rank begin; their column, a local number of an
+     * aggregate; their entries, row by row. */
+    std::vector<std::size_t>  start;
+    std::vector<unsigned int> column;
+    /** Read beyond their end, as those of FarRow. */
+    std::vector<float> entries;
+
+    std::unique_ptr<Epetra_MultiVector> coarse_kernel;
+    std::vector<unsigned int>           body_of_aggregate;
+
+    /** The rows of nodes of other ranks that this one refers to, by node: aggregates by
+     * their global numbers, and blocks. */
+    struct FarRow
+    {
+      std::vector<Index> aggregates;
+      std::vector<float> entries;
+    };
+    std::vector<FarRow>
+    far_rows() const;
+
+    /** @brief This rank's part of P^T A P, rows by local numbers of aggregates, columns by
+     * @p numbers. */
+    std::vector<AggregateRow>
+    part_of_galerkin(BlockRows &matrix, LocalNumbers &numbers) const;
+
+    /** @brief Make of @p parts the rows of this rank's aggregates, with the parts of all
+     * ranks, by the global numbers of aggregates. */
+    void
+    sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const;
+  };
+} // namespace Touchstone
+
+#endif

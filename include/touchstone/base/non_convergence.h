@@ -1,0 +1,93 @@
+#ifndef touchstone_base_non_convergence_h
+#define touchstone_base_non_convergence_h
+
+#include <stdexcept>
+
+namespace Touchstone
+{
+  /**
+   * @brief A step could not be solved: the load step is cut and tried again, or
+   * the run ends with this as its reason.
+   */
+  class NonConvergence : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+
+    /** @brief Whether a shorter step can do better. */
+    virtual bool
+    shorter_step_may_help() const
+    {
+      return true;
+    }
+  };
+
+  /** @brief Newton ran out of iterations, or its residual grew without bound. */
+  class NewtonFailure : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief The active set came back to one it had before, again and again. */
+  class ActiveSetCycle : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief The linear solver broke down or its true residual is too large. */
+  class LinearSolverFailure : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief No part of a Newton increment leaves the cells with det F > 0. */
+  class InvertedCells : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief The local equations of a material law have no solution that could be found. */
+  class MaterialFailure : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief A body can move without resistance. */
+  class SingularSystem : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief A Newton increment is far larger than all bodies together. */
+  class ExcessiveIncrement : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief A body that nothing but contact holds was thrown off what it touched. */
+  class LostContact : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+
+  /** @brief The bodies touch in a way that contact rows cannot describe. */
+  class UnresolvedContactFailure : public NonConvergence
+  {
+  public:
+    using NonConvergence::NonConvergence;
+
+    bool
+    shorter_step_may_help() const override
+    {
+      return false;
+    }
+  };
+
+  /** @brief A step has made energy from nothing. */
+  class EnergyGain : public NonConvergence
+  {
+    using NonConvergence::NonConvergence;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,20 @@
+#ifndef touchstone_base_types_h
+#define touchstone_base_types_h
+
+#include <deal.II/base/types.h>
+
+#include <limits>
+
+namespace Touchstone
+{
+  /** @brief Contact mechanics in space: everything is three-dimensional. */
+  constexpr int dim = 3;
+
+  /** @brief Global number of an unknown. */
+  using Index = dealii::types::global_dof_index;
+
+  /** @brief Says "no such unknown, node or face". */
+  constexpr Index invalid_index = std::numeric_limits<Index>::max();
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,99 @@
+#ifndef touchstone_contact_enforcement_row_terms_h
+#define touchstone_contact_enforcement_row_terms_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/linear_system.h>
+#include <touchstone/contact/row.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief The form by unknowns instead of nodes, zeros left out. */
+  LinearForm
+  by_unknowns(const NodalForm &form);
+
+  /** @brief d gap / d x_a of a row with a derivative: normal and stencil change. */
+  NodalForm
+  gap_gradient(const ContactRow &row);
+
+  /**
+   * @brief The conditions that an active row puts on the displacement increment:
+   * along the normal if it is free to slide, in all directions if it is held; none
+   * if it is open. Resets its count of accepted and refused conditions.
+   *
+   * @param keep_symmetric Leave the force along the normal when it drags friction
+   *                       along with it.
+   */
+  std::vector<Condition>
+  start_row(ContactRow &row, bool keep_symmetric);
+
+  /** @brief The motions that a sticking node resists elastically, without being
+   * held by conditions: they support its body, too. */
+  std::vector<Condition>
+  elastic_stick(const ContactRow &row);
+
+  /** @brief The directions in which friction resists an increment like a spring: along the surface
+   * where the row sticks elastically, across the slip where it slips. As conditions without
+   * value, for a change of basis that takes their elongations for unknowns. */
+  std::vector<Condition>
+  friction_springs(const ContactRow &row);
+
+  /**
+   * @brief Let the friction of a row stay what it is at the normal force @p lambda,
+   * so that it changes with its slip only and the system stays symmetric.
+   *
+   * Where @p lambda comes from decides whether the iteration converges: it should be
+   * the force that balances the slave node, and not a stiff spring times what a
+   * linearisation has left of the gap.
+   */
+  void
+  lag_friction(ContactRow &row, double lambda);
+
+  /** @brief Matrix terms and loads at nodes, which may belong to any rank. */
+  class RowTerms
+  {
+  public:
+    explicit RowTerms(LinearSystem &system)
+      : system(system)
+    {
+    }
+
+    /** @brief Add the load M^T @p force of a row. */
+    void
+    add_load(const ContactRow &row, const dealii::Tensor<1, dim> &force);
+
+    /** @brief Add the stiffness -d(M^T f) where f changes by -@p change du. */
+    void
+    add_stiffness(const ContactRow &row, const NodalMatrices &change);
+
+    /** @brief The same where f changes by -@p force times the form: M^T force
+     * form. */
+    void
+    add_stiffness(const ContactRow             &row,
+                  const dealii::Tensor<1, dim> &force,
+                  const NodalForm              &form);
+
+    /**
+     * @brief Add what friction and the change of normal and stencil contribute to
+     * the system, whatever the enforcement; takes note of the response that has
+     * been used.
+     */
+    void
+    add_row(ContactRow &row);
+
+    /** @brief Add the loads to the right-hand side. Collective. */
+    void
+    finish();
+
+  private:
+    LinearSystem       &system;
+    std::vector<Index>  unknowns;
+    std::vector<double> loads;
+
+    void
+    add_geometric(const ContactRow &row);
+  };
+} // namespace Touchstone
+
+#endif

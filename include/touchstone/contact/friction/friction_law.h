@@ -1,0 +1,61 @@
+#ifndef touchstone_contact_friction_friction_law_h
+#define touchstone_contact_friction_friction_law_h
+
+#include <touchstone/base/registry.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace Touchstone
+{
+  /** @brief What a friction law may depend on, at one slave node. */
+  struct FrictionInput
+  {
+    /** Normal contact force, >= 0, force. */
+    double normal_force = 0.;
+    /** Tributary area in the reference state, as far as it is covered at present. */
+    double area = 0.;
+    /** Length of the path that the node has slipped up to the last step. */
+    double slip_length = 0.;
+    /** Whether the node slips at present or sticks. */
+    bool sliding = false;
+  };
+
+  /** @brief The largest tangential force that friction can bear. */
+  struct FrictionLimit
+  {
+    /** Force, >= 0. */
+    double force = 0.;
+    /** Its derivative with respect to the normal force, no unit. */
+    double slope = 0.;
+    /** Its derivative with respect to the area, force per area. */
+    double area_slope = 0.;
+  };
+
+  /**
+   * @brief The radius of the friction cone: the tangential force of a slave node
+   * stays below it while the node sticks, and is equal to it, against the
+   * motion, when it slips. Registered by the name that the key "Behaviour" of a
+   * contact pair takes; its parameters stand in the subsection "Friction".
+   */
+  class FrictionLaw
+  {
+  public:
+    virtual ~FrictionLaw() = default;
+
+    virtual void
+    declare(dealii::ParameterHandler &prm) = 0;
+
+    /** @throws InputError */
+    virtual void
+    check(const std::string &section) const = 0;
+
+    virtual FrictionLimit
+    limit(const FrictionInput &input) const = 0;
+  };
+
+  using FrictionLawRegistry = Registry<FrictionLaw>;
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,33 @@
+#ifndef touchstone_contact_geometry_deformed_cells_h
+#define touchstone_contact_geometry_deformed_cells_h
+
+#include <touchstone/solid/solid.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <array>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief The cells of one body on this rank, with straight edges, to ask whether points
+   * lie in the body. */
+  class DeformedCells
+  {
+  public:
+    /** @param u Displacement with ghosts. */
+    DeformedCells(const Solid &solid, unsigned int body, const Vector &u);
+
+    /** @brief Whether a point lies in a cell that this rank owns. */
+    bool
+    contain(const dealii::Point<dim> &x) const;
+
+  private:
+    using Box = dealii::BoundingBox<dim>;
+    std::vector<std::array<dealii::Point<dim>, 8>> cells;
+    dealii::RTree<std::pair<Box, std::size_t>>     tree;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,48 @@
+#ifndef touchstone_contact_geometry_edge_crossing_h
+#define touchstone_contact_geometry_edge_crossing_h
+
+#include <touchstone/contact/geometry/face.h>
+
+#include <optional>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief A convex edge of a contact surface in which two faces meet, or in which the
+   * surface ends. */
+  struct SharpEdge
+  {
+    dealii::Point<dim> a, b;
+    /** Unit outward normals on both sides of the edge. Where the surface ends, the second
+     * points away from it within its tangent plane: the body goes on somewhere between. */
+    std::array<dealii::Tensor<1, dim>, 2> normals;
+  };
+
+  /** @brief The sharp edges of the faces @p own, in their present positions. Two faces meet in
+   * one if their normals differ by more than 30 degrees.
+   * @param others Further faces of the surface, which may share edges with them; an edge
+   * whose other face is in neither is left out unless Face::outer_edges has it. */
+  std::vector<SharpEdge>
+  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others);
+
+  /** @brief Two edges that can only touch each other. */
+  struct EdgeCrossing
+  {
+    /** The points that are to touch, on the first and on the second edge. */
+    dealii::Point<dim> first, second;
+    /** Distance of these, length; negative if the edges have not passed through each other. */
+    double depth;
+  };
+
+  /**
+   * @brief Where two edges touch, or have passed through each other: their common perpendicular
+   * meets both between their ends and lies between the normals of each.
+   *
+   * Where it lies within 15 degrees of one of the normals it is a face that touches, which
+   * rows of nodes and faces describe.
+   */
+  std::optional<EdgeCrossing>
+  edge_crossing(const SharpEdge &first, const SharpEdge &second);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,104 @@
+#ifndef touchstone_contact_geometry_face_h
+#define touchstone_contact_geometry_face_h
+
+#include <touchstone/base/types.h>
+#include <touchstone/mesh/analytic_surface.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <cstdint>
+
+namespace Touchstone
+{
+  /**
+   * @brief A face of a contact surface with all that is needed to evaluate it
+   * on any rank: bilinear (degree 1, 4 nodes) or biquadratic (degree 2, 9 nodes).
+   *
+   * Nodes are numbered lexicographically over the face coordinates xi in
+   * [-1,1]^2, and xi is oriented such that dx/dxi_1 x dx/dxi_2 points outward.
+   * Plain data: it is sent between ranks as it is.
+   */
+  struct Face
+  {
+    static constexpr unsigned int max_nodes = 9;
+
+    /** Order of faces that does not depend on the partition. */
+    std::uint64_t key    = 0;
+    unsigned int  degree = 1;
+    /** Boundary id, which leads to the exact surface if there is one. */
+    dealii::types::boundary_id boundary = 0;
+    unsigned int               body     = 0;
+    /** Bit 0: the edge xi_1 = -1 is an edge of the whole surface, bit 1:
+     * xi_1 = 1, bit 2: xi_2 = -1, bit 3: xi_2 = 1. */
+    unsigned int outer_edges = 0;
+
+    std::array<Index, max_nodes>                  nodes{};
+    std::array<dealii::Point<dim>, max_nodes>     reference;
+    std::array<dealii::Tensor<1, dim>, max_nodes> displacement;
+    /** Displacement at the start of the step. */
+    std::array<dealii::Tensor<1, dim>, max_nodes> committed;
+    /** Unit normals averaged over the faces that meet at the node, but for those
+     * beyond a sharp edge; over all of them; and those of the face alone. */
+    std::array<dealii::Tensor<1, dim>, max_nodes> normals, edge_normals, own_normals;
+
+    unsigned int
+    n_nodes() const
+    {
+      return (degree + 1) * (degree + 1);
+    }
+
+    /** @brief Present position of the node @p m. */
+    dealii::Point<dim>
+    position(const unsigned int m) const
+    {
+      return reference[m] + displacement[m];
+    }
+  };
+
+  /** @brief Face coordinates of the node @p m. */
+  std::array<double, 2>
+  node_coordinates(const Face &face, unsigned int m);
+
+  /** @brief Values and derivatives of the shape functions of a face. */
+  struct FaceShapes
+  {
+    /** Of the nodes of the face; the rest is left as it is. */
+    std::array<double, Face::max_nodes>                value;
+    std::array<std::array<double, 2>, Face::max_nodes> gradient;
+
+    FaceShapes(unsigned int degree, const std::array<double, 2> &xi);
+  };
+
+  /** @brief Second derivatives of the shape functions of a face: 11, 12, 22. */
+  std::array<std::array<double, 3>, Face::max_nodes>
+  shape_hessians(unsigned int degree, const std::array<double, 2> &xi);
+
+  /** @brief A point of a deformed face with its tangents. */
+  struct FacePoint
+  {
+    dealii::Point<dim>                    x;
+    std::array<dealii::Tensor<1, dim>, 2> tangents;
+
+    /** @brief Unit outward normal. */
+    dealii::Tensor<1, dim>
+    normal() const;
+  };
+
+  /**
+   * @brief Evaluate a face at @p xi in its current position.
+   *
+   * With an exact surface P (closest-point map) the position is P(sum N_m X_m) +
+   * sum N_m u_m: only the displacement is interpolated, the shape is exact.
+   * Without, it is sum N_m (X_m + u_m).
+   */
+  FacePoint
+  evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi);
+
+  /** @brief The same with the shape functions there. */
+  FacePoint
+  evaluate(const Face &face, const AnalyticSurface *exact, const FaceShapes &shapes);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,87 @@
+#ifndef touchstone_contact_geometry_face_derivative_h
+#define touchstone_contact_geometry_face_derivative_h
+
+#include <touchstone/contact/geometry/face_geometry.h>
+
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief How the averaged normal of a node of a face changes with the position
+   * of one of the nodes around it. */
+  struct NormalDerivative
+  {
+    /** Local number of the node whose normal changes. */
+    unsigned int m;
+    /** The node that moves. */
+    Index node;
+    /** Per length. */
+    dealii::Tensor<2, dim> value;
+  };
+
+  /** @brief A matrix per node of a face. */
+  using NodeMatrices = std::array<dealii::Tensor<2, dim>, Face::max_nodes>;
+
+  /** @brief A point of a FaceGeometry with all that it changes with: xi, the
+   * positions of the nodes of the face, and their averaged normals. */
+  struct FaceDerivative
+  {
+    FaceShapes             shapes;
+    FacePoint              point;
+    dealii::Tensor<1, dim> normal;
+    /** Derivatives of the normal with respect to xi. */
+    std::array<dealii::Tensor<1, dim>, 2> normal_xi;
+    /** Of the normal with respect to positions (per length) and nodal normals. */
+    NodeMatrices normal_position, normal_normal;
+    /** Of the point at a fixed xi with respect to positions and to nodal normals
+     * (length). The latter are zero unless the geometry is smooth. */
+    NodeMatrices x_position, x_normal;
+    /** The same of the tangents. */
+    std::array<NodeMatrices, 2> tangent_position, tangent_normal;
+  };
+
+  /** @brief The part of FaceDerivative that does not need the normal. */
+  struct FacePosition
+  {
+    FaceShapes   shapes;
+    FacePoint    point;
+    NodeMatrices x_position, x_normal;
+  };
+
+  /** @brief Evaluates derivatives of a FaceGeometry; keeps what all points of the
+   * face share. */
+  class FaceDifferentiator
+  {
+  public:
+    /** @param geometry Must live as long. */
+    explicit FaceDifferentiator(const FaceGeometry &geometry);
+
+    FaceDerivative
+    at(const std::array<double, 2> &xi) const;
+
+    FacePosition
+    position(const std::array<double, 2> &xi) const;
+
+    const FaceGeometry &geometry;
+
+  private:
+    /** Averaged less own normals at the nodes, and derivatives of the own ones:
+     * [m][k] of the normal at node m with respect to the position of node k. For
+     * interpolated normals on exact surfaces. */
+    std::array<dealii::Tensor<1, dim>, Face::max_nodes> jumps;
+    std::array<NodeMatrices, Face::max_nodes>           own;
+
+    std::unique_ptr<GregoryPatch::Derivative> patch;
+  };
+
+  /** @brief The matrix A of the cross product, A b = a x b. */
+  dealii::Tensor<2, dim>
+  cross_matrix(const dealii::Tensor<1, dim> &a);
+
+  /** @brief Derivative of v / |v| with respect to v. */
+  dealii::Tensor<2, dim>
+  normalisation_derivative(const dealii::Tensor<1, dim> &v);
+} // namespace Touchstone
+
+#endif

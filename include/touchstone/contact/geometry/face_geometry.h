@@ -1,0 +1,134 @@
+#ifndef touchstone_contact_geometry_face_geometry_h
+#define touchstone_contact_geometry_face_geometry_h
+
+#include <touchstone/contact/geometry/bilinear.h>
+#include <touchstone/contact/geometry/gregory_patch.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace Touchstone
+{
+  /** @brief Where the normal of a row comes from, and what the gap is measured to. */
+  enum class MasterNormal
+  {
+    /** The face at the contact point. */
+    face,
+    /** Interpolation of the averaged normals of its nodes. */
+    averaged,
+    /** A smooth patch over the face, to which the gap is measured as well. */
+    smoothed
+  };
+
+  /** @brief From the key "Master normal". @throws std::out_of_range */
+  MasterNormal
+  master_normal(const std::string &name);
+
+  /**
+   * @brief The surface over a face to which gaps are measured, and its normal.
+   *
+   * Where the exact surface is known it is used, and `smoothed` is the same as
+   * `averaged`. Refers to the face, which must live as long and stay where it is.
+   */
+  class FaceGeometry
+  {
+  public:
+    /** @param exact The exact surface, or null. */
+    FaceGeometry(const Face &face, const AnalyticSurface *exact, MasterNormal kind);
+
+    const Face &
+    face() const
+    {
+      return data;
+    }
+
+    /** @brief Gaps are measured to a Gregory patch. */
+    bool
+    smooth() const
+    {
+      return patch.has_value();
+    }
+
+    /** @brief The normal comes from those of the nodes and not from the face. */
+    bool
+    interpolates_normals() const
+    {
+      return kind != MasterNormal::face && !patch;
+    }
+
+    const AnalyticSurface *
+    exact_surface() const
+    {
+      return exact;
+    }
+
+    /** @brief Position and tangents at @p xi. */
+    FacePoint
+    evaluate(const std::array<double, 2> &xi) const;
+
+    /** @brief Position alone, which costs half. @param shapes Shape functions at @p xi. */
+    dealii::Point<dim>
+    position(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
+
+    /** @brief Position and normal() for the price of one. @param shapes Those at @p xi. */
+    std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
+    position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
+
+    /** @brief Second derivatives of the position with respect to xi: 11, 12, 22;
+     * length. Those of an exact surface are central differences of its projection
+     * gradient. */
+    std::array<dealii::Tensor<1, dim>, 3>
+    second_derivatives(const std::array<double, 2> &xi) const;
+
+    /**
+     * @brief Unit outward normal at @p xi.
+     *
+     * `averaged`: continuous across the edges of faces unless these are sharp. On
+     * facets it is interpolated from the averaged normals of the nodes. On an exact
+     * surface it is that of the surface moved with the face, with the jumps at the
+     * nodes taken out.
+     */
+    dealii::Tensor<1, dim>
+    normal(const std::array<double, 2> &xi) const;
+
+    /** @brief The edges of the face at @p xi that hold a closest point there are
+     * sharp. @param mean Mean of the normals of all faces around, if they are. */
+    bool
+    sharp(const std::array<double, 2> &xi, dealii::Tensor<1, dim> &mean) const;
+
+  private:
+    const Face                 &data;
+    const AnalyticSurface      *exact;
+    MasterNormal                kind;
+    std::optional<GregoryPatch> patch;
+    /** If of degree 1: of the nodes and of their displacements. */
+    Bilinear<dim> reference, displacement;
+
+    /** @param point The evaluate() there. */
+    dealii::Tensor<1, dim>
+    interpolated_normal(const FaceShapes &shapes, const FacePoint &point) const;
+  };
+
+  /** @brief Result of a closest-point projection. */
+  struct Projection
+  {
+    std::array<double, 2> xi{};
+    double                distance_squared = 0.;
+    /** How far the point lies beyond the edges that held the projection back,
+     * as a fraction of the face, for inner and outer edges. */
+    double beyond_inner = 0., beyond_outer = 0.;
+  };
+
+  /**
+   * @brief Closest point of a deformed face, held within the face.
+   *
+   * Gauss-Newton with the second derivatives of bilinear faces and of smooth
+   * patches, projected to the bounds; from several starts if the first does not
+   * converge.
+   */
+  Projection
+  closest_point_projection(const dealii::Point<dim> &x, const FaceGeometry &geometry);
+} // namespace Touchstone
+
+#endif

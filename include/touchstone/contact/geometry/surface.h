@@ -1,0 +1,191 @@
+#ifndef touchstone_contact_geometry_surface_h
+#define touchstone_contact_geometry_surface_h
+
+#include <touchstone/contact/geometry/face_derivative.h>
+#include <touchstone/contact/geometry/trace_basis.h>
+#include <touchstone/contact/results.h>
+#include <touchstone/solid/solid.h>
+
+#include <set>
+#include <unordered_map>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief A node of a contact surface, owned by this rank. */
+  struct SurfaceNode
+  {
+    Index              node;
+    dealii::Point<dim> reference;
+    /** Tributary area: integral of the node's shape function. */
+    double area = 0.;
+    /** Length of the adjacent faces (square root of the largest area). */
+    double size = 0.;
+  };
+
+  /**
+   * @brief One side of a contact pair: the boundary faces of one body that carry
+   * given boundary ids, as far as this rank sees them.
+   *
+   * Faces of owned and of ghost cells are kept, so areas and averaged normals of
+   * the nodes of owned faces are complete without communication. A hanging node
+   * has no row and no area of its own; both belong to the nodes that it follows. So
+   * the owner of these also gets the faces with hanging nodes that are farther away.
+   */
+  class Surface
+  {
+  public:
+    /**
+     * @param exact Take positions and normals from the exact surfaces of the
+     *              geometry where there are any, instead of from the facets.
+     */
+    Surface(const Solid                                &solid,
+            const Forest                               &forest,
+            unsigned int                                body,
+            const std::set<dealii::types::boundary_id> &boundaries,
+            bool                                        exact);
+
+    /** @brief Move the surface to the displacement @p u (with ghosts) and average
+     * its normals. */
+    void
+    move(const Vector &u);
+
+    /** @brief Nodes that this rank owns and that do not hang, in ascending order. */
+    const std::vector<SurfaceNode> &
+    owned_nodes() const
+    {
+      return nodes;
+    }
+
+    /** @brief Faces of owned cells. */
+    const std::vector<Face> &
+    owned_faces() const
+    {
+      return faces;
+    }
+
+    /** @brief Faces of ghost cells, and others whose hanging nodes follow nodes of
+     * this rank. */
+    const std::vector<Face> &
+    neighbour_faces() const
+    {
+      return ghost_faces;
+    }
+
+    /** @brief The continuous basis of a face with hanging nodes, or null. */
+    const TraceBasis *
+    trace(const Face &face) const
+    {
+      const auto found = traces.find(face.key);
+      return found != traces.end() ? &found->second : nullptr;
+    }
+
+    /** @brief Unknowns of the faces that lie beyond the ghost cells. */
+    const std::vector<Index> &
+    far_unknowns() const
+    {
+      return far;
+    }
+
+    /** @brief Averaged unit outward normal at a node of an owned face or at an
+     * owned node. */
+    const dealii::Tensor<1, dim> &
+    normal(Index node) const
+    {
+      return place(node)->normal;
+    }
+
+    /** @brief The faces of the surface around an owned node, each with its number of the node
+     * there. */
+    std::vector<std::pair<const Face *, unsigned int>>
+    faces_around(Index node) const
+    {
+      const auto &faces = place(node)->faces;
+      return {faces.begin(), faces.end()};
+    }
+
+    /** @brief For each owned node weights of node positions whose sum is a tangent
+     * of the surface there; it moves with the body. In the order of owned_nodes(). */
+    std::vector<Stencil>
+    tangents() const;
+
+    /** @brief Current position of an owned node. */
+    dealii::Point<dim>
+    position(const SurfaceNode &node, const Vector &u) const;
+
+    /** @brief The exact surface of a face, or null. */
+    const AnalyticSurface *
+    exact_surface(const Face &face) const;
+
+    /** @brief How the averaged normals of an owned face change with the positions
+     * of the nodes around it, in the present position. */
+    std::vector<NormalDerivative>
+    normal_derivative(const Face &face) const;
+
+    /** @brief The boundaries that it is made of. */
+    const std::set<dealii::types::boundary_id> &
+    boundaries() const
+    {
+      return ids;
+    }
+
+    /** @brief Longest diagonal of any face, over all ranks; length. */
+    double
+    largest_face() const
+    {
+      return diagonal;
+    }
+
+    /** @brief Shortest side of any face in the reference state, over all ranks; length. */
+    double
+    shortest_edge() const
+    {
+      return shortest;
+    }
+
+  private:
+    const Forest                              &forest;
+    const std::set<dealii::types::boundary_id> ids;
+    const bool                                 exact;
+    std::vector<Face>                          faces, ghost_faces;
+    std::vector<SurfaceNode>                   nodes;
+    std::vector<Index>                         far;
+    double                                     diagonal = 0., shortest = 0.;
+
+    /** By the keys of faces with hanging nodes. */
+    std::unordered_map<std::uint64_t, TraceBasis> traces;
+
+    /** An edge as a pair of its corner nodes, the smaller first. */
+    using Edge = std::pair<Index, Index>;
+
+    /** A node of the faces that this rank knows. */
+    struct Place
+    {
+      Index node;
+      /** Averaged over all faces. */
+      dealii::Tensor<1, dim> normal;
+      /** Faces around it, with its local number there, in the order in which their normals
+       * are summed. */
+      std::vector<std::pair<Face *, unsigned int>> faces;
+    };
+    /** In ascending order of the nodes. */
+    std::vector<Place> places;
+
+    /** Of all nodes of all faces in the reference state. */
+    std::vector<std::array<dealii::Tensor<1, dim>, 2>> reference_tangents;
+
+    /** @throws ExcInternalError if no face of this rank has the node. */
+    std::vector<Place>::const_iterator
+    place(Index node) const;
+    static std::array<Edge, 4>
+    edges(const Face &face);
+    /** @param halves Edges of faces that have a node in the middle, which smaller
+     *               neighbours share, with the two halves. */
+    void
+    mark_outer_edges(const std::vector<std::pair<Edge, std::array<Edge, 2>>> &halves);
+    void
+    exchange_far_faces(const Solid &solid);
+  };
+} // namespace Touchstone
+
+#endif

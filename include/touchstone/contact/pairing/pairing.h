@@ -1,0 +1,126 @@
+#ifndef touchstone_contact_pairing_pairing_h
+#define touchstone_contact_pairing_pairing_h
+
+#include <touchstone/base/registry.h>
+#include <touchstone/contact/geometry/surface.h>
+#include <touchstone/contact/row.h>
+#include <touchstone/contact/search/search.h>
+#include <touchstone/scene/contact_parameters.h>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What a pairing is made from. */
+  struct PairingInput
+  {
+    const ContactPairParameters *parameters;
+    const ObstacleParameters    *obstacle;
+    const Solid                 *solid;
+    const Surface               *slave;
+    /** Null for an obstacle. */
+    const Surface *master;
+    /** Farthest distance at which partners are looked for, length; zero lets the pairing
+     * choose it from the size of the faces. */
+    double search_distance = 0.;
+  };
+
+  /** @brief What a pairing knows of earlier steps besides positions, in keys of faces. */
+  struct PairingMemory
+  {
+    /** The master face of each row, in the order of the rows; or nothing at all. */
+    std::vector<std::optional<std::uint64_t>> of_rows;
+    /** Slave faces of this rank, each with a master face. */
+    std::unordered_map<std::uint64_t, std::uint64_t> of_faces;
+  };
+
+  /**
+   * @brief Makes the rows of a contact pair: one for each slave node of this
+   * rank, in the order of Surface::owned_nodes(). Registered by name.
+   */
+  class Pairing
+  {
+  public:
+    explicit Pairing(const PairingInput &input)
+      : input(input)
+    {
+    }
+
+    virtual ~Pairing() = default;
+
+    /**
+     * @brief Read the deformed surfaces: set stencil, normal, gap_vector, gap and
+     * status (no_partner where there is none) of all rows. What else the rows
+     * hold is left alone.
+     * @param u    Displacement with ghosts; the surfaces have been moved to it.
+     * @param time For obstacles that move.
+     * @param rows Rows of this pair, already there.
+     */
+    virtual void
+    update(const Vector &u, double time, std::vector<ContactRow> &rows) = 0;
+
+    /**
+     * @brief Set the derivative of the active rows, for the consistent
+     * linearisation. Called after update() with the same arguments, on all ranks.
+     *
+     * A pairing that does not implement it keeps normals and stencils constant
+     * within a Newton iteration.
+     */
+    virtual void
+    differentiate(const Vector & /*u*/, double /*time*/, std::vector<ContactRow> & /*rows*/)
+    {
+    }
+
+    /**
+     * @brief A step ends or starts with the displacement @p u (with ghosts): what
+     * nodes pass through from here on counts. Without a call, steps start from the
+     * reference state.
+     */
+    virtual void
+    commit_positions(const Vector & /*u*/)
+    {
+    }
+
+    /** @brief What it knows of earlier steps, for checkpoints; nothing if each update
+     * begins anew from positions alone. */
+    virtual PairingMemory
+    memory() const
+    {
+      return {};
+    }
+
+    /** @brief Go on with a memory(); comes after commit_positions(). Faces that this rank
+     * does not have may be among it. */
+    virtual void
+    remember(const PairingMemory &)
+    {
+    }
+
+    /** @brief Distance of a point from the master, negative within it, length; infinite where
+     * that is not known without a search. */
+    virtual double
+    distance(const dealii::Point<dim> & /*x*/, double /*time*/) const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
+    /** @brief What its searches came to so far; nothing where there is none. */
+    virtual SearchWork
+    search_work() const
+    {
+      return {};
+    }
+
+  protected:
+    const PairingInput input;
+  };
+
+  using PairingRegistry = Registry<Pairing, const PairingInput &>;
+} // namespace Touchstone
+
+#endif

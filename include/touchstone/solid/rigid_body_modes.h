@@ -1,0 +1,79 @@
+#ifndef touchstone_solid_rigid_body_modes_h
+#define touchstone_solid_rigid_body_modes_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/linear_solver.h>
+#include <touchstone/solid/solid.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What the bodies can do without resistance under given conditions. */
+  struct FreeMotion
+  {
+    /** Dimension of the space of free rigid motions. */
+    unsigned int n_modes = 0;
+    /** Orthonormal basis, 6 rows per body (translations, rotations). */
+    dealii::FullMatrix<double> basis;
+    /** Bodies that take part. */
+    std::set<unsigned int> bodies;
+    /** "body 'punch' can move in direction z; ..." */
+    std::string description;
+  };
+
+  /**
+   * @brief The six rigid motions of each body: near-null space of multigrid, and
+   * test for missing supports.
+   */
+  class RigidBodyModes
+  {
+  public:
+    RigidBodyModes(const Scene &scene, const Solid &solid);
+
+    const RigidMotions &
+    motions() const
+    {
+      return *rigid;
+    }
+
+    /**
+     * @brief Rigid motions that violate none of the conditions.
+     *
+     * The stiffness lets all rigid motions of all bodies go free, so the null
+     * space of the constrained system is that of the Gram matrix R^T B^T B R of
+     * the conditions B on the rigid motions R, a matrix of 6 rows per body.
+     */
+    FreeMotion
+    free_motion(const std::vector<Condition> &conditions) const;
+
+    /**
+     * @brief Diagonal terms that keep free motions finite: a fraction of the
+     * diagonal of the stiffness, on the unknowns that take part, as the square of their part.
+     *
+     * Added to the tangent but not to the residual, they slow the way to
+     * equilibrium and do not change it (a proximal point step). The fraction is
+     * such that the free motion under @p unbalanced is about @p distance, and at
+     * least @p smallest.
+     */
+    Vector
+    stabilisation(const FreeMotion &motion,
+                  const Vector     &unbalanced,
+                  double            distance,
+                  double            smallest) const;
+
+  private:
+    const Scene                    &scene;
+    const Solid                    &solid;
+    std::unique_ptr<RigidMotions>   rigid;
+    std::vector<dealii::Point<dim>> centres;
+    std::vector<double>             sizes;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,27 @@
+#ifndef touchstone_verification_point_displacement_h
+#define touchstone_verification_point_displacement_h
+
+#include <touchstone/verification/reference_solution.h>
+
+#include <array>
+
+namespace Touchstone
+{
+  /** @brief The known displacement of one point, e.g. of a beam's tip, compared
+   * with that of the nearest node. Components that are not given are free. */
+  class PointDisplacement : public ReferenceSolution
+  {
+  public:
+    explicit PointDisplacement(const Scene &scene);
+
+    ReferenceComparison
+    compare(const ReferenceInput &input) const override;
+
+  private:
+    dealii::Point<dim>     point;
+    dealii::Tensor<1, dim> exact;
+    std::array<bool, dim>  given;
+  };
+} // namespace Touchstone
+
+#endif

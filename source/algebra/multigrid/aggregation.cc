@@ -1,0 +1,72 @@
+#include <touchstone/algebra/multigrid/aggregation.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Touchstone
+{
+  namespace
+  {
+    constexpr int none = -1;
+
+    /** Where most of the neighbours have their place; the first of equals. */
+    int
+    most_frequent(const std::vector<int> &neighbours, const std::vector<int> &place)
+    {
+      std::map<int, int> votes;
+      int                best = none, most = 0;
+      for (const int j : neighbours)
+        if (place[j] != none && ++votes[place[j]] > most)
+          {
+            best = place[j];
+            most = votes[best];
+          }
+      return best;
+    }
+  } // namespace
+
+
+
+  Aggregates
+  aggregate(std::vector<std::vector<int>> graph, const std::vector<unsigned int> &body)
+  {
+    const int n_nodes = static_cast<int>(graph.size());
+    for (int i = 0; i < n_nodes; ++i)
+      {
+        auto &neighbours = graph[i];
+        neighbours.erase(std::remove_if(neighbours.begin(),
+                                        neighbours.end(),
+                                        [&](const int j) { return body[j] != body[i]; }),
+                         neighbours.end());
+      }
+
+    Aggregates        result;
+    std::vector<int> &place = result.of_node;
+    place.assign(n_nodes, none);
+    const auto free   = [&](const int j) { return place[j] == none; };
+    const auto gather = [&](const int root) {
+      for (const int j : graph[root])
+        if (free(j))
+          place[j] = result.n;
+      place[root] = result.n++;
+    };
+    // Whole neighbourhoods that do not overlap.
+    for (int i = 0; i < n_nodes; ++i)
+      if (free(i) && !graph[i].empty() && std::all_of(graph[i].begin(), graph[i].end(), free))
+        gather(i);
+    // What is left between them joins one of them; what touches none makes its own.
+    const std::vector<int> whole = place;
+    for (int i = 0; i < n_nodes; ++i)
+      if (free(i))
+        place[i] = most_frequent(graph[i], whole);
+    for (int i = 0; i < n_nodes; ++i)
+      if (free(i))
+        {
+          if (std::any_of(graph[i].begin(), graph[i].end(), free))
+            gather(i);
+          else
+            place[i] = most_frequent(graph[i], place);
+        }
+    return result;
+  }
+} // namespace Touchstone

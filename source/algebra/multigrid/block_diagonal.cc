@@ -1,0 +1,64 @@
+#include <touchstone/algebra/multigrid/block_diagonal.h>
+#include <touchstone/base/non_convergence.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <cmath>
+#include <string>
+
+namespace Touchstone
+{
+  BlockDiagonal::BlockDiagonal(const Epetra_Map &map, BlockRows &rows)
+    : SquareOperator(map, "block diagonal")
+    , inverse(rows.n_nodes())
+  {
+    int singular = 0, all = 0;
+    for (unsigned int node = 0; node < rows.n_nodes(); ++node)
+      {
+        const auto                    &row = rows.read(node);
+        dealii::Tensor<2, dim, double> block;
+        for (std::size_t k = 0; k < row.columns.size(); ++k)
+          if (row.columns[k] == static_cast<int>(node))
+            for (unsigned int r = 0; r < dim; ++r)
+              for (unsigned int c = 0; c < dim; ++c)
+                block[r][c] += row.blocks[k][dim * r + c];
+        // Relative to what it could be: stiffness has no scale of its own.
+        double scale = 1.;
+        for (unsigned int r = 0; r < dim; ++r)
+          scale *= block[r].norm();
+        const double determinant = dealii::determinant(block);
+        if (!(std::abs(determinant) > 1e-14 * scale))
+          {
+            ++singular;
+            continue;
+          }
+        block = dealii::invert(block);
+        for (unsigned int r = 0; r < dim; ++r)
+          for (unsigned int c = 0; c < dim; ++c)
+            inverse[node][dim * r + c] = block[r][c];
+      }
+    map.Comm().SumAll(&singular, &all, 1);
+    if (all > 0)
+      throw LinearSolverFailure("the diagonal blocks of " + std::to_string(all) +
+                                " node(s) are singular and cannot scale the system");
+  }
+
+
+
+  int
+  BlockDiagonal::ApplyInverse(const Epetra_MultiVector &rhs, Epetra_MultiVector &result) const
+  {
+    // Krylov methods may pass the same vector for both.
+    for (int v = 0; v < rhs.NumVectors(); ++v)
+      for (std::size_t node = 0; node < inverse.size(); ++node)
+        {
+          const double           *in    = rhs[v] + dim * node;
+          double                 *out   = result[v] + dim * node;
+          const BlockRows::Block &block = inverse[node];
+          const double            x = in[0], y = in[1], z = in[2];
+          for (unsigned int r = 0; r < dim; ++r)
+            out[r] = block[dim * r] * x + block[dim * r + 1] * y + block[dim * r + 2] * z;
+        }
+    return 0;
+  }
+} // namespace Touchstone

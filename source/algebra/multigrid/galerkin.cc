@@ -1,0 +1,286 @@
+#include <touchstone/algebra/multigrid/neighbours.h>
+#include <touchstone/algebra/multigrid/prolongation.h>
+#include <touchstone/algebra/multigrid/row_of_blocks.h>
+#include <touchstone/base/vectorised.h>
+
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int n_modes = Prolongation::n_modes;
+
+    /** Rows of P over nodes, by local numbers of nodes: where their blocks and the columns
+     * of these begin, and how many there are. */
+    struct RowOfP
+    {
+      const float        *entries;
+      const unsigned int *columns;
+      std::size_t         size;
+    };
+
+    /** product += A_i P, of a row of blocks of the matrix. */
+    TOUCHSTONE_VECTORISED void
+    add_product(const RowOfBlocks<BlockRows::Block> &row,
+                const std::vector<RowOfP>           &p,
+                RowOfBlocks<OctetsOfNode>           &product)
+    {
+      for (unsigned int k = 0; k < row.columns.size(); ++k)
+        {
+          const RowOfP &of_node = p[row.columns[k]];
+          for (std::size_t b = 0; b < of_node.size; ++b)
+            Touchstone::add_product(row.blocks[k],
+                                    of_node.entries + dim * n_modes * b,
+                                    product.at(static_cast<int>(of_node.columns[b])));
+        }
+    }
+
+    /** to += p^T ap, of a block of P and one of A P. */
+    TOUCHSTONE_VECTORISED void
+    add_transposed_product(const float *p, const OctetsOfNode &ap, Prolongation::AggregateBlock &to)
+    {
+      const Octet ap0 = ap[0], ap1 = ap[1], ap2 = ap[2];
+      for (unsigned int i = 0; i < n_modes; ++i)
+        to[i] +=
+          double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 + double(p[2 * n_modes + i]) * ap2;
+    }
+
+    /** The rows of aggregates as those of their nodes. */
+    class AggregateRows : public BlockRows
+    {
+    public:
+      /** @param rows By global numbers of aggregates.
+       *  @param coarse Has the unknowns of this rank. */
+      AggregateRows(std::vector<Prolongation::AggregateRow> &&rows, const Partitioner &coarse)
+        : BlockRows(make_partitioner(rows, coarse))
+        , rows(std::move(rows))
+      {
+        const int first = static_cast<int>(partitioner->local_range().first / n_modes);
+        for (unsigned int row = 0; row < this->rows.size(); ++row)
+          {
+            // A motion that the aggregate does not have stands alone.
+            Prolongation::AggregateBlock &own = this->rows[row].at(first + static_cast<int>(row));
+            for (unsigned int i = 0; i < n_modes; ++i)
+              if (own[i][i] == 0.)
+                own[i][i] = 1.;
+            for (auto &[aggregate, place] : this->rows[row].places)
+              aggregate = static_cast<int>(
+                partitioner->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
+          }
+      }
+
+      const RowOfBlocks<Block> &
+      read(const unsigned int node) override
+      {
+        present.clear();
+        const Prolongation::AggregateRow &row = rows[node / n_parts];
+        for (const auto &[aggregate, place] : row.places)
+          for (unsigned int part = 0; part < n_parts; ++part)
+            {
+              const Prolongation::AggregateBlock &from = row.blocks[place];
+              Block &to = present.at(static_cast<int>(n_parts * aggregate + part));
+              for (unsigned int r = 0; r < dim; ++r)
+                for (unsigned int c = 0; c < dim; ++c)
+                  to[dim * r + c] = from[dim * (node % n_parts) + r][dim * part + c];
+            }
+        return present;
+      }
+
+      std::size_t
+      n_blocks() const override
+      {
+        std::size_t n = 0;
+        for (const auto &row : rows)
+          n += row.places.size();
+        return n_parts * n_parts * n;
+      }
+
+    private:
+      static constexpr unsigned int           n_parts = Prolongation::n_nodes_of_aggregate;
+      std::vector<Prolongation::AggregateRow> rows;
+
+      static std::shared_ptr<const Partitioner>
+      make_partitioner(const std::vector<Prolongation::AggregateRow> &rows,
+                       const Partitioner                             &coarse)
+      {
+        std::vector<Index> far;
+        for (const auto &row : rows)
+          for (const auto &[aggregate, place] : row.places)
+            for (unsigned int m = 0; m < n_modes; ++m)
+              if (const Index i = n_modes * static_cast<Index>(aggregate) + m;
+                  !coarse.in_local_range(i))
+                far.push_back(i);
+        std::sort(far.begin(), far.end());
+        IndexSet ghosts(coarse.size());
+        ghosts.add_indices(far.begin(), std::unique(far.begin(), far.end()));
+        return std::make_shared<Partitioner>(coarse.locally_owned_range(),
+                                             ghosts,
+                                             coarse.get_mpi_communicator());
+      }
+    };
+  } // namespace
+
+
+
+  std::vector<Prolongation::FarRow>
+  Prolongation::far_rows() const
+  {
+    // Node, number of blocks, then aggregate and entries of each.
+    std::map<unsigned int, std::vector<double>> packages;
+    std::vector<unsigned int>                   wanted;
+    for (const auto &[begin, end] : fine->import_indices())
+      for (unsigned int i = begin; i < end; ++i)
+        wanted.push_back(i);
+    auto next = wanted.begin();
+    for (const auto &[rank, n] : fine->import_targets())
+      for (const auto end = next + n; next != end; ++next)
+        if (*next % dim == 0)
+          {
+            const unsigned int node = *next / dim;
+            auto              &to   = packages[rank];
+            to.push_back(static_cast<double>(fine->local_to_global(*next)));
+            to.push_back(static_cast<double>(start[node + 1] - start[node]));
+            for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+              {
+                to.push_back(
+                  static_cast<double>(coarse->local_to_global(n_modes * column[b]) / n_modes));
+                to.insert(to.end(), entries.begin() + block * b, entries.begin() + block * (b + 1));
+              }
+          }
+    std::vector<FarRow> result(fine->n_ghost_indices() / dim);
+    for (const auto &[rank, package] : exchange_with_neighbours(
+           packages, fine->import_targets(), fine->ghost_targets(), fine->get_mpi_communicator()))
+      for (std::size_t k = 0; k < package.size();)
+        {
+          const unsigned int local = fine->global_to_local(static_cast<Index>(package[k]));
+          FarRow            &row   = result[(local - fine->locally_owned_size()) / dim];
+          const std::size_t  n     = static_cast<std::size_t>(package[k + 1]);
+          k += 2;
+          for (std::size_t b = 0; b < n; ++b, k += block + 1)
+            {
+              row.aggregates.push_back(static_cast<Index>(package[k]));
+              for (unsigned int e = 0; e < block; ++e)
+                row.entries.push_back(static_cast<float>(package[k + 1 + e]));
+            }
+          row.entries.resize(row.entries.size() + 2);
+        }
+    return result;
+  }
+
+
+
+  std::vector<Prolongation::AggregateRow>
+  Prolongation::part_of_galerkin(BlockRows &matrix, LocalNumbers &numbers) const
+  {
+    const unsigned int                     n_nodes = start.size() - 1;
+    const std::vector<FarRow>              far     = far_rows();
+    std::vector<std::vector<unsigned int>> far_columns(far.size());
+    for (unsigned int i = 0; i < far.size(); ++i)
+      for (const Index aggregate : far[i].aggregates)
+        far_columns[i].push_back(numbers.local(aggregate));
+    std::vector<RowOfP> p;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      p.push_back({entries.data() + block * start[node],
+                   column.data() + start[node],
+                   start[node + 1] - start[node]});
+    for (unsigned int i = 0; i < far.size(); ++i)
+      p.push_back({far[i].entries.data(), far_columns[i].data(), far_columns[i].size()});
+
+    // Row by row of A P, added to the rows of the aggregates to which the node belongs.
+    std::vector<AggregateRow> sums((coarse->locally_owned_size() + coarse->n_ghost_indices()) /
+                                   n_modes);
+    RowOfBlocks<OctetsOfNode> product;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        product.clear();
+        add_product(matrix.read(node), p, product);
+        for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+          for (unsigned int k = 0; k < product.columns.size(); ++k)
+            add_transposed_product(entries.data() + block * b,
+                                   product.blocks[k],
+                                   sums[column[b]].at(product.columns[k]));
+      }
+    return sums;
+  }
+
+
+
+  void
+  Prolongation::sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const
+  {
+    for (AggregateRow &part : parts)
+      {
+        for (auto &[aggregate, place] : part.places)
+          aggregate = global[aggregate];
+        std::sort(part.places.begin(), part.places.end());
+      }
+
+    // What belongs to other ranks goes there: row, number of blocks, then column and
+    // entries of each.
+    std::map<unsigned int, std::vector<double>> packages;
+    const unsigned int                          n_mine = coarse->locally_owned_size() / n_modes;
+    unsigned int                                row    = n_mine;
+    for (const auto &[rank, n] : coarse->ghost_targets())
+      {
+        auto              &to   = packages[rank];
+        const unsigned int end  = row + n / n_modes;
+        std::size_t        size = 0;
+        for (unsigned int r = row; r < end; ++r)
+          size += 2 + (1 + n_modes * n_modes) * parts[r].places.size();
+        to.reserve(size);
+        for (; row < end; ++row)
+          {
+            to.push_back(global[row]);
+            to.push_back(static_cast<double>(parts[row].places.size()));
+            for (const auto &[aggregate, place] : parts[row].places)
+              {
+                const AggregateBlock &entry = parts[row].blocks[place];
+                to.push_back(aggregate);
+                for (unsigned int i = 0; i < n_modes; ++i)
+                  for (unsigned int m = 0; m < n_modes; ++m)
+                    to.push_back(entry[i][m]);
+              }
+          }
+      }
+    parts.resize(n_mine);
+    for (const auto &[rank, package] : exchange_with_neighbours(packages,
+                                                                coarse->ghost_targets(),
+                                                                coarse->import_targets(),
+                                                                coarse->get_mpi_communicator()))
+      for (std::size_t k = 0; k < package.size();)
+        {
+          AggregateRow &to =
+            parts[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) / n_modes];
+          const std::size_t n = static_cast<std::size_t>(package[k + 1]);
+          k += 2;
+          for (std::size_t b = 0; b < n; ++b, k += n_modes * n_modes + 1)
+            {
+              AggregateBlock &sum = to.at(static_cast<int>(package[k]));
+              for (unsigned int i = 0; i < n_modes; ++i)
+                for (unsigned int m = 0; m < n_modes; ++m)
+                  sum[i][m] += package[k + 1 + n_modes * i + m];
+            }
+        }
+  }
+
+
+
+  std::unique_ptr<BlockRows>
+  Prolongation::galerkin(BlockRows &matrix) const
+  {
+    // Aggregates by local numbers: those of the rows of this rank first, then what their
+    // neighbours' rows refer to.
+    std::vector<int> known;
+    for (unsigned int i = 0; i < coarse->locally_owned_size() + coarse->n_ghost_indices();
+         i += n_modes)
+      known.push_back(static_cast<int>(coarse->local_to_global(i) / n_modes));
+    const Epetra_Map known_map(-1, known.size(), known.data(), 0, coarse_kernel->Comm());
+    LocalNumbers     numbers(known_map);
+    auto             rows = part_of_galerkin(matrix, numbers);
+    sum_up(rows, numbers.global());
+    return std::make_unique<AggregateRows>(std::move(rows), *coarse);
+  }
+} // namespace Touchstone

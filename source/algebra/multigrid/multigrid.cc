@@ -1,0 +1,200 @@
+#include <touchstone/algebra/multigrid/multigrid.h>
+#include <touchstone/base/non_convergence.h>
+
+#include <Amesos.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Degree of the polynomials, and largest over smallest eigenvalue that they smooth. */
+    constexpr int    degree = 3;
+    constexpr double range  = 20.;
+
+    /** Conjugate gradients that estimate the largest eigenvalue, and what deal.II adds to
+     * the estimate. */
+    constexpr unsigned int estimate_iterations = 10;
+    constexpr double       margin              = 1.2;
+
+    /** Unknowns of a system that is solved directly. */
+    constexpr Index few = 1000;
+
+    /** Whatever one rank meets, all leave. */
+    void
+    check(int error, const Epetra_Comm &communicator)
+    {
+      error       = std::abs(error);
+      int largest = 0;
+      communicator.MaxAll(&error, &largest, 1);
+      if (largest != 0)
+        throw LinearSolverFailure("the coarsest level of multigrid cannot be solved (Amesos: " +
+                                  std::to_string(largest) + ")");
+    }
+  } // namespace
+
+
+
+  Multigrid::Level::Level(BlockRows &rows, const bool symmetric)
+    : matrix(rows, symmetric)
+  {
+    Chebyshev::AdditionalData data(degree, range, estimate_iterations);
+    data.preconditioner = std::make_shared<DiagonalMatrix<VectorType>>(matrix.inverse_diagonal());
+    smoother.initialize(matrix, data);
+    for (VectorType *vector : {&rhs, &solution, &residual})
+      matrix.initialize_vector(*vector);
+  }
+
+
+
+  Multigrid::Multigrid(const Epetra_Map                &map,
+                       std::unique_ptr<BlockRows>       rows,
+                       const Epetra_MultiVector        &near_kernel,
+                       const std::vector<unsigned int> &body,
+                       const bool                       symmetric)
+    : SquareOperator(map, "smoothed aggregation")
+  {
+    const Epetra_MultiVector *modes = &near_kernel;
+    std::vector<unsigned int> bodies(map.NumMyElements() / dim);
+    for (unsigned int node = 0; node < bodies.size(); ++node)
+      bodies[node] = body[dim * node];
+    unsigned int group = 1;
+    while (rows->numbers()->size() > few)
+      {
+        levels.push_back(std::make_unique<Level>(*rows, symmetric));
+        Level       &level   = *levels.back();
+        const double largest = largest_eigenvalue(level);
+        auto         prolongation =
+          std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
+        const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
+        if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
+          {
+            // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
+            // that are many is sparse and goes to the direct solver.
+            if (levels.size() == 1)
+              return;
+            levels.pop_back();
+            break;
+          }
+        rows   = prolongation->galerkin(*rows);
+        modes  = &prolongation->coarse_near_kernel();
+        bodies = prolongation->coarse_body();
+        group  = Prolongation::n_nodes_of_aggregate;
+        prolongation->initialize_coarse_vector(level.coarse_values);
+        level.prolongation = std::move(prolongation);
+      }
+    make_coarsest(*rows);
+  }
+
+
+
+  double
+  Multigrid::largest_eigenvalue(const Level &level)
+  {
+    const auto fail = [](const std::string &reason) {
+      throw LinearSolverFailure("multigrid cannot be set up: the largest eigenvalue of a level "
+                                "cannot be estimated, " +
+                                reason);
+    };
+    // Sums over all ranks decide: all throw or none.
+    double largest = 0.;
+    try
+      {
+        largest = level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
+      }
+    catch (const ExceptionBase &)
+      {
+        fail("for the matrix is indefinite, singular or not finite");
+      }
+    if (!std::isfinite(largest) || !(largest > 0.))
+      fail("for it comes out as " + std::to_string(largest));
+    return largest;
+  }
+
+
+
+  void
+  Multigrid::make_coarsest(BlockRows &rows)
+  {
+    const auto      &numbers = *rows.numbers();
+    const Epetra_Map own(-1, static_cast<int>(numbers.locally_owned_size()), 0, map.Comm());
+    coarsest_matrix = std::make_unique<Epetra_CrsMatrix>(Copy, own, 0);
+    std::vector<int>    columns;
+    std::vector<double> values;
+    for (unsigned int node = 0; node < rows.n_nodes(); ++node)
+      {
+        const auto &row = rows.read(node);
+        columns.clear();
+        for (const int other : row.columns)
+          for (unsigned int c = 0; c < dim; ++c)
+            columns.push_back(static_cast<int>(numbers.local_to_global(dim * other + c)));
+        for (unsigned int r = 0; r < dim; ++r)
+          {
+            values.clear();
+            for (const auto &block : row.blocks)
+              values.insert(values.end(), &block[dim * r], &block[dim * r] + dim);
+            coarsest_matrix->InsertGlobalValues(own.GID(dim * node + r),
+                                                columns.size(),
+                                                values.data(),
+                                                columns.data());
+          }
+      }
+    coarsest_matrix->FillComplete();
+    coarsest_rhs      = std::make_unique<Epetra_Vector>(own);
+    coarsest_solution = std::make_unique<Epetra_Vector>(own);
+    coarsest_problem.SetOperator(coarsest_matrix.get());
+    coarsest_problem.SetLHS(coarsest_solution.get());
+    coarsest_problem.SetRHS(coarsest_rhs.get());
+    coarsest.reset(Amesos().Create("Amesos_Klu", coarsest_problem));
+    check(coarsest->SymbolicFactorization(), map.Comm());
+    check(coarsest->NumericFactorization(), map.Comm());
+  }
+
+
+
+  int
+  Multigrid::ApplyInverse(const Epetra_MultiVector &rhs, Epetra_MultiVector &result) const
+  {
+    // Krylov methods may pass the same vector for both.
+    for (int v = 0; v < rhs.NumVectors(); ++v)
+      cycle(0, rhs[v], result[v]);
+    return 0;
+  }
+
+
+
+  template <typename Number>
+  void
+  Multigrid::cycle(const unsigned int k, const Number *rhs, Number *solution) const
+  {
+    if (k == levels.size())
+      {
+        std::copy(rhs, rhs + coarsest_rhs->MyLength(), coarsest_rhs->Values());
+        check(coarsest->Solve(), map.Comm());
+        std::copy(coarsest_solution->Values(),
+                  coarsest_solution->Values() + coarsest_solution->MyLength(),
+                  solution);
+        return;
+      }
+    Level &level = *levels[k];
+    std::copy(rhs, rhs + level.rhs.locally_owned_size(), level.rhs.begin());
+    level.smoother.vmult(level.solution, level.rhs);
+    if (level.prolongation)
+      {
+        level.matrix.vmult(level.residual, level.solution);
+        level.residual.sadd(-1.f, 1.f, level.rhs);
+        level.prolongation->restrict_to(level.coarse_values, level.residual);
+        cycle(k + 1, level.coarse_values.begin(), level.coarse_values.begin());
+        level.prolongation->prolongate_and_add(level.solution, level.coarse_values);
+      }
+    level.smoother.step(level.solution, level.rhs);
+    std::copy(level.solution.begin(),
+              level.solution.begin() + level.solution.locally_owned_size(),
+              solution);
+  }
+} // namespace Touchstone

@@ -1,0 +1,289 @@
+#include <touchstone/algebra/multigrid/aggregation.h>
+#include <touchstone/algebra/multigrid/prolongation.h>
+#include <touchstone/algebra/multigrid/row_of_blocks.h>
+#include <touchstone/base/vectorised.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+  using Utilities::MPI::Partitioner;
+
+  namespace
+  {
+    using Modes = std::array<double, Prolongation::n_modes>;
+    /** Square, by rows. */
+    using Factor = std::array<double, Prolongation::n_modes * Prolongation::n_modes>;
+
+    /** The groups of nodes of this rank to which each of them is coupled. */
+    std::vector<std::vector<int>>
+    couplings(BlockMatrix<float>::Rows &matrix,
+              const std::vector<float> &diagonal,
+              const unsigned int        group)
+    {
+      const unsigned int            n_nodes = diagonal.size() / dim;
+      std::vector<std::vector<int>> graph(n_nodes / group);
+      for (unsigned int node = 0; node < n_nodes; ++node)
+        {
+          const BlockMatrix<float>::Rows::Row &row = matrix.read(node);
+          for (unsigned int k = 0; k < row.columns.size(); ++k)
+            {
+              const unsigned int other = row.columns[k];
+              if (other / group == node / group || other >= n_nodes)
+                continue;
+              bool strong = false;
+              for (unsigned int r = 0; r < dim; ++r)
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    // Stiffness squared leaves the range of single precision.
+                    const double entry = row.blocks[k][dim * c + r];
+                    strong             = strong || entry * entry > weak_coupling * weak_coupling *
+                                                         double(diagonal[dim * node + r]) *
+                                                         diagonal[dim * other + c];
+                  }
+              if (strong)
+                graph[node / group].push_back(static_cast<int>(other / group));
+            }
+        }
+      if (group > 1)
+        for (auto &neighbours : graph)
+          {
+            std::sort(neighbours.begin(), neighbours.end());
+            neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+          }
+      return graph;
+    }
+
+    /** Orthonormal columns from the motions of an aggregate, in place, and the factor that
+     * takes them back; columns that depend on those before them become zero. */
+    Factor
+    orthonormalise(std::vector<Modes> &q)
+    {
+      constexpr unsigned int n = Prolongation::n_modes;
+      Factor                 factor{};
+      const auto             product = [&](const unsigned int a, const unsigned int b) {
+        double sum = 0.;
+        for (const Modes &row : q)
+          sum += row[a] * row[b];
+        return sum;
+      };
+      for (unsigned int b = 0; b < n; ++b)
+        {
+          const double length = std::sqrt(product(b, b));
+          // Twice is enough: once leaves what round-off makes of nearly parallel columns.
+          for (unsigned int sweep = 0; sweep < 2; ++sweep)
+            for (unsigned int a = 0; a < b; ++a)
+              {
+                const double along = product(a, b);
+                factor[n * a + b] += along;
+                for (Modes &row : q)
+                  row[b] -= along * row[a];
+              }
+          const double rest        = std::sqrt(product(b, b));
+          const bool   independent = rest > 1e-10 * length;
+          factor[n * b + b]        = independent ? rest : 0.;
+          for (Modes &row : q)
+            row[b] = independent ? row[b] / rest : 0.;
+        }
+      return factor;
+    }
+
+    using GhostedVector = LinearAlgebra::distributed::Vector<double>;
+
+    /** A vector with the values of all ranks that @p partitioner refers to; copies of it
+     * lose those of the others. */
+    std::unique_ptr<const GhostedVector>
+    with_ghosts(const std::shared_ptr<const Partitioner> &partitioner,
+                const std::vector<double>                &values)
+    {
+      auto result = std::make_unique<GhostedVector>(partitioner);
+      std::copy(values.begin(), values.end(), result->begin());
+      result->update_ghost_values();
+      return result;
+    }
+
+    /** row += (1 - damping A) P_0, of a node: a motion of its own, if it has a place, less
+     * those that its neighbours take. */
+    TOUCHSTONE_VECTORISED void
+    add_smoothed(const BlockMatrix<float>::Rows::Row &of_matrix,
+                 const unsigned int                   node,
+                 const std::array<double, dim>       &damping,
+                 const std::vector<int>              &place,
+                 const std::vector<float>            &tentative,
+                 RowOfBlocks<OctetsOfNode>           &row)
+    {
+      constexpr unsigned int block = dim * Prolongation::n_modes;
+      if (place[node] >= 0)
+        {
+          const BlockRows::Block one = {{1., 0., 0., 0., 1., 0., 0., 0., 1.}};
+          add_product(one, tentative.data() + block * node, row.at(place[node]));
+        }
+      for (std::size_t k = 0; k < of_matrix.columns.size(); ++k)
+        if (const unsigned int other = of_matrix.columns[k]; place[other] >= 0)
+          {
+            BlockRows::Block a;
+            for (unsigned int r = 0; r < dim; ++r)
+              for (unsigned int c = 0; c < dim; ++c)
+                a[dim * r + c] = -damping[r] * of_matrix.blocks[k][dim * c + r];
+            add_product(a, tentative.data() + block * other, row.at(place[other]));
+          }
+    }
+
+    /** An aggregate without place. */
+    constexpr double nowhere = -1.;
+  } // namespace
+
+
+
+  Prolongation::Prolongation(const BlockMatrix<float>        &matrix,
+                             const Epetra_MultiVector        &near_kernel,
+                             const std::vector<unsigned int> &body,
+                             const unsigned int               group,
+                             const double                     largest)
+    : fine(matrix.vector_partitioner())
+  {
+    const unsigned int n_nodes = matrix.n_nodes();
+    std::vector<float> diagonal(dim * n_nodes);
+    {
+      const VectorType inverse = matrix.inverse_diagonal();
+      for (unsigned int i = 0; i < diagonal.size(); ++i)
+        diagonal[i] = 1.f / inverse.local_element(i);
+    }
+    BlockMatrix<float>::Rows rows(matrix);
+    const Aggregates         aggregates = aggregate(couplings(rows, diagonal, group), body);
+
+    // Motions of each aggregate, orthonormal.
+    std::vector<std::vector<unsigned int>> nodes(aggregates.n);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      if (aggregates.of_node[node / group] >= 0)
+        nodes[aggregates.of_node[node / group]].push_back(node);
+    const int        n_mine = aggregates.n * static_cast<int>(n_modes);
+    const Epetra_Map coarse_map(-1, n_mine, 0, near_kernel.Comm());
+    const Index      first = static_cast<Index>(coarse_map.MinMyGID()) / n_modes;
+    coarse_kernel          = std::make_unique<Epetra_MultiVector>(coarse_map, n_modes);
+    body_of_aggregate.resize(aggregates.n);
+    std::vector<std::vector<double>> tentative(n_modes, std::vector<double>(dim * n_nodes, 0.));
+    std::vector<double>              target(dim * n_nodes, nowhere);
+    const unsigned int               n_given = near_kernel.NumVectors();
+    std::vector<Modes>               q;
+    for (int a = 0; a < aggregates.n; ++a)
+      {
+        body_of_aggregate[a] = body[nodes[a].front() / group];
+        q.assign(dim * nodes[a].size(), Modes());
+        for (unsigned int k = 0; k < q.size(); ++k)
+          for (unsigned int m = 0; m < n_given; ++m)
+            q[k][m] = near_kernel[m][dim * nodes[a][k / dim] + k % dim];
+        const Factor factor = orthonormalise(q);
+        for (unsigned int k = 0; k < q.size(); ++k)
+          {
+            const unsigned int i = dim * nodes[a][k / dim] + k % dim;
+            target[i]            = static_cast<double>(first + a);
+            for (unsigned int m = 0; m < n_modes; ++m)
+              tentative[m][i] = q[k][m];
+          }
+        for (unsigned int m = 0; m < n_modes; ++m)
+          for (unsigned int i = 0; i < n_modes; ++i)
+            (*coarse_kernel)[m][n_modes * a + i] = factor[n_modes * i + m];
+      }
+
+    if (coarse_map.NumGlobalElements() == 0)
+      return;
+
+    // With those of the neighbouring ranks.
+    const auto                                        aim = with_ghosts(fine, target);
+    std::vector<std::unique_ptr<const GhostedVector>> shape;
+    for (const auto &values : tentative)
+      shape.push_back(with_ghosts(fine, values));
+    const unsigned int n_local = fine->locally_owned_size() + fine->n_ghost_indices();
+    std::vector<Index> far;
+    for (unsigned int i = fine->locally_owned_size(); i < n_local; ++i)
+      if (aim->local_element(i) != nowhere)
+        for (unsigned int m = 0; m < n_modes; ++m)
+          far.push_back(n_modes * static_cast<Index>(aim->local_element(i)) + m);
+    std::sort(far.begin(), far.end());
+    IndexSet owned(coarse_map.NumGlobalElements()), ghosts(coarse_map.NumGlobalElements());
+    if (n_mine > 0)
+      owned.add_range(n_modes * first, n_modes * first + n_mine);
+    ghosts.add_indices(far.begin(), far.end());
+    coarse = std::make_shared<Partitioner>(owned, ghosts, fine->get_mpi_communicator());
+
+    // P = (1 - omega D^-1 A) P_0, with the omega that makes the motions cost the least.
+    std::vector<int>   place(n_local / dim, -1);
+    std::vector<float> tentative_blocks(block * place.size() + 2);
+    for (unsigned int node = 0; node < place.size(); ++node)
+      if (const double aggregate = aim->local_element(dim * node); aggregate != nowhere)
+        {
+          place[node] = static_cast<int>(
+            coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
+          for (unsigned int r = 0; r < dim; ++r)
+            for (unsigned int m = 0; m < n_modes; ++m)
+              tentative_blocks[block * node + n_modes * r + m] =
+                static_cast<float>(shape[m]->local_element(dim * node + r));
+        }
+    const double              omega = 4. / 3. / largest;
+    RowOfBlocks<OctetsOfNode> row;
+    start.push_back(0);
+    // Seldom more; what is not used is address space and no memory.
+    constexpr std::size_t enough = 8;
+    column.reserve(enough * n_nodes);
+    entries.reserve(block * enough * n_nodes + 2);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      {
+        std::array<double, dim> damping;
+        for (unsigned int r = 0; r < dim; ++r)
+          damping[r] = omega / diagonal[dim * node + r];
+        row.clear();
+        add_smoothed(rows.read(node), node, damping, place, tentative_blocks, row);
+        for (unsigned int k = 0; k < row.columns.size(); ++k)
+          {
+            column.push_back(row.columns[k]);
+            for (unsigned int r = 0; r < dim; ++r)
+              for (unsigned int m = 0; m < n_modes; ++m)
+                entries.push_back(static_cast<float>(row.blocks[k][r][m]));
+          }
+        start.push_back(column.size());
+      }
+    entries.resize(entries.size() + 2);
+  }
+
+
+
+  void
+  Prolongation::prolongate_and_add(VectorType &to, const VectorType &from) const
+  {
+    from.update_ghost_values();
+    const float       *in      = from.begin();
+    float             *out     = to.begin();
+    const unsigned int n_nodes = start.size() - 1;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+        {
+          const float *p = entries.data() + block * b;
+          const float *x = in + n_modes * column[b];
+          for (unsigned int r = 0; r < dim; ++r, p += n_modes)
+            out[dim * node + r] +=
+              (p[0] * x[0] + p[1] * x[1] + p[2] * x[2]) + (p[3] * x[3] + p[4] * x[4] + p[5] * x[5]);
+        }
+    from.zero_out_ghost_values();
+  }
+
+
+
+  void
+  Prolongation::restrict_to(VectorType &to, const VectorType &from) const
+  {
+    to                         = 0.f;
+    const float       *in      = from.begin();
+    float             *out     = to.begin();
+    const unsigned int n_nodes = start.size() - 1;
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+        for (unsigned int r = 0; r < dim; ++r)
+          for (unsigned int m = 0; m < n_modes; ++m)
+            out[n_modes * column[b] + m] +=
+              entries[block * b + n_modes * r + m] * in[dim * node + r];
+    to.compress(VectorOperation::add);
+  }
+} // namespace Touchstone

@@ -1,0 +1,155 @@
+#include <touchstone/base/folder.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** What the system says about the last failure, with a remedy for it. */
+    [[noreturn]] void
+    fail(const std::string &path, const int code)
+    {
+      std::string remedy =
+        "Check the folder, or choose another one with --output DIR or \"Output/Directory\".";
+      if (code == ENOSPC || code == EDQUOT)
+        remedy = "Free space, write fewer pictures (\"Output/VTU interval\"), or choose another "
+                 "folder with --output DIR.";
+      else if (code == ENOENT)
+        remedy = "Was the folder removed during the run? Start again, with --output DIR to write "
+                 "elsewhere.";
+      throw OutputError(path, code != 0 ? std::strerror(code) : "unknown error", remedy);
+    }
+  } // namespace
+
+
+
+  OutputError::OutputError(const std::string &path,
+                           const std::string &reason,
+                           const std::string &remedy)
+    : std::runtime_error("Cannot write " + path + ": " + reason + ". " + remedy)
+  {
+  }
+
+
+
+  OutputError::OutputError(const std::string &message)
+    : std::runtime_error(message)
+  {
+  }
+
+
+
+  void
+  write_file_atomically(const std::string &path, const std::string &contents)
+  {
+    const std::string temporary = path + ".part";
+
+    errno = 0;
+    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
+    if (out)
+      {
+        out.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+        // A full disk shows only when the buffers are emptied.
+        out.flush();
+        if (out)
+          out.close();
+      }
+    if (!out)
+      {
+        const int code = errno;
+        out.close();
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        fail(path, code);
+      }
+
+    std::error_code error;
+    std::filesystem::rename(temporary, path, error);
+    if (error)
+      {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        fail(path, error.value());
+      }
+  }
+
+
+
+  OutputFolder::OutputFolder(const std::string &directory, const MPI_Comm communicator)
+    : directory(directory.empty() ? "." : directory)
+    , communicator(communicator)
+    , rank(dealii::Utilities::MPI::this_mpi_process(communicator))
+    , n_ranks(dealii::Utilities::MPI::n_mpi_processes(communicator))
+  {
+    together([this]() {
+      if (rank != 0)
+        return;
+      std::error_code error;
+      std::filesystem::create_directories(this->directory, error);
+      // create_directories() is content with a file of that name.
+      if (!error && !std::filesystem::is_directory(this->directory))
+        error = std::make_error_code(std::errc::not_a_directory);
+      if (error)
+        throw OutputError("to the folder " + this->directory,
+                          error.message(),
+                          "Choose another folder with --output DIR or \"Output/Directory\".");
+
+      // Permission bits do not tell of read-only or full file systems.
+      const std::string probe = path(".touchstone_write_test");
+      Touchstone::write_file_atomically(probe, "test\n");
+      std::filesystem::remove(probe, error);
+    });
+  }
+
+
+
+  std::string
+  OutputFolder::path(const std::string &name) const
+  {
+    return (std::filesystem::path(directory) / name).string();
+  }
+
+
+
+  void
+  OutputFolder::write_file_atomically(const std::string &name, const std::string &contents) const
+  {
+    together([&]() {
+      if (rank == 0)
+        Touchstone::write_file_atomically(path(name), contents);
+    });
+  }
+
+
+
+  void
+  OutputFolder::write_pieces_atomically(const std::string &name, const std::string &contents) const
+  {
+    together([&]() { Touchstone::write_file_atomically(path(name), contents); });
+  }
+
+
+
+  void
+  OutputFolder::together(const std::function<void()> &action) const
+  {
+    std::string message;
+    try
+      {
+        action();
+      }
+    catch (const OutputError &error)
+      {
+        message = error.what();
+      }
+
+    const unsigned int first_failed =
+      dealii::Utilities::MPI::min(message.empty() ? n_ranks : rank, communicator);
+    if (first_failed < n_ranks)
+      throw OutputError(dealii::Utilities::MPI::broadcast(communicator, message, first_failed));
+  }
+} // namespace Touchstone

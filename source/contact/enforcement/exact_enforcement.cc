@@ -1,0 +1,137 @@
+#include <touchstone/contact/enforcement/exact_enforcement.h>
+#include <touchstone/contact/enforcement/row_terms.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <set>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  ExactEnforcement::recover(Contact &contact, const Vector &, const ConstraintGraph &)
+  {
+    for (auto &pair_rows : contact.rows)
+      for (ContactRow &row : pair_rows)
+        {
+          // Of open rows, too: they may close before the next linear system.
+          if (row.friction)
+            choose_friction(row);
+          if (!row.active() || row.tied)
+            continue;
+          if (solved && row.held())
+            row.friction->augment_unheld(row.stiffness);
+          respond(row);
+        }
+    solved = false;
+  }
+
+
+
+  void
+  ExactEnforcement::enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system)
+  {
+    accepted.clear();
+    prepare(contact, system);
+    const auto offer = [&](ContactRow &row, Condition &condition) {
+      const ConstraintGraph::Treatment way = treatment(row);
+      adjust(row, condition);
+      if (row.take(condition, graph.accept(condition, way)))
+        accepted.push_back({&row, condition, graph.accepted().size() - 1, way});
+    };
+    // Nothing may penetrate: what closes gaps precedes what holds nodes along surfaces.
+    std::vector<std::pair<ContactRow *, std::vector<Condition>>> stick;
+    for (auto &pair_rows : contact.rows)
+      for (ContactRow &row : pair_rows)
+        {
+          std::vector<Condition> conditions = start_row(row, system.keep_symmetric);
+          const std::size_t      n          = row.tied ? conditions.size() : 1;
+          for (std::size_t k = 0; k < std::min(n, conditions.size()); ++k)
+            offer(row, conditions[k]);
+          if (conditions.size() > n)
+            stick.emplace_back(&row,
+                               std::vector<Condition>(conditions.begin() + n, conditions.end()));
+        }
+    for (auto &[row, conditions] : stick)
+      for (Condition &condition : conditions)
+        offer(*row, condition);
+    if (system.takes_multipliers)
+      add_multipliers(accepted, system);
+  }
+
+
+
+  void
+  ExactEnforcement::add_multipliers(const std::vector<Accepted> &accepted, LinearSystem &system)
+  {
+    const auto is_unknown = [](const Accepted &entry) {
+      return entry.treatment == ConstraintGraph::Treatment::multiplier;
+    };
+    const MPI_Comm communicator = system.rhs.get_mpi_communicator();
+    system.n_extra              = std::count_if(accepted.begin(), accepted.end(), is_unknown);
+    const auto counts           = Utilities::MPI::all_gather(communicator, system.n_extra);
+    if (std::all_of(counts.begin(), counts.end(), [](const Index n) { return n == 0; }))
+      return;
+    system.first_extra = system.rhs.size();
+    for (unsigned int r = 0; r < Utilities::MPI::this_mpi_process(communicator); ++r)
+      system.first_extra += counts[r];
+    system.definite = false;
+    Index extra     = system.first_extra;
+    for (const Accepted &entry : accepted)
+      {
+        if (!is_unknown(entry))
+          continue;
+        // Scaled to the size of the stiffness, so that neither block is lost
+        // in the other's round-off.
+        const double scale = entry.row->stiffness;
+        system.terms.push_back({{{extra, scale}}, by_unknowns(entry.condition.motion_form())});
+        system.terms.push_back({by_unknowns(entry.condition.force_form()), {{extra, scale}}});
+        if (!entry.condition.symmetric())
+          system.symmetric = false;
+        system.extra_rhs.push_back(scale * entry.condition.value);
+        ++extra;
+      }
+  }
+
+
+
+  std::vector<double>
+  ExactEnforcement::multipliers(const std::vector<Accepted> &accepted,
+                                const LinearSolution        &solution) const
+  {
+    std::vector<double> result;
+    std::size_t         extra = 0;
+    for (const Accepted &entry : accepted)
+      result.push_back(entry.treatment == ConstraintGraph::Treatment::multiplier
+                         ? -entry.row->stiffness * solution.extra[extra++]
+                         : 0.);
+    return result;
+  }
+
+
+
+  void
+  ExactEnforcement::update(Contact &)
+  {
+    for (const Accepted &entry : accepted)
+      entry.row->force = Tensor<1, dim>();
+    for (std::size_t k = 0; k < accepted.size(); ++k)
+      accepted[k].row->force += forces[k] * accepted[k].condition.direction;
+    std::set<ContactRow *> found;
+    for (const Accepted &entry : accepted)
+      {
+        ContactRow &row = *entry.row;
+        if (!found.insert(&row).second)
+          continue;
+        row.lambda = row.force * row.normal;
+        if (!row.friction || !row.held())
+          continue;
+        for (const Tensor<1, dim> &tangent : row.friction->unheld)
+          row.force += (row.friction->base * tangent) * tangent;
+        row.friction->base = row.force - row.lambda * row.normal;
+      }
+    solved = true;
+  }
+} // namespace Touchstone

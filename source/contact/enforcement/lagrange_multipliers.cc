@@ -1,0 +1,37 @@
+#include <touchstone/contact/enforcement/exact_enforcement.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Contact forces are unknowns of the saddle-point system
+     * [K B^T; B 0] [du; -lambda] = [f; -g]. */
+    class LagrangeMultipliers : public ExactEnforcement
+    {
+    public:
+      explicit LagrangeMultipliers(const ContactParameters &)
+      {
+      }
+
+    protected:
+      ConstraintGraph::Treatment
+      treatment(const ContactRow &) const override
+      {
+        return ConstraintGraph::Treatment::multiplier;
+      }
+
+      void
+      prepare(Contact &, LinearSystem &system) override
+      {
+        // Whatever the solver is.
+        system.takes_multipliers = true;
+      }
+    };
+
+    const EnforcementRegistry::Entry<LagrangeMultipliers>
+      lagrange_multipliers_entry("lagrange multipliers",
+                                 "contact forces as unknowns; needs a direct solver");
+  } // namespace
+} // namespace Touchstone

@@ -1,0 +1,296 @@
+#include <touchstone/contact/enforcement/row_terms.h>
+
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  LinearForm
+  by_unknowns(const NodalForm &form)
+  {
+    LinearForm result;
+    result.reserve(dim * form.size());
+    for (const auto &[node, coefficients] : form)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (coefficients[d] != 0.)
+          result.emplace_back(dim * node + d, coefficients[d]);
+    return result;
+  }
+
+
+
+  NodalForm
+  gap_gradient(const ContactRow &row)
+  {
+    NodalForm            form;
+    const RowDerivative &derivative = *row.derivative;
+    for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+      form.emplace_back(derivative.nodes[a],
+                        row.normal * derivative.gap_vector[a] +
+                          row.gap_vector * derivative.normal[a]);
+    return form;
+  }
+
+
+
+  namespace
+  {
+    /** A component of the slip. */
+    NodalForm
+    slip_form(const ContactRow &row, const Tensor<1, dim> &direction)
+    {
+      NodalForm form;
+      for (const auto &[node, matrix] : row.friction->slip_gradient)
+        form.emplace_back(node, direction * matrix);
+      return form;
+    }
+
+    /** A condition of the row without direction and value. */
+    Condition
+    blank_condition(const ContactRow &row)
+    {
+      Condition condition;
+      condition.node            = row.slave;
+      condition.stencil         = row.stencil;
+      condition.body            = row.body;
+      condition.master_body     = row.master_body;
+      condition.position        = row.position + row.lever;
+      condition.master_position = condition.position - row.gap_vector / row.share;
+      return condition;
+    }
+  } // namespace
+
+
+
+  std::vector<Condition>
+  elastic_stick(const ContactRow &row)
+  {
+    std::vector<Condition> conditions;
+    if (row.friction && row.status == ContactStatus::stick && !row.held() && !row.dropped())
+      for (const Tensor<1, dim> &tangent : row.friction->tangents)
+        {
+          conditions.push_back(blank_condition(row));
+          conditions.back().direction = tangent;
+        }
+    return conditions;
+  }
+
+
+
+  std::vector<Condition>
+  friction_springs(const ContactRow &row)
+  {
+    std::vector<Condition> conditions = elastic_stick(row);
+    // Friction that turns with the slip resists across it like a spring. A soft one is not worth
+    // an unknown that multigrid keeps out of its coarse spaces.
+    if (row.friction && row.status == ContactStatus::slip && !row.dropped() &&
+        row.friction->slope.norm() > 10. * row.stiffness)
+      {
+        conditions.push_back(blank_condition(row));
+        conditions.back().direction = cross_product_3d(row.normal, row.friction->direction);
+      }
+    for (Condition &condition : conditions)
+      if (!row.friction->slip_gradient.empty())
+        condition.gradient = slip_form(row, condition.direction);
+    return conditions;
+  }
+
+
+
+  std::vector<Condition>
+  start_row(ContactRow &row, const bool keep_symmetric)
+  {
+    row.accepted = row.refused = 0;
+    row.normal_accepted        = true;
+    if (row.friction)
+      row.friction->unheld.clear();
+    if (!row.active())
+      return {};
+    if (row.closes_circle)
+      {
+        row.refused         = 1;
+        row.normal_accepted = false;
+        return {};
+      }
+    Condition              condition = blank_condition(row);
+    std::vector<Condition> conditions;
+    if (row.tied)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            condition.direction    = Tensor<1, dim>();
+            condition.direction[d] = 1.;
+            condition.value        = -row.gap_vector[d];
+            conditions.push_back(condition);
+          }
+        return conditions;
+      }
+
+    condition.direction = row.normal;
+    condition.value     = -row.gap;
+    if (row.derivative && !keep_symmetric)
+      condition.gradient = gap_gradient(row);
+    if (row.friction && row.friction->coupling.norm_square() > 0.)
+      condition.force_direction = row.normal + row.friction->coupling;
+    conditions.push_back(condition);
+    if (row.held())
+      for (const Tensor<1, dim> &tangent : row.friction->tangents)
+        {
+          condition.direction       = tangent;
+          condition.force_direction = Tensor<1, dim>();
+          condition.value           = -(tangent * row.friction->slip);
+          condition.gradient.clear();
+          if (!row.friction->slip_gradient.empty() && !keep_symmetric)
+            condition.gradient = slip_form(row, tangent);
+          conditions.push_back(condition);
+        }
+    return conditions;
+  }
+
+
+
+  void
+  lag_friction(ContactRow &row, const double lambda)
+  {
+    if (!row.friction || !row.active() || row.tied)
+      return;
+    const Tensor<1, dim> force   = row.force;
+    const double         present = row.lambda;
+    row.lambda                   = std::max(lambda, 0.);
+    respond(row);
+    row.friction->rest += row.lambda * row.friction->coupling;
+    row.friction->coupling = Tensor<1, dim>();
+    row.force              = force;
+    row.lambda             = present;
+  }
+
+
+
+  void
+  RowTerms::add_load(const ContactRow &row, const Tensor<1, dim> &force)
+  {
+    for (const auto &[node, part] : relative_motion(row.slave, row.stencil, force))
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          unknowns.push_back(dim * node + d);
+          loads.push_back(part[d]);
+        }
+  }
+
+
+
+  void
+  RowTerms::add_stiffness(const ContactRow &row, const NodalMatrices &change)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        NodalForm form;
+        for (const auto &[node, matrix] : change)
+          form.emplace_back(node, matrix[d]);
+        add_stiffness(row, Point<dim>::unit_vector(d), form);
+      }
+  }
+
+
+
+  void
+  RowTerms::add_stiffness(const ContactRow &row, const Tensor<1, dim> &force, const NodalForm &form)
+  {
+    RankOneTerm term{by_unknowns(relative_motion(row.slave, row.stencil, force)),
+                     by_unknowns(form)};
+    if (!term.left.empty() && !term.right.empty())
+      system.terms.push_back(std::move(term));
+  }
+
+
+
+  void
+  RowTerms::add_geometric(const ContactRow &row)
+  {
+    // f = lambda n + t with t turning with the normal: df = lambda dn - n (t . dn).
+    const RowDerivative &derivative = *row.derivative;
+    const Tensor<1, dim> tangential = row.force - row.lambda * row.normal;
+    const Tensor<2, dim> turn       = outer_product(row.normal, tangential) -
+                                row.lambda * Tensor<2, dim>(unit_symmetric_tensor<dim>());
+    NodalMatrices change;
+    for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+      change.emplace_back(derivative.nodes[a], turn * derivative.normal[a]);
+    add_stiffness(row, change);
+    // Master nodes take -w_m f.
+    for (std::size_t m = 0; m < row.stencil.size(); ++m)
+      {
+        NodalForm weight;
+        for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
+          weight.emplace_back(derivative.nodes[a], derivative.weights[m][a]);
+        system.terms.push_back(
+          {by_unknowns({{row.stencil[m].node, row.force}}), by_unknowns(weight)});
+      }
+  }
+
+
+
+  void
+  RowTerms::add_row(ContactRow &row)
+  {
+    if (row.active() && row.dropped())
+      row.clear_force();
+    if (!row.active() || row.dropped())
+      return;
+    if (row.derivative && !system.keep_symmetric)
+      {
+        add_geometric(row);
+        system.symmetric = false;
+      }
+    if (!row.friction)
+      return;
+    FrictionState &f     = *row.friction;
+    f.last_direction     = f.direction;
+    f.last_slope         = f.slope;
+    Tensor<1, dim> rest  = f.rest;
+    Tensor<2, dim> slope = f.slope;
+    if (row.held())
+      for (const Tensor<1, dim> &tangent : f.unheld)
+        {
+          const double spring = FrictionState::unheld_stiffness(row.stiffness);
+          rest += (f.base * tangent - spring * (f.slip * tangent)) * tangent;
+          slope += spring * outer_product(tangent, tangent);
+        }
+    add_load(row, rest);
+    if (slope.norm_square() > 0.)
+      {
+        NodalMatrices change;
+        if (f.slip_gradient.empty() || system.keep_symmetric)
+          {
+            change.emplace_back(row.slave, slope);
+            for (const StencilEntry &entry : row.stencil)
+              change.emplace_back(entry.node, -entry.weight * slope);
+          }
+        else
+          for (const auto &[node, matrix] : f.slip_gradient)
+            change.emplace_back(node, slope * matrix);
+        add_stiffness(row, change);
+      }
+    if (row.derivative && !row.derivative->area.empty() && !system.keep_symmetric &&
+        f.area_coupling.norm_square() > 0.)
+      {
+        NodalForm area;
+        for (std::size_t a = 0; a < row.derivative->nodes.size(); ++a)
+          area.emplace_back(row.derivative->nodes[a], row.derivative->area[a]);
+        add_stiffness(row, -f.area_coupling, area);
+      }
+    if (!f.spin_gradient.empty() && !system.keep_symmetric && f.turn.norm_square() > 0.)
+      add_stiffness(row, f.turn, f.spin_gradient);
+  }
+
+
+
+  void
+  RowTerms::finish()
+  {
+    system.rhs.add(unknowns, loads);
+    system.rhs.compress(VectorOperation::add);
+    unknowns.clear();
+    loads.clear();
+  }
+} // namespace Touchstone

@@ -1,0 +1,50 @@
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/friction/friction_law.h>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  namespace
+  {
+    /** |t| <= k A: a shear strength that does not depend on the pressure. */
+    class Tresca : public FrictionLaw
+    {
+    public:
+      void
+      declare(ParameterHandler &prm) override
+      {
+        prm.add_parameter("Shear strength",
+                          strength,
+                          "Largest shear traction, at least zero. Required. [force per area]",
+                          Patterns::Double(),
+                          /*has_to_be_set=*/true);
+      }
+
+      void
+      check(const std::string &section) const override
+      {
+        if (strength < 0.)
+          throw InputError(section,
+                           "Shear strength",
+                           Patterns::Tools::to_string(strength),
+                           "must not be negative",
+                           "give the largest shear traction that the surfaces bear");
+      }
+
+      FrictionLimit
+      limit(const FrictionInput &input) const override
+      {
+        return {strength * input.area, 0., strength};
+      }
+
+    private:
+      double strength = 0.;
+    };
+
+    const FrictionLawRegistry::Entry<Tresca>
+      tresca_entry("tresca",
+                   "the shear traction is at most a given strength, wherever there is contact.");
+  } // namespace
+} // namespace Touchstone

@@ -1,0 +1,69 @@
+#include <touchstone/contact/geometry/deformed_cells.h>
+
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Whether @p x lies in one of the six tetrahedra around the diagonal of the cell with
+     * the vertices @p c. */
+    bool
+    contains(const std::array<Point<dim>, 8> &c, const Point<dim> &x)
+    {
+      constexpr unsigned int around[7] = {1, 3, 2, 6, 4, 5, 1};
+      for (unsigned int k = 0; k < 6; ++k)
+        {
+          Tensor<2, dim> edges;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              edges[d][0] = c[around[k]][d] - c[0][d];
+              edges[d][1] = c[around[k + 1]][d] - c[0][d];
+              edges[d][2] = c[7][d] - c[0][d];
+            }
+          if (std::abs(determinant(edges)) == 0.)
+            continue;
+          const Tensor<1, dim> part = invert(edges) * (x - c[0]);
+          if (part[0] >= 0. && part[1] >= 0. && part[2] >= 0. && part[0] + part[1] + part[2] <= 1.)
+            return true;
+        }
+      return false;
+    }
+  } // namespace
+
+
+
+  DeformedCells::DeformedCells(const Solid &solid, const unsigned int body, const Vector &u)
+  {
+    std::vector<std::pair<Box, std::size_t>> boxes;
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->material_id() == body)
+        {
+          std::array<Point<dim>, 8> corners;
+          for (unsigned int v = 0; v < 8; ++v)
+            {
+              corners[v] = cell->vertex(v);
+              for (unsigned int d = 0; d < dim; ++d)
+                corners[v][d] += u(cell->vertex_dof_index(v, d));
+            }
+          boxes.emplace_back(Box(std::vector<Point<dim>>(corners.begin(), corners.end())),
+                             cells.size());
+          cells.push_back(corners);
+        }
+    tree = pack_rtree(boxes);
+  }
+
+
+
+  bool
+  DeformedCells::contain(const Point<dim> &x) const
+  {
+    namespace query = boost::geometry::index;
+    for (const auto &entry : tree | query::adaptors::queried(query::intersects(x)))
+      if (contains(cells[entry.second], x))
+        return true;
+    return false;
+  }
+} // namespace Touchstone

@@ -1,0 +1,121 @@
+#include <touchstone/contact/geometry/edge_crossing.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Cosine of the angle between the normals of faces that meet in a sharp edge. */
+    constexpr double sharp = 0.866;
+    /** Cosine of the angle within which a perpendicular counts as the normal of a face. */
+    constexpr double along_normal = 0.966;
+    /** Sine of the angle below which edges count as parallel. */
+    constexpr double parallel = 0.2;
+
+    /** An edge of a face with what is needed of the face. */
+    struct Side
+    {
+      Point<dim>     a, b, centre;
+      Tensor<1, dim> normal;
+      bool           outer, own;
+    };
+
+    /** Away from the face within its tangent plane, across the edge. */
+    Tensor<1, dim>
+    outward(const Side &side)
+    {
+      Tensor<1, dim> way = cross_product_3d(side.b - side.a, side.normal);
+      way /= way.norm();
+      return way * (side.a - side.centre) > 0. ? way : -1. * way;
+    }
+
+    /** Whether @p n, perpendicular to the edge, lies between the normals of its sides. */
+    bool
+    between_normals(const SharpEdge &edge, const Tensor<1, dim> &n)
+    {
+      const auto angle = [](const Tensor<1, dim> &x, const Tensor<1, dim> &y) {
+        return std::acos(std::clamp(x * y, -1., 1.));
+      };
+      constexpr double out_of_plane = 0.1;
+      const auto      &m            = edge.normals;
+      return n * m[0] < along_normal && n * m[1] < along_normal &&
+             angle(n, m[0]) + angle(n, m[1]) < angle(m[0], m[1]) + out_of_plane;
+    }
+  } // namespace
+
+
+
+  std::vector<SharpEdge>
+  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others)
+  {
+    std::map<std::pair<Index, Index>, std::vector<Side>> sides;
+    for (const auto *list : {&own, &others})
+      for (const Face &face : *list)
+        {
+          // Corners in the order of the bits of Face::outer_edges.
+          const unsigned int p = face.degree, last = face.n_nodes() - 1;
+          const unsigned int corners[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
+          const FacePoint    middle        = evaluate(face, nullptr, {{0., 0.}});
+          for (unsigned int e = 0; e < 4; ++e)
+            {
+              const unsigned int i = corners[e][0], j = corners[e][1];
+              sides[std::minmax(face.nodes[i], face.nodes[j])].push_back(
+                {face.position(i),
+                 face.position(j),
+                 middle.x,
+                 middle.normal(),
+                 (face.outer_edges >> e & 1u) != 0,
+                 list == &own});
+            }
+        }
+    std::vector<SharpEdge> result;
+    for (const auto &[nodes, list] : sides)
+      {
+        const Side &one = list.front();
+        if (std::none_of(list.begin(), list.end(), [](const Side &s) { return s.own; }))
+          continue;
+        if (list.size() == 1 && one.outer)
+          result.push_back({one.a, one.b, {{one.normal, outward(one)}}});
+        if (list.size() == 2)
+          {
+            const Side &two    = list.back();
+            const bool  convex = (two.centre - one.a) * one.normal < 0.;
+            if (convex && one.normal * two.normal < sharp)
+              result.push_back({one.a, one.b, {{one.normal, two.normal}}});
+          }
+      }
+    return result;
+  }
+
+
+
+  std::optional<EdgeCrossing>
+  edge_crossing(const SharpEdge &first, const SharpEdge &second)
+  {
+    const Tensor<1, dim> d = first.b - first.a, e = second.b - second.a, way = second.a - first.a;
+    Tensor<1, dim>       n      = cross_product_3d(d, e);
+    const double         square = n.norm_square();
+    if (square <= parallel * parallel * d.norm_square() * e.norm_square())
+      return {};
+    // Feet of the common perpendicular of two lines.
+    const double s = cross_product_3d(way, e) * n / square,
+                 t = cross_product_3d(way, d) * n / square;
+    // Where edges end in each other no perpendicular is to be lost by round-off.
+    constexpr double slack = 1e-6;
+    if (std::min(s, t) < -slack || std::max(s, t) > 1. + slack)
+      return {};
+    n /= n.norm();
+    if (n * (second.normals[0] + second.normals[1]) < 0.)
+      n *= -1.;
+    const Point<dim> x = first.a + s * d, y = second.a + t * e;
+    const double     depth = (y - x) * n;
+    if (!between_normals(second, n) || !between_normals(first, -1. * n))
+      return {};
+    return EdgeCrossing{x, y, depth};
+  }
+} // namespace Touchstone

@@ -1,0 +1,132 @@
+#include <touchstone/contact/geometry/face.h>
+
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Lagrange polynomials on equidistant points of [-1,1], and derivatives. */
+    void
+    lagrange(const unsigned int degree, const double x, double *value, double *derivative)
+    {
+      if (degree == 1)
+        {
+          value[0]      = 0.5 * (1. - x);
+          value[1]      = 0.5 * (1. + x);
+          derivative[0] = -0.5;
+          derivative[1] = 0.5;
+        }
+      else
+        {
+          value[0]      = 0.5 * x * (x - 1.);
+          value[1]      = (1. - x) * (1. + x);
+          value[2]      = 0.5 * x * (x + 1.);
+          derivative[0] = x - 0.5;
+          derivative[1] = -2. * x;
+          derivative[2] = x + 0.5;
+        }
+    }
+  } // namespace
+
+
+
+  FaceShapes::FaceShapes(const unsigned int degree, const std::array<double, 2> &xi)
+  {
+    // Searches and averages ask for millions of points, most of them on bilinear faces.
+    if (degree == 1)
+      {
+        const double low[2]  = {0.5 * (1. - xi[0]), 0.5 * (1. - xi[1])},
+                     high[2] = {0.5 * (1. + xi[0]), 0.5 * (1. + xi[1])};
+        value[0]             = low[0] * low[1];
+        value[1]             = high[0] * low[1];
+        value[2]             = low[0] * high[1];
+        value[3]             = high[0] * high[1];
+        gradient[0]          = {{-0.5 * low[1], -0.5 * low[0]}};
+        gradient[1]          = {{0.5 * low[1], -0.5 * high[0]}};
+        gradient[2]          = {{-0.5 * high[1], 0.5 * low[0]}};
+        gradient[3]          = {{0.5 * high[1], 0.5 * high[0]}};
+        return;
+      }
+    double n[2][3], dn[2][3];
+    for (unsigned int d = 0; d < 2; ++d)
+      lagrange(degree, xi[d], n[d], dn[d]);
+    for (unsigned int j = 0; j <= degree; ++j)
+      for (unsigned int i = 0; i <= degree; ++i)
+        {
+          const unsigned int m = i + (degree + 1) * j;
+          value[m]             = n[0][i] * n[1][j];
+          gradient[m]          = {{dn[0][i] * n[1][j], n[0][i] * dn[1][j]}};
+        }
+  }
+
+
+
+  std::array<std::array<double, 3>, Face::max_nodes>
+  shape_hessians(const unsigned int degree, const std::array<double, 2> &xi)
+  {
+    double n[2][3], dn[2][3];
+    for (unsigned int d = 0; d < 2; ++d)
+      lagrange(degree, xi[d], n[d], dn[d]);
+    const double                                       ddn[2][3] = {{0., 0., 0.}, {1., -2., 1.}};
+    const double                                      *second    = ddn[degree - 1];
+    std::array<std::array<double, 3>, Face::max_nodes> result{};
+    for (unsigned int j = 0; j <= degree; ++j)
+      for (unsigned int i = 0; i <= degree; ++i)
+        result[i + (degree + 1) * j] = {
+          {second[i] * n[1][j], dn[0][i] * dn[1][j], n[0][i] * second[j]}};
+    return result;
+  }
+
+
+
+  std::array<double, 2>
+  node_coordinates(const Face &face, const unsigned int m)
+  {
+    const unsigned int p = face.degree;
+    return {{2. * (m % (p + 1)) / p - 1., 2. * (m / (p + 1)) / p - 1.}};
+  }
+
+
+
+  Tensor<1, dim>
+  FacePoint::normal() const
+  {
+    const Tensor<1, dim> cross  = cross_product_3d(tangents[0], tangents[1]);
+    const double         length = cross.norm();
+    return length > 0. ? cross / length : cross;
+  }
+
+
+
+  FacePoint
+  evaluate(const Face &face, const AnalyticSurface *exact, const std::array<double, 2> &xi)
+  {
+    return evaluate(face, exact, FaceShapes(face.degree, xi));
+  }
+
+
+
+  FacePoint
+  evaluate(const Face &face, const AnalyticSurface *exact, const FaceShapes &shapes)
+  {
+    FacePoint      result;
+    Point<dim>     reference;
+    Tensor<1, dim> displacement;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      {
+        reference += shapes.value[m] * face.reference[m];
+        displacement += shapes.value[m] * face.displacement[m];
+        for (unsigned int a = 0; a < 2; ++a)
+          result.tangents[a] += shapes.gradient[m][a] * face.reference[m];
+      }
+    if (exact)
+      reference = exact->project_with(reference, result.tangents);
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      for (unsigned int a = 0; a < 2; ++a)
+        result.tangents[a] += shapes.gradient[m][a] * face.displacement[m];
+    result.x = reference + displacement;
+    return result;
+  }
+} // namespace Touchstone

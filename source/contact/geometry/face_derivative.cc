@@ -1,0 +1,188 @@
+#include <touchstone/contact/geometry/face_derivative.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  Tensor<2, dim>
+  cross_matrix(const Tensor<1, dim> &a)
+  {
+    Tensor<2, dim> result;
+    result[0][1] = -a[2];
+    result[0][2] = a[1];
+    result[1][0] = a[2];
+    result[1][2] = -a[0];
+    result[2][0] = -a[1];
+    result[2][1] = a[0];
+    return result;
+  }
+
+
+
+  Tensor<2, dim>
+  normalisation_derivative(const Tensor<1, dim> &v)
+  {
+    const double length = v.norm();
+    if (length == 0.)
+      return {};
+    const Tensor<1, dim> n      = v / length;
+    Tensor<2, dim>       result = unit_symmetric_tensor<dim>();
+    result -= outer_product(n, n);
+    return result / length;
+  }
+
+
+
+  namespace
+  {
+    /** Derivative of the unit normal with respect to the two tangents. */
+    std::array<Tensor<2, dim>, 2>
+    own_normal_derivative(const FacePoint &point)
+    {
+      const Tensor<2, dim> direction =
+        normalisation_derivative(cross_product_3d(point.tangents[0], point.tangents[1]));
+      return {{-1. * direction * cross_matrix(point.tangents[1]),
+               direction * cross_matrix(point.tangents[0])}};
+    }
+  } // namespace
+
+
+
+  FaceDifferentiator::FaceDifferentiator(const FaceGeometry &geometry)
+    : geometry(geometry)
+  {
+    const Face &face = geometry.face();
+    if (geometry.smooth())
+      patch = std::make_unique<GregoryPatch::Derivative>(GregoryPatch::differentiate(face));
+    else if (geometry.interpolates_normals() && geometry.exact_surface())
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        {
+          const auto       xi    = node_coordinates(face, m);
+          const FacePoint  point = geometry.evaluate(xi);
+          const FaceShapes shapes(face.degree, xi);
+          const auto       by_tangents = own_normal_derivative(point);
+          jumps[m]                     = face.normals[m] - point.normal();
+          for (unsigned int k = 0; k < face.n_nodes(); ++k)
+            own[m][k] =
+              shapes.gradient[k][0] * by_tangents[0] + shapes.gradient[k][1] * by_tangents[1];
+        }
+  }
+
+
+
+  FaceDerivative
+  FaceDifferentiator::at(const std::array<double, 2> &xi) const
+  {
+    const Face          &face = geometry.face();
+    const unsigned int   n    = face.n_nodes();
+    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    FaceDerivative       result{
+      FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}, {}, {}, {}, {}, {}, {}};
+    const FaceShapes &shapes = result.shapes;
+
+    if (patch)
+      {
+        // The point is linear in the control points.
+        const GregoryPatch::Basis basis(xi);
+        for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
+          for (unsigned int m = 0; m < 8; ++m)
+            {
+              const Tensor<2, dim> &d = (*patch)[k][m];
+              const bool            p = m < 4;
+              const unsigned int    i = m % 4;
+              (p ? result.x_position : result.x_normal)[i] += basis.value[k] * d;
+              for (unsigned int a = 0; a < 2; ++a)
+                (p ? result.tangent_position : result.tangent_normal)[a][i] +=
+                  basis.gradient[k][a] * d;
+            }
+      }
+    else
+      for (unsigned int m = 0; m < n; ++m)
+        {
+          // On an exact surface, too, only displacements change.
+          result.x_position[m] = shapes.value[m] * identity;
+          for (unsigned int a = 0; a < 2; ++a)
+            result.tangent_position[a][m] = shapes.gradient[m][a] * identity;
+        }
+
+    // The normal of the surface itself, where it counts.
+    const bool           interpolated = geometry.interpolates_normals();
+    const Tensor<1, dim> own_normal   = result.point.normal();
+    if (!interpolated || geometry.exact_surface())
+      {
+        const auto by_tangents = own_normal_derivative(result.point);
+        const auto second      = geometry.second_derivatives(xi);
+        for (unsigned int b = 0; b < 2; ++b)
+          result.normal_xi[b] = by_tangents[0] * second[b] + by_tangents[1] * second[b + 1];
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int a = 0; a < 2; ++a)
+            if (patch)
+              {
+                result.normal_position[m] += by_tangents[a] * result.tangent_position[a][m];
+                result.normal_normal[m] += by_tangents[a] * result.tangent_normal[a][m];
+              }
+            else
+              result.normal_position[m] += shapes.gradient[m][a] * by_tangents[a];
+      }
+    if (!interpolated)
+      {
+        result.normal = own_normal;
+        return result;
+      }
+
+    Tensor<1, dim> sum;
+    if (geometry.exact_surface())
+      {
+        sum = own_normal;
+        for (unsigned int m = 0; m < n; ++m)
+          {
+            sum += shapes.value[m] * jumps[m];
+            for (unsigned int b = 0; b < 2; ++b)
+              result.normal_xi[b] += shapes.gradient[m][b] * jumps[m];
+            for (unsigned int k = 0; k < n; ++k)
+              result.normal_position[k] -= shapes.value[m] * own[m][k];
+          }
+      }
+    else
+      for (unsigned int m = 0; m < n; ++m)
+        {
+          sum += shapes.value[m] * face.normals[m];
+          for (unsigned int b = 0; b < 2; ++b)
+            result.normal_xi[b] += shapes.gradient[m][b] * face.normals[m];
+        }
+    result.normal                  = sum / sum.norm();
+    const Tensor<2, dim> direction = normalisation_derivative(sum);
+    for (unsigned int b = 0; b < 2; ++b)
+      result.normal_xi[b] = direction * result.normal_xi[b];
+    for (unsigned int m = 0; m < n; ++m)
+      {
+        result.normal_normal[m] = shapes.value[m] * direction;
+        if (geometry.exact_surface())
+          result.normal_position[m] = direction * result.normal_position[m];
+      }
+    return result;
+  }
+
+
+
+  FacePosition
+  FaceDifferentiator::position(const std::array<double, 2> &xi) const
+  {
+    const Face          &face = geometry.face();
+    const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+    FacePosition         result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
+    if (patch)
+      {
+        const GregoryPatch::Basis basis(xi);
+        for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
+          for (unsigned int m = 0; m < 8; ++m)
+            (m < 4 ? result.x_position : result.x_normal)[m % 4] += basis.value[k] * (*patch)[k][m];
+      }
+    else
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        result.x_position[m] = result.shapes.value[m] * identity;
+    return result;
+  }
+} // namespace Touchstone

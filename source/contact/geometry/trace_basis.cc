@@ -1,0 +1,75 @@
+#include <touchstone/contact/geometry/trace_basis.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  bool
+  TraceBasis::needed(const Face &face, const AffineConstraints<double> &hanging)
+  {
+    return std::any_of(face.nodes.begin(), face.nodes.begin() + face.n_nodes(), [&](const Index m) {
+      return hanging.is_constrained(dim * m);
+    });
+  }
+
+
+
+  TraceBasis::TraceBasis(const Face &face, const AffineConstraints<double> &hanging)
+    : n(face.n_nodes())
+    , nodes(face.nodes)
+  {
+    const auto end = nodes.begin() + n;
+    // The places of hanging nodes go to the parents that the face does not have. With
+    // degree 2 a corner can hang as well: it follows the middle of the larger edge.
+    std::vector<unsigned int> places;
+    std::vector<Index>        parents;
+    for (unsigned int i = 0; i < n; ++i)
+      if (hanging.is_constrained(dim * face.nodes[i]))
+        {
+          places.push_back(i);
+          for (const auto &entry : *hanging.get_constraint_entries(dim * face.nodes[i]))
+            if (std::find(nodes.begin(), end, entry.first / dim) == end &&
+                std::find(parents.begin(), parents.end(), entry.first / dim) == parents.end())
+              parents.push_back(entry.first / dim);
+        }
+    for (unsigned int k = 0; k < std::min(places.size(), parents.size()); ++k)
+      nodes[places[k]] = parents[k];
+    for (unsigned int i = 0; i < n; ++i)
+      if (!hanging.is_constrained(dim * face.nodes[i]))
+        weights[i][i] = 1.;
+      else
+        for (const auto &entry : *hanging.get_constraint_entries(dim * face.nodes[i]))
+          {
+            const auto place = std::find(nodes.begin(), end, entry.first / dim);
+            AssertThrow(place != end,
+                        ExcMessage("A face has more parents of hanging nodes than nodes."));
+            weights[i][place - nodes.begin()] = entry.second;
+          }
+  }
+
+
+
+  std::array<double, Face::max_nodes>
+  TraceBasis::apply(const std::array<double, Face::max_nodes> &values) const
+  {
+    std::array<double, Face::max_nodes> result{};
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int p = 0; p < n; ++p)
+        result[p] += weights[i][p] * values[i];
+    return result;
+  }
+
+
+
+  Stencil
+  TraceBasis::stencil(const unsigned int i) const
+  {
+    Stencil result;
+    for (unsigned int p = 0; p < n; ++p)
+      if (weights[i][p] != 0.)
+        result.push_back({nodes[p], weights[i][p]});
+    return result;
+  }
+} // namespace Touchstone

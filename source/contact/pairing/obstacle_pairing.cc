@@ -1,0 +1,115 @@
+#include <touchstone/contact/pairing/pairing.h>
+#include <touchstone/contact/pairing/row_derivative.h>
+#include <touchstone/scene/formula.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <array>
+#include <memory>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A rigid body given by a formula: rows with an empty stencil. */
+    class ObstaclePairing : public Pairing
+    {
+    public:
+      explicit ObstaclePairing(const PairingInput &input)
+        : Pairing(input)
+      {
+        const ObstacleParameters &o       = *input.obstacle;
+        const bool                outside = (o.side == "outside");
+        if (o.shape == "plane")
+          surface = make_plane(Point<dim>(o.point), o.direction / o.direction.norm());
+        else if (o.shape == "sphere")
+          surface = make_sphere(Point<dim>(o.point), o.radius, outside);
+        else
+          surface =
+            make_cone(Point<dim>(o.point), o.direction / o.direction.norm(), o.radius, 0., outside);
+        const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
+        for (unsigned int d = 0; d < dim; ++d)
+          motion[d] = formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
+      }
+
+      void
+      update(const Vector &u, const double time, std::vector<ContactRow> &rows) override
+      {
+        const Tensor<1, dim>            shift = motion_at(time);
+        const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          {
+            const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
+            ContactRow      &row = rows[k];
+            row.stencil.clear();
+            row.shift      = shift;
+            row.normal     = surface->normal(x);
+            row.gap_vector = x - surface->project(x);
+            row.gap        = row.gap_vector * row.normal;
+            if (row.status == ContactStatus::no_partner)
+              row.status = ContactStatus::open;
+          }
+      }
+
+      void
+      differentiate(const Vector &u, const double time, std::vector<ContactRow> &rows) override
+      {
+        const Tensor<1, dim>            shift = motion_at(time);
+        const Tensor<2, dim>            identity(unit_symmetric_tensor<dim>());
+        const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          {
+            ContactRow &row = rows[k];
+            row.derivative.reset();
+            if (!row.active())
+              continue;
+            const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
+            RowDerivativeBuilder builder(0);
+            builder.index(row.slave);
+            builder.result->gap_vector[0] = identity - surface->projection_gradient(x);
+            // Central differences: normals are given by formulas that are simple, and
+            // smooth over the size of a face.
+            const double step = 1e-4 * row.size;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                Tensor<1, dim> move;
+                move[d] = step;
+                const Tensor<1, dim> change =
+                  (surface->normal(x + move) - surface->normal(x - move)) / (2. * step);
+                for (unsigned int c = 0; c < dim; ++c)
+                  builder.result->normal[0][c][d] = change[c];
+              }
+            row.derivative = builder.result;
+          }
+      }
+
+      double
+      distance(const Point<dim> &x, const double time) const override
+      {
+        const Point<dim> y = x - motion_at(time);
+        return (y - surface->project(y)) * surface->normal(y);
+      }
+
+    private:
+      Tensor<1, dim>
+      motion_at(const double time) const
+      {
+        Tensor<1, dim> shift;
+        for (unsigned int d = 0; d < dim; ++d)
+          shift[d] = motion[d] ? motion[d]->value(Point<dim>(), time) : 0.;
+        formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
+        return shift;
+      }
+
+      std::shared_ptr<const AnalyticSurface>          surface;
+      Formulas                                        formulas;
+      std::array<std::shared_ptr<const Formula>, dim> motion;
+    };
+
+    const PairingRegistry::Entry<ObstaclePairing>
+      obstacle_pairing_entry("obstacle",
+                             "rigid surface given by a formula; chosen by the key 'Obstacle'");
+  } // namespace
+} // namespace Touchstone

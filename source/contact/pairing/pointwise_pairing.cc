@@ -1,0 +1,274 @@
+#include <touchstone/contact/pairing/pairing.h>
+#include <touchstone/contact/pairing/row_derivative.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Node-to-surface: the stencil of a slave node are the shape functions of
+     * the master face at the closest point. */
+    class PointwisePairing : public Pairing
+    {
+    public:
+      explicit PointwisePairing(const PairingInput &input)
+        : Pairing(input)
+        , search(*input.master,
+                 // A node that has gone deeper than its neighbours are apart must
+                 // still find its way out.
+                 input.search_distance > 0.
+                   ? input.search_distance
+                   : 4. * std::max(input.slave->largest_face(), input.master->largest_face()),
+                 input.parameters->edge_tolerance,
+                 master_normal(input.parameters->master_normal),
+                 input.solid->communicator)
+      {
+        search.commit(nullptr);
+        for (const SurfaceNode &node : input.slave->owned_nodes())
+          start.push_back(node.reference);
+        present_faces.resize(start.size());
+      }
+
+      void
+      commit_positions(const Vector &u) override
+      {
+        search.commit(&u);
+        const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          start[k] = input.slave->position(nodes[k], u);
+      }
+
+      void
+      update(const Vector &u, double, std::vector<ContactRow> &rows) override;
+
+      void
+      differentiate(const Vector &, double, std::vector<ContactRow> &rows) override;
+
+      PairingMemory
+      memory() const override
+      {
+        return {present_faces, {}};
+      }
+
+      void
+      remember(const PairingMemory &memory) override
+      {
+        present_faces = memory.of_rows;
+      }
+
+      SearchWork
+      search_work() const override
+      {
+        return search.work();
+      }
+
+    private:
+      Search search;
+      /** Of the last update, in the order of the rows. */
+      std::vector<std::optional<ContactPartner>> partners;
+      /** Keys of the faces that nodes had last. */
+      std::vector<std::optional<std::uint64_t>> present_faces;
+      /** Positions of the slave nodes at the start of the step. */
+      std::vector<Point<dim>> start;
+    };
+
+    const PairingRegistry::Entry<PointwisePairing>
+      pointwise_pairing_entry("pointwise", "node-to-surface by closest-point projection");
+
+
+
+    void
+    PointwisePairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
+    {
+      const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+      std::vector<Point<dim>>         positions;
+      for (const SurfaceNode &node : nodes)
+        positions.push_back(input.slave->position(node, u));
+      std::vector<Point<dim>> all(positions);
+      all.insert(all.end(), start.begin(), start.end());
+      search.update(all);
+      partners.resize(nodes.size());
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        {
+          ContactRow &row     = rows[k];
+          const auto &partner = partners[k] = search.find({positions[k],
+                                                           start[k],
+                                                           input.slave->normal(nodes[k].node),
+                                                           row.active(),
+                                                           present_faces[k]});
+          present_faces[k] =
+            partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
+          row.stencil.clear();
+          if (!partner)
+            {
+              row.status = ContactStatus::no_partner;
+              row.gap    = 0.;
+              continue;
+            }
+          if (row.status == ContactStatus::no_partner)
+            row.status = ContactStatus::open;
+          const FaceShapes shapes(partner->face->degree, partner->xi);
+          for (unsigned int m = 0; m < partner->face->n_nodes(); ++m)
+            if (std::abs(shapes.value[m]) > 1e-14)
+              row.stencil.push_back({partner->face->nodes[m], shapes.value[m]});
+          row.normal     = partner->normal;
+          row.gap_vector = positions[k] - partner->x;
+          row.gap        = row.gap_vector * row.normal;
+        }
+    }
+
+
+
+    /** Derivative of the closest point xi with respect to whatever moves. */
+    using CoordinateDerivative = std::array<Tensor<1, dim>, 2>;
+
+    /**
+     * The implicit derivative of the closest point: t_a . r = 0 gives
+     * (t_a . t_b - r . x_ab) d xi_b = t_a . d r + r . d t_a at a fixed xi. A
+     * coordinate that is held at an edge stays.
+     */
+    class ClosestPointDerivative
+    {
+    public:
+      ClosestPointDerivative(const FaceGeometry          &geometry,
+                             const std::array<double, 2> &xi,
+                             const FacePoint             &point,
+                             const Tensor<1, dim>        &r)
+      {
+        const auto second = geometry.second_derivatives(xi);
+        double     a[2][2];
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int j = 0; j < 2; ++j)
+            a[i][j] = point.tangents[i] * point.tangents[j] - r * second[i + j];
+        bool free[2];
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const double scale = point.tangents[i].norm_square();
+            free[i] = std::abs(xi[i]) < 1. || xi[i] * (point.tangents[i] * r) <= 1e-12 * scale;
+            // At a centre of curvature the closest point is not unique.
+            free[i] = free[i] && a[i][i] > 1e-6 * scale;
+          }
+        const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+        if (free[0] && free[1])
+          {
+            if (det < 1e-6 * a[0][0] * a[1][1])
+              return;
+            inverse[0][0] = a[1][1] / det;
+            inverse[1][1] = a[0][0] / det;
+            inverse[0][1] = inverse[1][0] = -a[0][1] / det;
+          }
+        else
+          for (unsigned int i = 0; i < 2; ++i)
+            if (free[i])
+              inverse[i][i] = 1. / a[i][i];
+      }
+
+      CoordinateDerivative
+      operator()(const Tensor<1, dim> &right_0, const Tensor<1, dim> &right_1) const
+      {
+        return {{inverse[0][0] * right_0 + inverse[0][1] * right_1,
+                 inverse[1][0] * right_0 + inverse[1][1] * right_1}};
+      }
+
+    private:
+      double inverse[2][2] = {{0., 0.}, {0., 0.}};
+    };
+
+
+
+    void
+    PointwisePairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
+    {
+      std::vector<const Face *> needed;
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        if (rows[k].active())
+          needed.push_back(partners[k]->face);
+      const auto normal_derivatives = search.normal_derivatives(needed);
+
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        {
+          ContactRow &row = rows[k];
+          row.derivative.reset();
+          if (!row.active())
+            continue;
+          const ContactPartner        &partner  = *partners[k];
+          const Face                  &face     = *partner.face;
+          const FaceGeometry           geometry = search.geometry(face);
+          const FaceDerivative         master   = FaceDifferentiator(geometry).at(partner.xi);
+          const auto                  &tangents = master.point.tangents;
+          const Tensor<1, dim>        &r        = row.gap_vector;
+          const ClosestPointDerivative closest(geometry, partner.xi, master.point, r);
+
+          // A weight that is zero on the edge of the face can still change.
+          const auto on_edge = closest(tangents[0], tangents[1]);
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            if (std::abs(master.shapes.value[m]) <= 1e-14 &&
+                (master.shapes.gradient[m][0] * on_edge[0] +
+                 master.shapes.gradient[m][1] * on_edge[1])
+                    .norm() > 0.)
+              row.stencil.push_back({face.nodes[m], 0.});
+          std::vector<unsigned int> local;
+          for (const StencilEntry &entry : row.stencil)
+            local.push_back(std::find(face.nodes.begin(), face.nodes.end(), entry.node) -
+                            face.nodes.begin());
+
+          RowDerivativeBuilder builder(row.stencil.size());
+          const Tensor<2, dim> turn = partner.wedge * normalisation_derivative(row.gap_vector);
+          // What moves has a direct effect on gap vector and normal, and one over xi.
+          const auto add = [&](const Index                 node,
+                               const Tensor<2, dim>       &gap_vector,
+                               const Tensor<2, dim>       &normal,
+                               const CoordinateDerivative &xi,
+                               const Tensor<2, dim>       *chain) {
+            Tensor<2, dim> d_gap = gap_vector, d_normal = normal;
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                d_gap -= outer_product(tangents[a], xi[a]);
+                d_normal += outer_product(master.normal_xi[a], xi[a]);
+              }
+            // Over an edge the normal is the direction of the gap.
+            if (partner.wedge != 0)
+              d_normal = turn * d_gap;
+            const unsigned int i = builder.index(node);
+            builder.result->gap_vector[i] += chain ? d_gap * *chain : d_gap;
+            builder.result->normal[i] += chain ? d_normal * *chain : d_normal;
+            for (std::size_t m = 0; m < local.size(); ++m)
+              {
+                const auto          &gradient = master.shapes.gradient[local[m]];
+                const Tensor<1, dim> d_weight = gradient[0] * xi[0] + gradient[1] * xi[1];
+                builder.result->weights[m][i] += chain ? d_weight * *chain : d_weight;
+              }
+          };
+          const auto coordinates =
+            [&](const Tensor<2, dim> &x, const Tensor<2, dim> &t_0, const Tensor<2, dim> &t_1) {
+              return closest(r * t_0 - tangents[0] * x, r * t_1 - tangents[1] * x);
+            };
+
+          const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+          add(row.slave, identity, {}, on_edge, nullptr);
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            add(face.nodes[m],
+                -1. * master.x_position[m],
+                master.normal_position[m],
+                coordinates(master.x_position[m],
+                            master.tangent_position[0][m],
+                            master.tangent_position[1][m]),
+                nullptr);
+          const auto derivatives = normal_derivatives.find(&face);
+          if (derivatives != normal_derivatives.end() && (partner.wedge == 0 || geometry.smooth()))
+            for (const NormalDerivative &d : derivatives->second)
+              add(d.node,
+                  -1. * master.x_normal[d.m],
+                  master.normal_normal[d.m],
+                  coordinates(master.x_normal[d.m],
+                              master.tangent_normal[0][d.m],
+                              master.tangent_normal[1][d.m]),
+                  &d.value);
+          row.derivative = builder.result;
+        }
+    }
+  } // namespace
+} // namespace Touchstone

@@ -1,0 +1,267 @@
+#include <touchstone/solid/bodies.h>
+#include <touchstone/solid/rigid_body_modes.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Displacement of mode @p k (three translations, three rotations) at
+     * position @p x from the centre. */
+    Tensor<1, dim>
+    mode(const unsigned int k, const Tensor<1, dim> &x)
+    {
+      Tensor<1, dim> e;
+      e[k % dim] = 1.;
+      return k < dim ? e : cross_product_3d(e, x);
+    }
+
+    /** Whether the eigenvalues of a symmetric 6 x 6 matrix are all larger than
+     * @p threshold. */
+    bool
+    positive_definite(const double *entries, const double threshold)
+    {
+      LAPACKFullMatrix<double> matrix(6, 6);
+      for (unsigned int i = 0; i < 6; ++i)
+        for (unsigned int j = 0; j < 6; ++j)
+          matrix(i, j) = entries[6 * i + j];
+      dealii::Vector<double> eigenvalues;
+      FullMatrix<double>     eigenvectors;
+      matrix.compute_eigenvalues_symmetric(
+        -threshold, threshold, 1e-3 * threshold, eigenvalues, eigenvectors);
+      return eigenvalues.size() == 0;
+    }
+  } // namespace
+
+
+
+  RigidBodyModes::RigidBodyModes(const Scene &scene, const Solid &solid)
+    : scene(scene)
+    , solid(solid)
+    , rigid(new RigidMotions{Epetra_MultiVector(solid.stiffness().rows(), 6),
+                             bodies_of_unknowns(solid)})
+    , centres(scene.bodies.size())
+    , sizes(scene.bodies.size())
+  {
+    const std::vector<BoundingBox<dim>> boxes = body_boxes(scene, solid);
+    for (unsigned int b = 0; b < boxes.size(); ++b)
+      {
+        const auto &[low, high] = boxes[b].get_boundary_points();
+        double diagonal         = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            centres[b][d] = 0.5 * (low[d] + high[d]);
+            diagonal += std::pow(high[d] - low[d], 2);
+          }
+        sizes[b] = 0.5 * std::sqrt(diagonal);
+      }
+
+    Epetra_MultiVector &modes = rigid->columns;
+    std::vector<Index>  dofs(solid.fe.n_dofs_per_cell());
+    std::vector<char>   known(modes.MyLength());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            {
+              const int row = modes.Map().LID(static_cast<int>(dofs[i]));
+              if (row < 0 || known[row])
+                continue;
+              known[row] = 1;
+              const Tensor<1, dim> x =
+                solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i)) -
+                centres[0];
+              for (unsigned int k = 0; k < 6; ++k)
+                modes[k][row] = mode(k, x / sizes[0])[dofs[i] % dim];
+            }
+        }
+  }
+
+
+
+  FreeMotion
+  RigidBodyModes::free_motion(const std::vector<Condition> &conditions) const
+  {
+    const unsigned int  n_bodies = scene.bodies.size();
+    const unsigned int  n        = 6 * n_bodies;
+    std::vector<double> gram(n * n, 0.), own(36 * n_bodies, 0.);
+    for (const Condition &condition : conditions)
+      {
+        std::vector<std::pair<unsigned int, double>> row;
+        const auto add = [&](const unsigned int b, const Tensor<1, dim> &x, const double sign) {
+          for (unsigned int k = 0; k < 6; ++k)
+            row.emplace_back(6 * b + k,
+                             sign * (condition.direction * mode(k, (x - centres[b]) / sizes[b])));
+        };
+        add(condition.body, condition.position, 1.);
+        if (!condition.stencil.empty())
+          add(condition.master_body, condition.master_position, -1.);
+        for (const auto &[i, vi] : row)
+          for (const auto &[j, vj] : row)
+            {
+              gram[i * n + j] += vi * vj;
+              if (condition.stencil.empty())
+                own[36 * condition.body + 6 * (i % 6) + j % 6] += vi * vj;
+            }
+      }
+    Utilities::MPI::sum(gram, solid.communicator, gram);
+    Utilities::MPI::sum(own, solid.communicator, own);
+
+    // A body that its own supports hold takes part in no free motion, however few its
+    // supports are beside the many conditions of contact.
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        const double *block   = &own[36 * b];
+        const double  highest = *std::max_element(block, block + 36);
+        if (highest == 0. || !positive_definite(block, 1e-8 * highest))
+          continue;
+        double all = 0.;
+        for (unsigned int i = 0; i < n * n; ++i)
+          all = std::max(all, std::abs(gram[i]));
+        for (unsigned int k = 0; k < 6; ++k)
+          gram[(6 * b + k) * n + 6 * b + k] += all;
+      }
+
+    // A motion counts as free if the conditions resist it by less than one part
+    // in 1e8 of the best-resisted one (a resistance over a hundredth of a body's
+    // size is 1e4 times larger).
+    LAPACKFullMatrix<double> matrix(n, n);
+    double                   largest = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        {
+          matrix(i, j) = gram[i * n + j];
+          largest      = std::max(largest, std::abs(gram[i * n + j]));
+        }
+    dealii::Vector<double> eigenvalues;
+    FreeMotion             result;
+    FullMatrix<double>    &eigenvectors = result.basis;
+    if (largest == 0.)
+      {
+        eigenvectors   = IdentityMatrix(n);
+        result.n_modes = n;
+      }
+    else
+      {
+        matrix.compute_eigenvalues_symmetric(
+          -largest, 1e-8 * largest, 1e-12 * largest, eigenvalues, eigenvectors);
+        result.n_modes = eigenvalues.size();
+      }
+    if (result.n_modes == 0)
+      return result;
+
+    // How much of each elementary motion lies in the free space.
+    std::ostringstream text;
+    const char        *names = "xyz";
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      {
+        std::string mixed;
+        for (unsigned int k = 0; k < 6; ++k)
+          {
+            double share = 0.;
+            for (unsigned int v = 0; v < result.n_modes; ++v)
+              share += std::pow(eigenvectors(6 * b + k, v), 2);
+            if (share > 1e-3)
+              {
+                result.bodies.insert(b);
+                mixed += (mixed.empty() ? "" : " or ");
+                mixed += (k < dim ? "move in " : "turn about ");
+                mixed += names[k % dim];
+                if (share < 0.99)
+                  mixed += " (together with other motions)";
+              }
+          }
+        if (!mixed.empty())
+          text << (text.str().empty() ? "" : "; ") << "body '" << scene.bodies[b].name << "' can "
+               << mixed;
+      }
+    result.description = text.str();
+    return result;
+  }
+
+
+
+  Vector
+  RigidBodyModes::stabilisation(const FreeMotion &motion,
+                                const Vector     &unbalanced,
+                                const double      distance,
+                                const double      smallest) const
+  {
+    Vector        shift(solid.owned, solid.communicator);
+    const Matrix &stiffness = solid.stiffness();
+
+    // The six motions at an unknown; the columns turn about the centre of the first body, in
+    // its size.
+    const auto motions_at = [&](const unsigned int row) {
+      const unsigned int    b = rigid->body[row];
+      std::array<double, 6> result{};
+      Tensor<1, dim>        direction;
+      for (unsigned int d = 0; d < dim; ++d)
+        direction[d] = result[d] = rigid->columns[d][row];
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          Tensor<1, dim> e;
+          e[k]            = 1.;
+          result[dim + k] = (rigid->columns[dim + k][row] * sizes[0] +
+                             cross_product_3d(e, centres[0] - centres[b]) * direction) /
+                            sizes[b];
+        }
+      return result;
+    };
+
+    // Work of the unbalanced forces on the modes of each body; sum of diagonals.
+    const unsigned int  n = 6 * scene.bodies.size();
+    std::vector<double> sums(n + scene.bodies.size(), 0.);
+    // Square of each unknown's displacement in the free motions, and the largest.
+    std::vector<double> share(rigid->body.size(), 0.);
+    double              largest = 0.;
+    for (unsigned int row = 0; row < rigid->body.size(); ++row)
+      {
+        const unsigned int          b     = rigid->body[row];
+        const std::array<double, 6> modes = motions_at(row);
+        for (unsigned int k = 0; k < 6; ++k)
+          sums[6 * b + k] += unbalanced.begin()[row] * modes[k];
+        sums[n + b] += stiffness.diagonal(row) / dim;
+        for (unsigned int v = 0; v < motion.n_modes; ++v)
+          {
+            double displacement = 0.;
+            for (unsigned int k = 0; k < 6; ++k)
+              displacement += motion.basis(6 * b + k, v) * modes[k];
+            share[row] += displacement * displacement;
+          }
+        largest = std::max(largest, share[row]);
+      }
+    Utilities::MPI::sum(sums, solid.communicator, sums);
+    largest = Utilities::MPI::max(largest, solid.communicator);
+
+    double fraction = smallest;
+    for (unsigned int v = 0; v < motion.n_modes; ++v)
+      {
+        double work = 0., resistance = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            work += motion.basis(i, v) * sums[i];
+            resistance += motion.basis(i, v) * motion.basis(i, v) * sums[n + i / 6];
+          }
+        fraction = std::max(fraction, std::abs(work) / (resistance * distance));
+      }
+    // Only what takes part in the motion is held back: a body that can turn may still follow
+    // what presses it.
+    for (unsigned int row = 0; row < rigid->body.size(); ++row)
+      if (motion.bodies.count(rigid->body[row]) > 0)
+        shift.begin()[row] = fraction * stiffness.diagonal(row) * share[row] / largest;
+    return shift;
+  }
+} // namespace Touchstone

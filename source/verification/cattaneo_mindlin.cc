@@ -1,0 +1,195 @@
+#include <touchstone/verification/cattaneo_mindlin.h>
+#include <touchstone/verification/edge_fit.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace Touchstone
+{
+  namespace
+  {
+    const ReferenceRegistry::Entry<CattaneoMindlin> cattaneo_mindlin_entry(
+      "cattaneo mindlin",
+      "Two cylinders of the same material with axes along y, pressed along z and pushed along x, "
+      "compared at the forces that were computed. Values: 'radius' (1/R = 1/R1 + 1/R2), 'young "
+      "modulus', 'poisson ratio', 'friction coefficient', 'depth' (extent of the model along y); "
+      "optionally 'tangential force' (what pushes the slave body of the model along x in the end), "
+      "'peak tangential force' (its largest value before, if it has fallen since), 'centre x' "
+      "(0).");
+
+    /** sqrt(1 - x^2/a^2), zero outside of the strip. */
+    double
+    half_ellipse(const double x, const double a)
+    {
+      return std::abs(x) < a ? std::sqrt(1. - (x / a) * (x / a)) : 0.;
+    }
+
+
+
+    /** Relative to @p size, which is no number if there is nothing to compare. */
+    double
+    relative(const double error_squared, const double size_squared)
+    {
+      return size_squared > 0. ? std::sqrt(error_squared / size_squared) : std::nan("");
+    }
+  } // namespace
+
+
+
+  CattaneoMindlin::CattaneoMindlin(const Scene &scene)
+    : CattaneoMindlin(ReferenceValues(scene.reference.values), reference_pair(scene))
+  {
+  }
+
+
+
+  CattaneoMindlin::CattaneoMindlin(ReferenceValues values, const unsigned int pair)
+    : radius(values.positive_number("radius"))
+    , effective_modulus(values.positive_number("young modulus") /
+                        (2. * (1. - std::pow(values.number("poisson ratio"), 2))))
+    , friction(values.positive_number("friction coefficient"))
+    , depth(values.positive_number("depth"))
+    , centre(values.number("centre x", 0.))
+    , prescribed(values.number("tangential force", std::nan("")))
+    , prescribed_peak(values.number("peak tangential force", std::nan("")))
+    , pair(pair)
+  {
+    values.finish();
+    if (std::abs(prescribed_peak) < std::abs(prescribed))
+      values.fail("\"peak tangential force\" is less than \"tangential force\".",
+                  "It is the largest value that the force has had.");
+  }
+
+
+
+  double
+  CattaneoMindlin::half_width(const double normal) const
+  {
+    return std::sqrt(4. * normal * radius / (dealii::numbers::PI * effective_modulus));
+  }
+
+
+
+  double
+  CattaneoMindlin::peak_pressure(const double normal) const
+  {
+    return normal > 0. ? 2. * normal / (dealii::numbers::PI * half_width(normal)) : 0.;
+  }
+
+
+
+  double
+  CattaneoMindlin::stick_half_width(const double normal,
+                                    const double tangential,
+                                    const double peak) const
+  {
+    // Of first loading, Q* - Q = 0, the formula is that of the peak itself.
+    const double drop = std::abs(peak - tangential), limit = friction * normal;
+    const double fraction = drop == 0. ? std::abs(peak) / limit : drop / (2. * limit);
+    return half_width(normal) * std::sqrt(1. - fraction);
+  }
+
+
+
+  double
+  CattaneoMindlin::shear_traction(const double x,
+                                  const double normal,
+                                  const double tangential,
+                                  const double peak) const
+  {
+    const double a    = half_width(normal);
+    const auto   from = [&](const double c) {
+      return friction * peak_pressure(normal) *
+             (half_ellipse(x, a) - (c > 0. ? c / a * half_ellipse(x, c) : 0.));
+    };
+    double q = from(stick_half_width(normal, peak, peak));
+    if (tangential != peak)
+      q -= 2. * from(stick_half_width(normal, tangential, peak));
+    return std::copysign(1., peak) * q;
+  }
+
+
+
+  ReferenceComparison
+  CattaneoMindlin::compare(const ReferenceInput &input) const
+  {
+    const std::vector<ContactPoint> points = points_of_pair(input.points, pair);
+    dealii::Tensor<1, dim>          total;
+    for (const ContactPoint &point : points)
+      total += point.area * point.traction;
+    total = dealii::Utilities::MPI::sum(total, input.communicator);
+
+    // What pushes the slave body is balanced by the traction of the master.
+    const double normal     = std::abs(total[2]) / depth;
+    const double tangential = -total[0] / depth;
+    const double peak       = std::isnan(prescribed_peak) ? tangential : prescribed_peak / depth;
+    const double a = half_width(normal), p0 = peak_pressure(normal);
+    const double c      = stick_half_width(normal, tangential, peak);
+    const double c_peak = stick_half_width(normal, peak, peak);
+    const double sign   = std::copysign(1., peak);
+
+    EdgeFit contact_edge, stick_edge;
+    double  p_error = 0., p_size = 0., q_error = 0., q_size = 0., active = 0., stick = 0.;
+    for (const ContactPoint &point : points)
+      {
+        const double x       = point.reference_position[0] - centre;
+        const double p       = point.pressure;
+        const double q       = -sign * point.traction[0];
+        const double p_exact = p0 * half_ellipse(x, a);
+        const double q_exact = sign * shear_traction(x, normal, tangential, peak);
+        p_error += point.area * (p - p_exact) * (p - p_exact);
+        p_size += point.area * p_exact * p_exact;
+        q_error += point.area * (q - q_exact) * (q - q_exact);
+        q_size += point.area * q_exact * q_exact;
+        if (point.status < ContactStatus::slip)
+          continue;
+        active += point.area;
+        if (std::abs(x) < 0.98 * a)
+          contact_edge.add(point.area, x, p);
+        if (point.status != ContactStatus::stick)
+          continue;
+        stick += point.area;
+        // What the traction lacks to slip is half an ellipse over the strip.
+        stick_edge.add(point.area,
+                       x,
+                       tangential == peak
+                         ? friction * p - q
+                         : friction * p + q + friction * p0 * c_peak / a * half_ellipse(x, c_peak));
+      }
+    for (double *sum : {&p_error, &p_size, &q_error, &q_size, &active, &stick})
+      *sum = dealii::Utilities::MPI::sum(*sum, input.communicator);
+
+    ReferenceComparison result;
+    char                text[128];
+    std::snprintf(text,
+                  sizeof(text),
+                  "forces per length: P %.6g, Q %.6g, Q/(mu P) %.6g",
+                  normal,
+                  tangential,
+                  tangential / (friction * normal));
+    result.lines.push_back(text);
+    result.add("contact_half_width",
+               "contact half-width",
+               contact_edge.edge(input.communicator, active / (2. * depth)),
+               a);
+    result.add("stick_half_width",
+               "stick half-width",
+               stick_edge.edge(input.communicator, stick / (2. * depth)),
+               c);
+    result.add("pressure_l2", "pressure profile", relative(p_error, p_size));
+    result.add("shear_traction_l2", "shear traction profile", relative(q_error, q_size));
+    if (!std::isnan(prescribed))
+      {
+        // A force that has come back to zero is compared with its peak.
+        const double size = std::max({std::abs(prescribed), std::abs(peak * depth)});
+        result.add("tangential_force",
+                   "tangential force",
+                   size > 0. ? std::abs(tangential * depth - prescribed) / size : std::nan(""));
+      }
+    return result;
+  }
+} // namespace Touchstone

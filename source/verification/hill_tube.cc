@@ -1,0 +1,234 @@
+#include <touchstone/verification/hill_tube.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Touchstone
+{
+  namespace
+  {
+    const ReferenceRegistry::Entry<HillTube> hill_tube_entry(
+      "hill tube",
+      "A thick tube about the z axis, incompressible and perfectly plastic (von Mises), in plane "
+      "strain, under pressure in its bore, loaded or unloaded (Hill 1950). Values: 'inner radius', "
+      "'outer radius', 'young modulus', 'poisson ratio' (near 0.5), 'yield stress'; the pressure "
+      "in the bore at the peak as 'peak pressure', or, of an elastic core in the bore, 'core inner "
+      "radius', 'core young modulus', 'core poisson ratio' and 'core peak pressure' (inside of it); "
+      "without any the mean contact pressure counts; 'unloaded' (1: the pressure has gone since "
+      "the peak).");
+
+    /** The x between @p low and @p high where the growing function @p f is zero. */
+    template <class Function>
+    double
+    root(double low, double high, const Function &f)
+    {
+      for (unsigned int step = 0; step < 100; ++step)
+        {
+          const double middle           = (low + high) / 2.;
+          (f(middle) < 0. ? low : high) = middle;
+        }
+      return (low + high) / 2.;
+    }
+  } // namespace
+
+
+
+  HillTube::HillTube(const Scene &scene)
+    : HillTube(ReferenceValues(scene.reference.values), reference_pair(scene))
+  {
+  }
+
+
+
+  HillTube::HillTube(ReferenceValues values, const unsigned int pair)
+    : inner(values.positive_number("inner radius"))
+    , outer(values.positive_number("outer radius"))
+    , shear_modulus(values.positive_number("young modulus") /
+                    (2. * (1. + values.number("poisson ratio"))))
+    , shear_yield(values.positive_number("yield stress") / std::sqrt(3.))
+    , has_core(values.has("core peak pressure"))
+    , unloaded(values.number("unloaded", 0.) != 0.)
+    , known_peak(values.number("peak pressure", std::nan("")))
+    , pair(pair)
+  {
+    if (!(inner < outer))
+      values.fail("\"outer radius\" is not larger than \"inner radius\".", "Correct the radii.");
+    // Hill's solution has nu = 1/2.
+    const double nu = values.number("poisson ratio");
+    if (!(nu >= 0.49 && nu <= 0.5))
+      values.fail("The solution is that of incompressible material.",
+                  "Give a \"poisson ratio\" from 0.49 to 0.5, in the material too.");
+
+    const double collapse = 2. * shear_yield * std::log(outer / inner);
+    if (has_core)
+      {
+        if (!std::isnan(known_peak))
+          values.fail("There are both \"peak pressure\" and \"core peak pressure\".",
+                      "Give one of them: the first follows from the second.");
+        core_inner           = values.positive_number("core inner radius");
+        core_young           = values.positive_number("core young modulus");
+        core_nu              = values.number("core poisson ratio");
+        const double applied = values.positive_number("core peak pressure");
+        if (!(core_inner < inner))
+          values.fail("\"core inner radius\" is not smaller than \"inner radius\".",
+                      "Correct the radii.");
+        if (!(-1. < core_nu && core_nu <= 0.5))
+          values.fail("\"core poisson ratio\" must lie between -1 and 0.5.", "Correct the number.");
+        if (applied > core_pressure(collapse))
+          values.fail("\"core peak pressure\" makes the whole tube plastic.", "Make it smaller.");
+        known_peak = root(0., collapse, [&](const double p) { return core_pressure(p) - applied; });
+      }
+    values.finish();
+    if (known_peak < 0. || known_peak > collapse)
+      values.fail("\"peak pressure\" must be positive, and leave a part of the tube elastic.",
+                  "Make it smaller than 2/sqrt(3) yield stress log(outer radius/inner radius).");
+    if (unloaded && std::isnan(known_peak))
+      values.fail("\"unloaded\" needs a peak that it is unloaded from.",
+                  "Give \"peak pressure\" or the values of the core.");
+    if (unloaded && known_peak > 2. * shear_yield * (1. - std::pow(inner / outer, 2)))
+      values.fail(
+        "From such a peak the tube would yield again when it is unloaded.",
+        "Make the peak smaller, or \"outer radius\" less than 2.2 times \"inner radius\".");
+  }
+
+
+
+  double
+  HillTube::plastic_radius(const double pressure) const
+  {
+    const auto excess = [&](const double c) {
+      return 1. - c * c / (outer * outer) + 2. * std::log(c / inner) - pressure / shear_yield;
+    };
+    return excess(inner) >= 0. ? inner : root(inner, outer, excess);
+  }
+
+
+
+  double
+  HillTube::elastic_amplitude(const double pressure) const
+  {
+    return pressure / (1. / (inner * inner) - 1. / (outer * outer));
+  }
+
+
+
+  double
+  HillTube::amplitude(const double pressure) const
+  {
+    const double c = plastic_radius(pressure);
+    return c > inner ? shear_yield * c * c : elastic_amplitude(pressure);
+  }
+
+
+
+  double
+  HillTube::core_pressure(const double pressure) const
+  {
+    const double a2 = inner * inner, i2 = core_inner * core_inner;
+    const double u = amplitude(pressure) / (2. * shear_modulus * inner);
+    return (u * core_young * (a2 - i2) / ((1. + core_nu) * inner) +
+            pressure * ((1. - 2. * core_nu) * a2 + i2)) /
+           (2. * (1. - core_nu) * i2);
+  }
+
+
+
+  HillTube::Stress
+  HillTube::stress(const double r, const double peak, const double pressure) const
+  {
+    const auto elastic = [&](const double m) {
+      return std::make_pair(m * (1. / (outer * outer) - 1. / (r * r)),
+                            m * (1. / (outer * outer) + 1. / (r * r)));
+    };
+    const double c      = plastic_radius(peak);
+    auto [radial, hoop] = elastic(amplitude(peak));
+    if (r < c)
+      {
+        radial = shear_yield * (c * c / (outer * outer) - 1. - 2. * std::log(c / r));
+        hoop   = radial + 2. * shear_yield;
+      }
+    const auto [radial_change, hoop_change] = elastic(elastic_amplitude(peak - pressure));
+    radial -= radial_change;
+    hoop -= hoop_change;
+    return {radial, hoop, (radial + hoop) / 2.};
+  }
+
+
+
+  ReferenceComparison
+  HillTube::compare(const ReferenceInput &input) const
+  {
+    double force = 0., area = 0.;
+    for (const ContactPoint &point : points_of_pair(input.points, pair))
+      if (point.status >= ContactStatus::slip)
+        {
+          force += point.pressure * point.area;
+          area += point.area;
+        }
+    force               = dealii::Utilities::MPI::sum(force, input.communicator);
+    area                = dealii::Utilities::MPI::sum(area, input.communicator);
+    const double mean   = area > 0. ? force / area : 0.;
+    const double peak   = std::isnan(known_peak) ? mean : known_peak;
+    const double now    = unloaded ? 0. : peak;
+    const double change = elastic_amplitude(peak - now);
+
+    // In the elastic zone (sigma_theta - sigma_r) r^2/2 is the same everywhere: m, less
+    // what unloading has taken away.
+    enum
+    {
+      error_squared,
+      size_squared,
+      elastic_volume,
+      sum_of_m
+    };
+    std::array<double, 4> sums{};
+    input.solid->for_each_stress(
+      *input.displacement,
+      [&](unsigned int,
+          const dealii::Point<dim>              &x,
+          const dealii::SymmetricTensor<2, dim> &computed,
+          const double                           volume) {
+        const double r = std::hypot(x[0], x[1]);
+        if (r < inner || r > outer)
+          return;
+        const dealii::Tensor<1, dim> e_r({x[0] / r, x[1] / r, 0.});
+        const dealii::Tensor<1, dim> e_t({-x[1] / r, x[0] / r, 0.});
+        const double                 radial = e_r * (computed * e_r);
+        const double                 hoop   = e_t * (computed * e_t);
+        const Stress                 exact  = stress(r, peak, now);
+        const auto                   square = [](const double y) { return y * y; };
+        sums[error_squared] += volume * (square(radial - exact.radial) + square(hoop - exact.hoop) +
+                                         square(computed[2][2] - exact.axial));
+        sums[size_squared] +=
+          volume * (square(exact.radial) + square(exact.hoop) + square(exact.axial));
+        // Points that were close to yielding do not count.
+        const double m = (hoop - radial) * r * r / 2. + change;
+        if (m < 0.95 * shear_yield * r * r)
+          {
+            sums[elastic_volume] += volume;
+            sums[sum_of_m] += volume * m;
+          }
+      });
+    for (double &sum : sums)
+      sum = dealii::Utilities::MPI::sum(sum, input.communicator);
+
+    ReferenceComparison result;
+    if (!unloaded && !std::isnan(known_peak))
+      result.add("contact_pressure_mean", "contact pressure, mean", mean, peak);
+    const double c = plastic_radius(peak);
+    if (c > inner)
+      result.add("elastic_plastic_radius",
+                 "radius of the plastic zone",
+                 sums[elastic_volume] > 0.
+                   ? std::sqrt(sums[sum_of_m] / (sums[elastic_volume] * shear_yield))
+                   : outer,
+                 c);
+    result.add("stress_l2",
+               unloaded ? "residual stress" : "stress",
+               sums[size_squared] > 0. ? std::sqrt(sums[error_squared] / sums[size_squared])
+                                       : std::nan(""));
+    return result;
+  }
+} // namespace Touchstone

@@ -1,0 +1,93 @@
+#include <touchstone/verification/point_displacement.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <limits>
+
+namespace Touchstone
+{
+  namespace
+  {
+    const ReferenceRegistry::Entry<PointDisplacement> point_displacement_entry(
+      "point displacement",
+      "The displacement of the node next to a point. Values: 'point x', 'point y', 'point z'; and "
+      "those that are known of 'displacement x', 'displacement y', 'displacement z'.");
+  } // namespace
+
+
+
+  PointDisplacement::PointDisplacement(const Scene &scene)
+  {
+    ReferenceValues   values(scene.reference.values);
+    const char *const components[dim] = {"x", "y", "z"};
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const std::string name = std::string("displacement ") + components[d];
+        point[d]               = values.number(std::string("point ") + components[d]);
+        given[d]               = values.has(name);
+        exact[d]               = values.number(name, 0.);
+      }
+    values.finish();
+    if (exact.norm() == 0.)
+      values.fail("No displacement is given, or it is zero.",
+                  "Give at least one component, e.g. \"displacement z: -0.1\".");
+  }
+
+
+
+  ReferenceComparison
+  PointDisplacement::compare(const ReferenceInput &input) const
+  {
+    const Solid                  &solid = *input.solid;
+    const dealii::Quadrature<dim> nodes(
+      dealii::FE_Q<dim>(solid.fe.degree).get_unit_support_points());
+    dealii::FEValues<dim>                    fe_values(solid.mapping,
+                                    solid.fe,
+                                    nodes,
+                                    dealii::update_values | dealii::update_quadrature_points);
+    const dealii::FEValuesExtractors::Vector components(0);
+    std::vector<dealii::Tensor<1, dim>>      displacement(nodes.size());
+
+    double                 nearest = std::numeric_limits<double>::max();
+    dealii::Tensor<1, dim> found;
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          fe_values.reinit(cell);
+          fe_values[components].get_function_values(*input.displacement, displacement);
+          for (const unsigned int q : fe_values.quadrature_point_indices())
+            {
+              const double distance = point.distance(fe_values.quadrature_point(q));
+              if (distance < nearest)
+                {
+                  nearest = distance;
+                  found   = displacement[q];
+                }
+            }
+        }
+
+    // The lowest rank among those whose node is nearest tells the others.
+    const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(input.communicator);
+    const double       best = dealii::Utilities::MPI::min(nearest, input.communicator);
+    const unsigned int root =
+      dealii::Utilities::MPI::min(nearest == best ? rank : std::numeric_limits<unsigned int>::max(),
+                                  input.communicator);
+    found = dealii::Utilities::MPI::broadcast(input.communicator, found, root);
+
+    for (unsigned int d = 0; d < dim; ++d)
+      if (!given[d])
+        found[d] = 0.;
+
+    unsigned int main = 0;
+    for (unsigned int d = 1; d < dim; ++d)
+      if (std::abs(exact[d]) > std::abs(exact[main]))
+        main = d;
+    ReferenceComparison result;
+    result.add("point_displacement", "displacement of the point", found[main], exact[main]);
+    // The line shows the main component; the error is that of all given ones.
+    result.errors["point_displacement"] = (found - exact).norm() / exact.norm();
+    return result;
+  }
+} // namespace Touchstone
