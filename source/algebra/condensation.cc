@@ -1,4 +1,5 @@
 #include <touchstone/algebra/condensation.h>
+#include <touchstone/base/exchange.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,6 +22,21 @@ namespace Touchstone
         for (unsigned int c = 0; c < dim; ++c)
           visit(static_cast<int>(dim * row.columns[k] + c), row.blocks[k][dim * c + i % dim]);
     }
+
+    /** A row of S^T A T for the rank that owns it: its right-hand side, and how many of the
+     * entries that are sent beside it belong to it. */
+    struct SentRow
+    {
+      Index       row;
+      double      value;
+      std::size_t n_entries;
+    };
+
+    struct SentEntry
+    {
+      Index  column;
+      double value;
+    };
   } // namespace
 
 
@@ -317,50 +333,36 @@ namespace Touchstone
           rank = r;
       return rank;
     };
-    // Row, its value, and the number of numbers to come: of columns that follow each other
-    // the first, how many, and entries.
-    std::map<unsigned int, std::vector<double>> packages;
+    std::map<unsigned int, std::vector<SentRow>>   sent_rows;
+    std::map<unsigned int, std::vector<SentEntry>> sent_entries;
     for (std::size_t begin = 0; begin < parts.size();)
       {
-        const Index target  = row_numbers.global()[parts[begin].target];
-        double      value   = 0.;
-        begin               = sum(begin, value);
-        const SparseRow row = accumulator.take();
-        auto           &to  = packages[owner(target)];
-        to.insert(to.end(), {static_cast<double>(target), value, 0.});
-        const std::size_t begin_of_row = to.size();
-        for (std::size_t k = 0, end = 0; k < row.size(); k = end)
-          {
-            const int first_column = columns.global()[row[k].first];
-            to.insert(to.end(), {static_cast<double>(first_column), 0.});
-            for (end = k; end < row.size() && columns.global()[row[end].first] ==
-                                                first_column + static_cast<int>(end - k);
-                 ++end)
-              to.push_back(row[end].second);
-            to[to.size() - (end - k) - 1] = static_cast<double>(end - k);
-          }
-        to[begin_of_row - 1] = static_cast<double>(to.size() - begin_of_row);
+        const Index        target = row_numbers.global()[parts[begin].target];
+        const unsigned int rank   = owner(target);
+        double             value  = 0.;
+        begin                     = sum(begin, value);
+        const SparseRow row       = accumulator.take();
+        sent_rows[rank].push_back({target, value, row.size()});
+        auto &entries = sent_entries[rank];
+        for (const auto &[column, entry] : row)
+          entries.push_back({static_cast<Index>(columns.global()[column]), entry});
       }
     parts.swap(away);
-    for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
-      for (std::size_t k = 0; k < package.size();)
-        {
-          const Index  target = static_cast<Index>(package[k]);
-          const double value  = package[k + 1];
-          k += 3;
-          for (const std::size_t end = k + static_cast<std::size_t>(package[k - 1]); k < end;)
-            {
-              const Index       column = static_cast<Index>(package[k]);
-              const std::size_t n      = static_cast<std::size_t>(package[k + 1]);
-              k += 2;
-              for (std::size_t e = 0; e < n; ++e, ++k)
-                accumulator.add(columns.local(column + e), package[k]);
-            }
-          // Summed up for this row by the sender: not expanded again.
-          parts.push_back({row_numbers.local(target), static_cast<int>(sources.size()), 1.});
-          sources.push_back(accumulator.take());
-          source_values.push_back(value);
-        }
+    auto received_entries = exchange_records(sent_entries, communicator);
+    for (const auto &[rank, received_rows] : exchange_records(sent_rows, communicator))
+      {
+        auto entry = received_entries[rank].cbegin();
+        for (const SentRow &received : received_rows)
+          {
+            for (const auto end = entry + received.n_entries; entry != end; ++entry)
+              accumulator.add(columns.local(entry->column), entry->value);
+            // Summed up for this row by the sender: not expanded again.
+            parts.push_back(
+              {row_numbers.local(received.row), static_cast<int>(sources.size()), 1.});
+            sources.push_back(accumulator.take());
+            source_values.push_back(received.value);
+          }
+      }
   }
 
 
