@@ -66,7 +66,7 @@ namespace Touchstone
     linear_solver.check("Linear solver");
     output.check("Output");
 
-    if (contact.enforcement == "lagrange multipliers" && linear_solver.iterative())
+    if (contact.enforcement == "lagrange multipliers" && !linear_solver.takes_multipliers())
       throw InputError("Contact",
                        "Enforcement",
                        contact.enforcement,
@@ -74,11 +74,11 @@ namespace Touchstone
                          "' cannot solve",
                        "set 'Contact/Enforcement = elimination' or "
                        "'Linear solver/Type = MUMPS'");
-    if (contact.linearisation == "consistent" && linear_solver.type == "Belos CG")
+    if (contact.linearisation == "consistent" && linear_solver.symmetric_only())
       throw InputError("Contact",
                        "Linearisation",
                        contact.linearisation,
-                       "makes the system unsymmetric, which 'Belos CG' cannot solve",
+                       "makes the system unsymmetric, which '" + linear_solver.type + "' cannot solve",
                        "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
                        "'Belos GMRES'");
     check_reference();
