@@ -39,8 +39,7 @@ namespace Touchstone
      * @brief Solve and check the true residual.
      * @param system   The condensed system.
      * @param motions  Of the bodies.
-     * @param solution Result, over the rows of the matrix; CondensedSystem::scale is
-     *                 taken out of it.
+     * @param solution Result, over the rows of the matrix, for CondensedSystem::expand().
      * @throws LinearSolverFailure if the residual stays above the tolerance, the system is not
      *         finite, or a library fails in any way;
      *         SingularSystem if the matrix turns out singular; on all ranks.

@@ -181,14 +181,14 @@ namespace Touchstone
 
 
   std::vector<Prolongation::AggregateRow>
-  Prolongation::part_of_galerkin(BlockRows &matrix, LocalNumbers &numbers) const
+  Prolongation::part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const
   {
     const unsigned int                     n_nodes = start.size() - 1;
     const std::vector<FarRow>              far     = far_rows();
     std::vector<std::vector<unsigned int>> far_columns(far.size());
     for (unsigned int i = 0; i < far.size(); ++i)
       for (const Index aggregate : far[i].aggregates)
-        far_columns[i].push_back(numbers.local(aggregate));
+        far_columns[i].push_back(indices.local(aggregate));
     std::vector<RowOfP> p;
     for (unsigned int node = 0; node < n_nodes; ++node)
       p.push_back({entries.data() + block * start[node],
@@ -267,9 +267,9 @@ namespace Touchstone
          i += n_modes)
       known.push_back(static_cast<int>(coarse->local_to_global(i) / n_modes));
     const Epetra_Map known_map(-1, known.size(), known.data(), 0, coarse_kernel->Comm());
-    LocalNumbers     numbers(known_map);
-    auto             rows = part_of_galerkin(matrix, numbers);
-    sum_up(rows, numbers.global());
+    LocalIndices     indices(known_map);
+    auto             rows = part_of_galerkin(matrix, indices);
+    sum_up(rows, indices.global());
     return std::make_unique<AggregateRows>(std::move(rows), *coarse);
   }
 } // namespace Touchstone
