@@ -39,18 +39,9 @@ namespace Touchstone
    * motion, when it slips. Registered by the name that the key "Behaviour" of a
    * contact pair takes; its parameters stand in the subsection "Friction".
    */
-  class FrictionLaw
+  class FrictionLaw : public PluginParameters
   {
   public:
-    virtual ~FrictionLaw() = default;
-
-    virtual void
-    declare(dealii::ParameterHandler &prm) = 0;
-
-    /** @throws InputError */
-    virtual void
-    check(const std::string &section) const = 0;
-
     virtual FrictionLimit
     limit(const FrictionInput &input) const = 0;
   };
