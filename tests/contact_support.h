@@ -71,8 +71,8 @@ namespace Touchstone
   public:
     PairOfScene(const std::string &text, const std::vector<std::string> &overrides = {})
       : scene(text, "scene.prm", overrides)
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
+      , forest(scene.forest_input(), "", MPI_COMM_WORLD)
+      , solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD)
     {
       const ContactPairParameters &parameters = scene.pairs[0];
       slave = make(parameters, parameters.slave_body, parameters.slave_boundaries);

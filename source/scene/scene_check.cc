@@ -52,11 +52,12 @@ namespace Touchstone
       check_pair(pair);
     contact.check("Contact");
     refinement.check("Refinement");
-    if (refinement.active() && discretisation.partitioner != "p4est" &&
-        discretisation.partitioner != "automatic")
+    if (refinement.active() &&
+        discretisation.partitioner != DiscretisationParameters::Partitioner::p4est &&
+        discretisation.partitioner != DiscretisationParameters::Partitioner::automatic)
       throw InputError("Discretisation",
                        "Partitioner",
-                       discretisation.partitioner,
+                       discretisation.partitioner.word(),
                        "its mesh cannot be refined during the run",
                        "set it to 'automatic', or 'Estimator' in section 'Refinement' to 'none'.");
     load_stepping.check("Load stepping");
@@ -143,10 +144,10 @@ namespace Touchstone
   {
     const std::string section = "Time integration";
     time_integration.check(section);
-    if (time_integration.mass == "dispersion corrected" && discretisation.degree != 1)
+    if (time_integration.mass == MassKind::dispersion_corrected && discretisation.degree != 1)
       throw InputError(section,
                        "Mass",
-                       time_integration.mass,
+                       time_integration.mass.word(),
                        "is made for degree 1",
                        "set it to 'consistent', or 'Discretisation/Degree' to 1");
     for (const BodyParameters &body : bodies)
@@ -157,7 +158,7 @@ namespace Touchstone
                            "Density",
                            dealii::Patterns::Tools::to_string(material.density),
                            "must be positive: 'Time integration/Scheme' is '" +
-                             time_integration.scheme + "'",
+                             time_integration.scheme.word() + "'",
                            "give the mass per volume in the scene's units, e.g. 7.85e-9 for steel "
                            "in t and mm, or set the scheme to 'static'");
         if (time_integration.dynamic())
