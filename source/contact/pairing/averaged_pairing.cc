@@ -49,7 +49,7 @@ namespace Touchstone
                  negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
         , kind(master_normal(input.parameters->master_normal))
-        , tied(input.parameters->behaviour == "tied")
+        , tied(input.parameters->tied())
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           places.emplace(node.node, static_cast<int>(places.size()));
