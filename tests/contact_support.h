@@ -157,8 +157,12 @@ namespace Touchstone
          const std::vector<std::string> &boundaries) const
     {
       const BoundaryIds ids = forest.boundary_ids(scene.body_index(body), boundaries, "", "");
-      return std::make_unique<Surface>(
-        solid, forest, scene.body_index(body), ids, parameters.contact_geometry == "manifold");
+      return std::make_unique<Surface>(solid,
+                                       forest,
+                                       scene.body_index(body),
+                                       ids,
+                                       parameters.contact_geometry ==
+                                         ContactPairParameters::Shape::manifold);
     }
   };
 

@@ -23,7 +23,7 @@ namespace
     for (const auto &pair : scene.pairs)
       std::cout << pair.name << ": " << pair.slave_body << ' ' << pair.slave_boundaries.size()
                 << " on " << pair.master_body << pair.obstacle << ", " << pair.behaviour.name
-                << ", " << pair.sliding << '\n';
+                << ", " << pair.sliding.word() << '\n';
     std::cout << "degree " << scene.discretisation.degree << ", steps " << scene.load_stepping.steps
               << ", tolerance " << scene.newton.residual_tolerance << ", "
               << scene.linear_solver.type << ", to " << scene.output.directory << '\n';

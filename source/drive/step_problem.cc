@@ -23,8 +23,9 @@ namespace Touchstone
     bool
     consistent(const Scene &scene, const bool iterates)
     {
-      return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && scene.has_friction() && !iterates);
+      return scene.contact.linearisation == ContactParameters::Linearisation::consistent ||
+             (scene.contact.linearisation == ContactParameters::Linearisation::automatic &&
+              scene.has_friction() && !iterates);
     }
   } // namespace
 
@@ -466,7 +467,7 @@ namespace Touchstone
     system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
     if (!system->keep_symmetric &&
         (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (slow && scene.contact.linearisation == "automatic")))
+         (slow && scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
       contact.differentiate();
     contact.drop_circles(graph, enforcement->smallest_circle());
     enforcement->enforce(contact, graph, *system);

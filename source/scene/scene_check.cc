@@ -75,10 +75,11 @@ namespace Touchstone
                          "' cannot solve",
                        "set 'Contact/Enforcement = elimination' or "
                        "'Linear solver/Type = MUMPS'");
-    if (contact.linearisation == "consistent" && linear_solver.type == "Belos CG")
+    if (contact.linearisation == ContactParameters::Linearisation::consistent &&
+        linear_solver.type == "Belos CG")
       throw InputError("Contact",
                        "Linearisation",
-                       contact.linearisation,
+                       contact.linearisation.word(),
                        "makes the system unsymmetric, which 'Belos CG' cannot solve",
                        "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
                        "'Belos GMRES'");
@@ -199,22 +200,22 @@ namespace Touchstone
     if (!pair.obstacle.empty())
       check_name(section, "Obstacle", pair.obstacle, "Obstacles", names(obstacles));
     pair.check(section);
-    if (pair.tied() && pair.initial_overlap != "interference")
+    if (pair.tied() && pair.initial_overlap != ContactPairParameters::Overlap::interference)
       throw InputError(section,
                        "Initial overlap",
-                       pair.initial_overlap,
+                       pair.initial_overlap.word(),
                        "a tied pair holds the bodies as they are placed",
                        "remove the key");
-    if (pair.tied() && pair.sliding == "finite")
+    if (pair.tied() && pair.sliding == ContactPairParameters::Sliding::finite)
       throw InputError(section,
                        "Sliding",
-                       pair.sliding,
+                       pair.sliding.word(),
                        "a tied pair cannot slide",
                        "remove 'Sliding' or set it to 'small'");
-    if (pair.master_normal == "smoothed" && discretisation.degree != 1)
+    if (pair.master_normal == MasterNormal::smoothed && discretisation.degree != 1)
       throw InputError(section,
                        "Master normal",
-                       pair.master_normal,
+                       pair.master_normal.word(),
                        "only faces of degree 1 can be smoothed; those of degree 2 are curved",
                        "set 'Master normal = averaged' or 'Discretisation/Degree = 1'");
   }

@@ -43,12 +43,12 @@ namespace Touchstone
                    ? input.search_distance
                    : std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
         , facing(search,
                  negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
-        , kind(master_normal(input.parameters->master_normal))
+        , kind(input.parameters->master_normal)
         , tied(input.parameters->tied())
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
