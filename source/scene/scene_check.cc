@@ -67,7 +67,7 @@ namespace Touchstone
     linear_solver.check("Linear solver");
     output.check("Output");
 
-    if (contact.enforcement.name == "lagrange multipliers" && linear_solver.iterative())
+    if (contact.enforcement.name == "lagrange multipliers" && !linear_solver.takes_multipliers())
       throw InputError("Contact",
                        "Enforcement",
                        contact.enforcement.name,
@@ -76,11 +76,12 @@ namespace Touchstone
                        "set 'Contact/Enforcement = elimination' or "
                        "'Linear solver/Type = MUMPS'");
     if (contact.linearisation == ContactParameters::Linearisation::consistent &&
-        linear_solver.type == "Belos CG")
+        linear_solver.symmetric_only())
       throw InputError("Contact",
                        "Linearisation",
                        contact.linearisation.word(),
-                       "makes the system unsymmetric, which 'Belos CG' cannot solve",
+                       "makes the system unsymmetric, which '" + linear_solver.type +
+                         "' cannot solve",
                        "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
                        "'Belos GMRES'");
     check_reference();
