@@ -71,8 +71,8 @@ namespace Touchstone
   public:
     PairOfScene(const std::string &text, const std::vector<std::string> &overrides = {})
       : scene(text, "scene.prm", overrides)
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
+      , forest(scene.forest_input(), "", MPI_COMM_WORLD)
+      , solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD)
     {
       const ContactPairParameters &parameters = scene.pairs[0];
       slave = make(parameters, parameters.slave_body, parameters.slave_boundaries);
@@ -157,8 +157,12 @@ namespace Touchstone
          const std::vector<std::string> &boundaries) const
     {
       const BoundaryIds ids = forest.boundary_ids(scene.body_index(body), boundaries, "", "");
-      return std::make_unique<Surface>(
-        solid, forest, scene.body_index(body), ids, parameters.contact_geometry == "manifold");
+      return std::make_unique<Surface>(solid,
+                                       forest,
+                                       scene.body_index(body),
+                                       ids,
+                                       parameters.contact_geometry ==
+                                         ContactPairParameters::Shape::manifold);
     }
   };
 

@@ -68,8 +68,8 @@ end
     std::string scene_text = text;
     scene_text.replace(scene_text.find("DEGREE"), 6, degree);
     const Scene        scene(scene_text, "test.prm", {});
-    const Forest       forest(scene, ".", communicator);
-    const Solid        solid(scene, forest, communicator);
+    const Forest       forest(scene.forest_input(), ".", communicator);
+    const Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     const OutputFolder folder("volume_test", communicator);
 
     Vector                        owned(solid.owned, communicator);

@@ -56,8 +56,8 @@ end
               {"Discretisation/Partitioner=p4est",
                "Body plastic/Material/Law=" + law,
                "Discretisation/Degree=" + degree})
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
+      , forest(scene.forest_input(), "", MPI_COMM_WORLD)
+      , solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD)
       , n_state(solid.history_law(1)->n_state())
     {
     }

@@ -19,7 +19,7 @@ namespace Touchstone
         , search(*input.master,
                  4. * input.master->largest_face(),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
       {
       }

@@ -51,8 +51,8 @@ namespace Touchstone
     for (const ContactPairParameters &parameters : scene.pairs)
       {
         const std::string section = "Contact pair " + parameters.name;
-        const bool        exact   = (parameters.contact_geometry == "manifold");
-        const auto        make    = [&](const std::string              &body,
+        const bool exact = (parameters.contact_geometry == ContactPairParameters::Shape::manifold);
+        const auto make  = [&](const std::string              &body,
                               const std::vector<std::string> &boundaries,
                               const std::string              &key) {
           const auto ids = forest.boundary_ids(scene.body_index(body), boundaries, section, key);
@@ -91,7 +91,8 @@ namespace Touchstone
                                    "' is slave and master at the same time",
                                  "let different boundaries be slave and master");
           }
-        pair.small   = pair.tied || (obstacle == nullptr && parameters.sliding == "small");
+        pair.small   = pair.tied || (obstacle == nullptr &&
+                                   parameters.sliding == ContactPairParameters::Sliding::small);
         pair.pairing = make_pairing({&parameters,
                                      obstacle,
                                      &solid,
@@ -117,7 +118,7 @@ namespace Touchstone
                 row.friction->law = parameters.friction.get();
                 if (const auto found = mirrors.find(node.node); found != mirrors.end())
                   row.friction->mirrors = found->second;
-                row.friction->exact = (scene.contact.friction == "exact");
+                row.friction->exact = (scene.contact.friction == ContactParameters::Stick::exact);
                 row.friction->alpha = 10. * scene.contact.tangential_factor * row.stiffness;
               }
             pair_rows.push_back(row);
@@ -270,14 +271,15 @@ namespace Touchstone
                 row.status = ContactStatus::tied;
               else if (row.gap < touching_gap * row.size)
                 row.status = ContactStatus::slip;
-              if (pair.parameters->initial_overlap != "interference")
+              if (pair.parameters->initial_overlap != ContactPairParameters::Overlap::interference)
                 pair.overlap[k] = std::min(row.gap, 0.);
             }
           if (pair.overlap[k] < 0. && row.status != ContactStatus::no_partner)
             {
-              const double part = pair.parameters->initial_overlap == "ramp"
-                                    ? std::max(0., 1. - time / end_time)
-                                    : 1.;
+              const double part =
+                pair.parameters->initial_overlap == ContactPairParameters::Overlap::ramp
+                  ? std::max(0., 1. - time / end_time)
+                  : 1.;
               row.gap -= part * pair.overlap[k];
               row.gap_vector -= part * pair.overlap[k] * row.normal;
             }
@@ -371,7 +373,8 @@ namespace Touchstone
         }
     if (positions.size() > 0)
       start_step();
-    committed = rows;
+    committed      = rows;
+    committed_time = time;
   }
 
 
@@ -520,7 +523,8 @@ namespace Touchstone
     forces.reinit(ghosted);
     (*import_ghosts)(owned, forces);
     // Overlaps can be meant.
-    const bool overlaps = pair.parameters->initial_overlap == "interference";
+    const bool overlaps =
+      pair.parameters->initial_overlap == ContactPairParameters::Overlap::interference;
     if (!pair.master)
       return overlaps ? obstacle_within_face(solid,
                                              *pair.parameters,
@@ -565,17 +569,19 @@ namespace Touchstone
             size   = std::max(size, row.size);
             overlapping += (gap < -touching_gap * row.size);
           }
-        const unsigned int total     = Utilities::MPI::sum(rows[p].size(), solid.communicator);
-        lowest                       = Utilities::MPI::min(lowest, solid.communicator);
-        size                         = Utilities::MPI::max(size, solid.communicator);
-        partner                      = Utilities::MPI::sum(partner, solid.communicator);
-        overlapping                  = Utilities::MPI::sum(overlapping, solid.communicator);
-        const std::string &treatment = pairs[p].parameters->initial_overlap;
-        const std::string  overlap   = std::string(": an initial overlap") +
-                                    (lowest < -size ? " larger than a face" : "") + ", " +
-                                    (treatment == "adjust" ? "adjusted to no gap"
-                                     : treatment == "ramp" ? "an interference that grows with time"
-                                                           : "taken as interference");
+        const unsigned int total    = Utilities::MPI::sum(rows[p].size(), solid.communicator);
+        lowest                      = Utilities::MPI::min(lowest, solid.communicator);
+        size                        = Utilities::MPI::max(size, solid.communicator);
+        partner                     = Utilities::MPI::sum(partner, solid.communicator);
+        overlapping                 = Utilities::MPI::sum(overlapping, solid.communicator);
+        using Overlap               = ContactPairParameters::Overlap;
+        const Overlap     treatment = pairs[p].parameters->initial_overlap;
+        const std::string overlap =
+          std::string(": an initial overlap") + (lowest < -size ? " larger than a face" : "") +
+          ", " +
+          (treatment == Overlap::adjust ? "adjusted to no gap"
+           : treatment == Overlap::ramp ? "an interference that grows with time"
+                                        : "taken as interference");
         char text[300];
         if (partner == 0)
           std::snprintf(text,

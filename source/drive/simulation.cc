@@ -57,10 +57,10 @@ namespace Touchstone
     , folder(scene.output.directory, communicator)
     , log(folder, terminal, resume)
     , warnings(log)
-    , forest(scene, folder_of_scene, communicator)
-    , solid(scene, forest, communicator)
+    , forest(scene.forest_input(), folder_of_scene, communicator)
+    , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
     , problem(std::make_unique<StepProblem>(scene, forest, solid, timer))
-    , refinement(scene, forest, solid)
+    , refinement(scene.refinement, forest, solid)
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
     , volume_output(solid, folder)
@@ -510,8 +510,8 @@ namespace Touchstone
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
-    const Forest forest(scene, folder_of_scene, communicator);
-    Solid        solid(scene, forest, communicator);
+    const Forest forest(scene.forest_input(), folder_of_scene, communicator);
+    Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     StepProblem  problem(scene, forest, solid, timer);
     // Up to the first linear system: finds bodies that nothing holds.

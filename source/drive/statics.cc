@@ -136,13 +136,14 @@ namespace Touchstone
 
 
   std::unique_ptr<TimeIntegration>
-  TimeIntegration::make(const Scene           &scene,
-                        const Solid           &solid,
-                        const std::set<Index> &slaves,
-                        const Vector          &committed_u)
+  TimeIntegration::make(const TimeIntegrationParameters &parameters,
+                        const double                     step,
+                        const Solid                     &solid,
+                        const std::set<Index>           &slaves,
+                        const Vector                    &committed_u)
   {
-    if (scene.time_integration.dynamic())
-      return std::make_unique<Dynamics>(scene, solid, slaves, committed_u);
+    if (parameters.dynamic())
+      return std::make_unique<Dynamics>(parameters, step, solid, slaves, committed_u);
     return std::make_unique<Statics>(solid, committed_u);
   }
 } // namespace Touchstone

@@ -23,8 +23,9 @@ namespace Touchstone
     bool
     consistent(const Scene &scene, const bool iterates)
     {
-      return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && scene.has_friction() && !iterates);
+      return scene.contact.linearisation == ContactParameters::Linearisation::consistent ||
+             (scene.contact.linearisation == ContactParameters::Linearisation::automatic &&
+              scene.has_friction() && !iterates);
     }
   } // namespace
 
@@ -37,7 +38,7 @@ namespace Touchstone
     : scene(scene)
     , solid(solid)
     , timer(timer)
-    , boundary_conditions(scene, forest, solid)
+    , boundary_conditions(forest, solid)
     , contact(scene, forest, solid, boundary_conditions.mirrors())
     , enforcement(scene.contact.enforcement.make(scene.contact))
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
@@ -56,20 +57,24 @@ namespace Touchstone
       solid.assemble();
       ++assemblies;
     }
-    modes = std::make_unique<RigidBodyModes>(scene, solid);
+    modes = std::make_unique<RigidBodyModes>(solid);
     std::set<Index> slaves;
     for (const auto &rows : contact.rows)
       for (const ContactRow &row : rows)
         if (!row.tied)
           slaves.insert(dim * row.slave);
-    integration = TimeIntegration::make(scene, solid, slaves, committed_u);
+    integration = TimeIntegration::make(scene.time_integration,
+                                        scene.load_stepping.end_time / scene.load_stepping.steps,
+                                        solid,
+                                        slaves,
+                                        committed_u);
     length      = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
     length      = Utilities::MPI::min(length, solid.communicator);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
     extent                 = Utilities::MPI::max(extent, solid.communicator);
-    const auto       boxes = body_boxes(scene, solid);
+    const auto       boxes = body_boxes(solid);
     BoundingBox<dim> all(boxes.front());
     for (const auto &box : boxes)
       all.merge_with(box);
@@ -462,7 +467,7 @@ namespace Touchstone
     system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
     if (!system->keep_symmetric &&
         (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (slow && scene.contact.linearisation == "automatic")))
+         (slow && scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
       contact.differentiate();
     contact.drop_circles(graph, enforcement->smallest_circle());
     enforcement->enforce(contact, graph, *system);
@@ -618,7 +623,7 @@ namespace Touchstone
   {
     // What turns a cell inside out has no energy. The multipliers are those of the
     // end of the increment and stay.
-    if (scene.newton.line_search != "none")
+    if (scene.newton.line_search != NewtonParameters::LineSearch::none)
       before_rows = contact.rows;
     admissible_part = 1.;
     increment       = solved_increment;

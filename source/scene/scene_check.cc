@@ -52,11 +52,12 @@ namespace Touchstone
       check_pair(pair);
     contact.check("Contact");
     refinement.check("Refinement");
-    if (refinement.active() && discretisation.partitioner != "p4est" &&
-        discretisation.partitioner != "automatic")
+    if (refinement.active() &&
+        discretisation.partitioner != DiscretisationParameters::Partitioner::p4est &&
+        discretisation.partitioner != DiscretisationParameters::Partitioner::automatic)
       throw InputError("Discretisation",
                        "Partitioner",
-                       discretisation.partitioner,
+                       discretisation.partitioner.word(),
                        "its mesh cannot be refined during the run",
                        "set it to 'automatic', or 'Estimator' in section 'Refinement' to 'none'.");
     load_stepping.check("Load stepping");
@@ -66,7 +67,7 @@ namespace Touchstone
     linear_solver.check("Linear solver");
     output.check("Output");
 
-    if (contact.enforcement.name == "lagrange multipliers" && linear_solver.iterative())
+    if (contact.enforcement.name == "lagrange multipliers" && !linear_solver.takes_multipliers())
       throw InputError("Contact",
                        "Enforcement",
                        contact.enforcement.name,
@@ -74,11 +75,13 @@ namespace Touchstone
                          "' cannot solve",
                        "set 'Contact/Enforcement = elimination' or "
                        "'Linear solver/Type = MUMPS'");
-    if (contact.linearisation == "consistent" && linear_solver.type == "Belos CG")
+    if (contact.linearisation == ContactParameters::Linearisation::consistent &&
+        linear_solver.symmetric_only())
       throw InputError("Contact",
                        "Linearisation",
-                       contact.linearisation,
-                       "makes the system unsymmetric, which 'Belos CG' cannot solve",
+                       contact.linearisation.word(),
+                       "makes the system unsymmetric, which '" + linear_solver.type +
+                         "' cannot solve",
                        "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
                        "'Belos GMRES'");
     check_reference();
@@ -143,10 +146,10 @@ namespace Touchstone
   {
     const std::string section = "Time integration";
     time_integration.check(section);
-    if (time_integration.mass == "dispersion corrected" && discretisation.degree != 1)
+    if (time_integration.mass == MassKind::dispersion_corrected && discretisation.degree != 1)
       throw InputError(section,
                        "Mass",
-                       time_integration.mass,
+                       time_integration.mass.word(),
                        "is made for degree 1",
                        "set it to 'consistent', or 'Discretisation/Degree' to 1");
     for (const BodyParameters &body : bodies)
@@ -157,7 +160,7 @@ namespace Touchstone
                            "Density",
                            dealii::Patterns::Tools::to_string(material.density),
                            "must be positive: 'Time integration/Scheme' is '" +
-                             time_integration.scheme + "'",
+                             time_integration.scheme.word() + "'",
                            "give the mass per volume in the scene's units, e.g. 7.85e-9 for steel "
                            "in t and mm, or set the scheme to 'static'");
         if (time_integration.dynamic())
@@ -198,22 +201,22 @@ namespace Touchstone
     if (!pair.obstacle.empty())
       check_name(section, "Obstacle", pair.obstacle, "Obstacles", names(obstacles));
     pair.check(section);
-    if (pair.tied() && pair.initial_overlap != "interference")
+    if (pair.tied() && pair.initial_overlap != ContactPairParameters::Overlap::interference)
       throw InputError(section,
                        "Initial overlap",
-                       pair.initial_overlap,
+                       pair.initial_overlap.word(),
                        "a tied pair holds the bodies as they are placed",
                        "remove the key");
-    if (pair.tied() && pair.sliding == "finite")
+    if (pair.tied() && pair.sliding == ContactPairParameters::Sliding::finite)
       throw InputError(section,
                        "Sliding",
-                       pair.sliding,
+                       pair.sliding.word(),
                        "a tied pair cannot slide",
                        "remove 'Sliding' or set it to 'small'");
-    if (pair.master_normal == "smoothed" && discretisation.degree != 1)
+    if (pair.master_normal == MasterNormal::smoothed && discretisation.degree != 1)
       throw InputError(section,
                        "Master normal",
-                       pair.master_normal,
+                       pair.master_normal.word(),
                        "only faces of degree 1 can be smoothed; those of degree 2 are curved",
                        "set 'Master normal = averaged' or 'Discretisation/Degree = 1'");
   }

@@ -11,13 +11,13 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  NonlinearCells::NonlinearCells(const Scene &scene, const FESystem<dim> &fe)
+  NonlinearCells::NonlinearCells(const std::vector<BodyParameters> &bodies, const FESystem<dim> &fe)
     : n_nodes(fe.n_dofs_per_cell() / dim)
-    , kernels(scene.bodies.size())
+    , kernels(bodies.size())
     , displacement(fe.n_dofs_per_cell())
   {
-    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-      if (const BodyParameters &body = scene.bodies[b]; !body.material.linear())
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (const BodyParameters &body = bodies[b]; !body.material.linear())
         {
           if (body.material.finite_strain())
             kernels[b] =

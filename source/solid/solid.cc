@@ -15,12 +15,15 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  Solid::Solid(const Scene &scene, const Forest &forest, const MPI_Comm communicator)
-    : fe(FE_Q<dim>(scene.discretisation.degree), dim)
-    , mapping(scene.discretisation.degree)
+  Solid::Solid(const std::vector<BodyParameters> &bodies,
+               const unsigned int                 degree,
+               const Forest                      &forest,
+               const MPI_Comm                     communicator)
+    : bodies(bodies)
+    , fe(FE_Q<dim>(degree), dim)
+    , mapping(degree)
     , dof_handler(forest.triangulation)
     , communicator(communicator)
-    , scene(scene)
   {
     reinit();
   }
@@ -69,7 +72,7 @@ namespace Touchstone
             if (owned_nodes.is_element(row))
               couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
-    nonlinear = std::make_unique<NonlinearCells>(scene, fe);
+    nonlinear = std::make_unique<NonlinearCells>(bodies, fe);
     matrix.reinit(owned, couplings, communicator, symmetric());
     nonlinear->reinit(mapping, dof_handler, matrix);
   }
@@ -116,7 +119,7 @@ namespace Touchstone
   {
     matrix = 0.;
     std::vector<std::unique_ptr<LinearCells>> linear_cells;
-    for (const BodyParameters &body : scene.bodies)
+    for (const BodyParameters &body : bodies)
       linear_cells.push_back(
         body.material.linear() ? std::make_unique<LinearCells>(mapping, fe, body) : nullptr);
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -207,7 +210,7 @@ namespace Touchstone
       void(unsigned int, const Point<dim> &, const SymmetricTensor<2, dim> &, double)> &visit) const
   {
     std::vector<std::unique_ptr<ElementKernel>> kernels;
-    for (const BodyParameters &body : scene.bodies)
+    for (const BodyParameters &body : bodies)
       kernels.push_back(
         body.material.linear()
           ? std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material)
@@ -315,7 +318,7 @@ namespace Touchstone
   Solid::largest_plastic_strain() const
   {
     std::map<unsigned int, double> result;
-    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+    for (unsigned int b = 0; b < bodies.size(); ++b)
       if (history_law(b))
         result[b] = 0.;
     if (has_history())

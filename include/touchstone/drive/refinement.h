@@ -2,6 +2,7 @@
 #define touchstone_drive_refinement_h
 
 #include <touchstone/base/formula.h>
+#include <touchstone/drive/refinement_parameters.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/mesh/forest.h>
 
@@ -25,7 +26,7 @@ namespace Touchstone
   class Refinement
   {
   public:
-    Refinement(const Scene &scene, Forest &forest, Solid &solid);
+    Refinement(const RefinementParameters &parameters, Forest &forest, Solid &solid);
 
     /**
      * @brief Estimate the errors of the present state of @p problem.
@@ -53,7 +54,7 @@ namespace Touchstone
   private:
     using Values = dealii::Vector<double>;
 
-    const Scene                   &scene;
+    const RefinementParameters    &parameters;
     Forest                        &forest;
     Solid                         &solid;
     Formulas                       formulas;

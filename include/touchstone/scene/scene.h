@@ -9,6 +9,7 @@
 #include <touchstone/drive/refinement_parameters.h>
 #include <touchstone/drive/time_parameters.h>
 #include <touchstone/mesh/discretisation_parameters.h>
+#include <touchstone/mesh/forest.h>
 #include <touchstone/mesh/obstacle_parameters.h>
 #include <touchstone/output/output_parameters.h>
 #include <touchstone/solid/body_parameters.h>
@@ -71,6 +72,10 @@ namespace Touchstone
     /** @brief The same without documentation, a text to be kept and compared. */
     std::string
     complete_entries() const;
+
+    /** @brief What the forest is made from. */
+    ForestInput
+    forest_input() const;
 
     /** @brief Number of the body called @p name. */
     unsigned int

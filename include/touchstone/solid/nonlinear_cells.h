@@ -2,7 +2,7 @@
 #define touchstone_solid_nonlinear_cells_h
 
 #include <touchstone/algebra/matrix.h>
-#include <touchstone/scene/scene.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/cell_kernel.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -29,7 +29,7 @@ namespace Touchstone
   class NonlinearCells
   {
   public:
-    NonlinearCells(const Scene &scene, const dealii::FESystem<dim> &fe);
+    NonlinearCells(const std::vector<BodyParameters> &bodies, const dealii::FESystem<dim> &fe);
 
     /** @brief Find the cells, and where in @p stiffness their nodes are. */
     void

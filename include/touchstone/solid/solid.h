@@ -3,7 +3,7 @@
 
 #include <touchstone/algebra/vector.h>
 #include <touchstone/mesh/forest.h>
-#include <touchstone/scene/scene.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/nonlinear_cells.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -28,12 +28,18 @@ namespace Touchstone
   class Solid
   {
   public:
-    Solid(const Scene &scene, const Forest &forest, MPI_Comm communicator);
+    /** @param bodies In the order of the forest; kept by reference.
+     * @param degree Polynomial degree of the displacements. */
+    Solid(const std::vector<BodyParameters> &bodies,
+          unsigned int                       degree,
+          const Forest                      &forest,
+          MPI_Comm                           communicator);
 
-    const dealii::FESystem<dim> fe;
-    const dealii::MappingQ<dim> mapping;
-    dealii::DoFHandler<dim>     dof_handler;
-    dealii::IndexSet            owned;
+    const std::vector<BodyParameters> &bodies;
+    const dealii::FESystem<dim>        fe;
+    const dealii::MappingQ<dim>        mapping;
+    dealii::DoFHandler<dim>            dof_handler;
+    dealii::IndexSet                   owned;
     /** Owned unknowns and those of ghost cells. */
     dealii::IndexSet relevant;
     const MPI_Comm   communicator;
@@ -183,7 +189,7 @@ namespace Touchstone
     unsigned int
     n_bodies() const
     {
-      return scene.bodies.size();
+      return bodies.size();
     }
 
     /** @brief Plastic work of all bodies since the start, dissipated or, with hardening,
@@ -204,9 +210,8 @@ namespace Touchstone
     /** @} */
 
   private:
-    const Scene &scene;
-    Matrix       matrix;
-    bool         any_hanging = false;
+    Matrix matrix;
+    bool   any_hanging = false;
     /** Sum of the absolute entries of each owned row. */
     std::vector<double> row_sums;
     /** Behind a pointer: its kernels are scratch space of const functions. */

@@ -23,7 +23,7 @@ namespace Touchstone
                    ? input.search_distance
                    : 4. * std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
       {
         search.commit(nullptr);
