@@ -1,6 +1,6 @@
 // The skeletons of contrib/skeletons compile and work: a friction law, a pairing
-// and an enforcement, and the other samples of doc/extending.md. Those that scenes
-// cannot name run in the place of a built-in one.
+// and an enforcement, and the other samples of doc/extending.md. Scenes name them like
+// any other class.
 
 #include "../contrib/skeletons/enforcement.cc"
 #include "../contrib/skeletons/friction_law.cc"
@@ -15,28 +15,6 @@ using namespace Touchstone;
 
 namespace
 {
-  /** While it lives, @p own runs where scenes name @p built_in. */
-  template <class Registry>
-  class InPlaceOf
-  {
-  public:
-    InPlaceOf(const std::string &built_in, const std::string &own)
-      : name(built_in)
-      , record(Registry::records().at(built_in))
-    {
-      Registry::records()[name] = Registry::records().at(own);
-    }
-
-    ~InPlaceOf()
-    {
-      Registry::records()[name] = record;
-    }
-
-  private:
-    const std::string               name;
-    const typename Registry::Record record;
-  };
-
   std::string
   replaced(std::string text, const std::string &what, const std::string &by)
   {
@@ -63,9 +41,11 @@ namespace
   }
 
   void
-  slide(const std::string &name, const std::string &law)
+  slide(const std::string              &name,
+        const std::string              &law,
+        const std::vector<std::string> &overrides = {})
   {
-    const RunSummary run = run_scene(sliding_block(law), name, {});
+    const RunSummary run = run_scene(sliding_block(law), name, overrides);
     say("  ",
         name,
         run.converged ? "" : ", not converged",
@@ -87,17 +67,13 @@ namespace
                      std::abs(a.max_pressure - b.max_pressure) / (b.force.norm() / b.area)});
   }
 
-  template <class Registry>
+  /** A scene with its own choice of @p key, and with @p own. */
   void
-  compare_with(const std::string              &scene,
-               const std::string              &built_in,
-               const std::string              &own,
-               const std::vector<std::string> &overrides = {})
+  compare_with(const std::string &scene, const std::string &key, const std::string &own)
   {
-    const std::string         text  = file_text("tests/" + scene + ".prm");
-    const RunSummary          right = run_scene(text, scene, overrides);
-    const InPlaceOf<Registry> exchange(built_in, own);
-    const RunSummary          run = run_scene(text, scene, overrides);
+    const std::string text  = file_text("tests/" + scene + ".prm");
+    const RunSummary  right = run_scene(text, scene, {}),
+                     run    = run_scene(text, scene, {key + '=' + own});
     say("  ",
         own,
         " in ",
@@ -148,17 +124,15 @@ main(int argc, char **argv)
   say("friction law");
   slide("my friction law", "my friction law");
   say("pairing");
-  compare_with<PairingRegistry>("patch_matching", "pointwise", "node to node");
+  compare_with("patch_matching", "Contact pair interface/Pairing", "node to node");
   say("enforcement");
-  {
-    const InPlaceOf<EnforcementRegistry> exchange("elimination", "simple augmented lagrange");
-    slide("friction", "coulomb");
-  }
+  const std::string enforcement = "simple augmented lagrange";
+  slide("friction", "coulomb", {"Contact/Enforcement=" + enforcement});
   for (const std::string scene : {"small_sliding", "tied_shear", "sphere_obstacle"})
-    compare_with<EnforcementRegistry>(scene, "elimination", "simple augmented lagrange");
+    compare_with(scene, "Contact/Enforcement", enforcement);
   say("geometry and reference solution");
   const RunSummary run = run_scene(wedge_scene, "wedge", {});
   say("  wedge", bound(": error of the force", run.errors.at("total_force"), 1e-6));
   say("linear solver");
-  compare_with<LinearSolverRegistry>("small_sliding", "MUMPS", "KLU");
+  compare_with("small_sliding", "Linear solver/Type", "KLU");
 }

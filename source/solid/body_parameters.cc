@@ -125,47 +125,10 @@ namespace Touchstone
 
 
   void
-  BodyParameters::check_element(const unsigned int degree) const
-  {
-    if (degree > 1 && element() != ElementType::full)
-      throw InputError(section(),
-                       "Element",
-                       element_type.word(),
-                       "is made for degree 1, but 'Discretisation/Degree' is " +
-                         std::to_string(degree),
-                       "take the element 'automatic' or 'full', or degree 1");
-    const ElementType type = element();
-    const bool small_only  = type == ElementType::b_bar || type == ElementType::incompatible_modes;
-    if (type == ElementType::incompatible_modes && material.plastic() && !material.finite_strain())
-      throw InputError(section(),
-                       "Element",
-                       element_type.word(),
-                       "has no plasticity, but 'Material/Law' is '" + material.law.name + "'",
-                       "take the element 'automatic' or 'b-bar', degree 2, or the law 'linear "
-                       "elastic'");
-    if (material.finite_strain() && small_only)
-      throw InputError(section(),
-                       "Element",
-                       element_type.word(),
-                       "is for small strain, but 'Material/Law' is '" + material.law.name + "'",
-                       "take the element 'automatic', 'F-bar' or 'full', or the law "
-                       "'linear elastic'");
-    if (!material.finite_strain() && type == ElementType::f_bar)
-      throw InputError(section(),
-                       "Element",
-                       element_type.word(),
-                       "is for finite strain, but 'Material/Law' is '" + material.law.name + "'",
-                       "take the element 'automatic', 'b-bar' or 'full', or another law");
-  }
-
-
-
-  void
-  BodyParameters::check(const unsigned int degree) const
+  BodyParameters::check() const
   {
     geometry_type.check(section() + "/Geometry");
     material.check(section() + "/Material");
-    check_element(degree);
     for (unsigned int d = 0; d < 3; ++d)
       {
         const std::string letter(1, "xyz"[d]);

@@ -97,7 +97,7 @@ namespace Touchstone
     /** Replace what stands for an automatic choice. */
     void
     resolve(const SceneText &text, const std::string &file_name);
-    /** Each section, then the rules across sections. */
+    /** Each section, then what goes across sections (combinations.h). */
     void
     check() const;
     void
@@ -108,9 +108,6 @@ namespace Touchstone
     /** Formulas of the time alone have finite values at the ends of all steps. */
     void
     check_formulas() const;
-    /** Inertia needs densities, and initial velocities need inertia. */
-    void
-    check_time_integration() const;
   };
 } // namespace Touchstone
 

@@ -84,13 +84,8 @@ namespace Touchstone
      */
     void
     declare(dealii::ParameterHandler &prm, const EarlyValues &values);
-    /** @param degree Polynomial degree of the discretisation. */
     void
-    check(unsigned int degree) const;
-
-  private:
-    void
-    check_element(unsigned int degree) const;
+    check() const;
   };
 } // namespace Touchstone
 

@@ -38,6 +38,14 @@ namespace Touchstone
   public:
     virtual ~Enforcement() = default;
 
+    /** @brief Whether contact forces are unknowns of the linear system, which then is not
+     * definite. */
+    virtual bool
+    uses_multipliers() const
+    {
+      return false;
+    }
+
     /** @brief A step begins, or begins again: no linear solve has come before. */
     virtual void
     begin_step()
