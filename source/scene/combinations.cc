@@ -15,7 +15,7 @@ namespace Touchstone
     };
 
     std::string
-    text(const double value)
+    as_text(const double value)
     {
       return dealii::Patterns::Tools::to_string(value);
     }
@@ -72,7 +72,7 @@ namespace Touchstone
                           {time.dynamic() && material.density <= 0.,
                            section,
                            "Density",
-                           text(material.density),
+                           as_text(material.density),
                            "must be positive: 'Time integration/Scheme' is '" + time.scheme.word() + "'",
                            "give the mass per volume in the scene's units, e.g. 7.85e-9 for steel in t and mm, or "
                                              "set the scheme to 'static'"}};
@@ -93,7 +93,7 @@ namespace Touchstone
            {std::make_pair("Rayleigh mass", material.rayleigh_mass),
             std::make_pair("Rayleigh stiffness", material.rayleigh_stiffness)})
         rules.push_back(
-          {!time.dynamic() && value > 0., section, key, text(value), nothing, remedy});
+          {!time.dynamic() && value > 0., section, key, as_text(value), nothing, remedy});
       return rules;
     }
 

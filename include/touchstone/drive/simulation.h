@@ -13,6 +13,7 @@
 #include <touchstone/output/summary.h>
 #include <touchstone/output/volume_output.h>
 #include <touchstone/output/warnings.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/verification/reference_solution.h>
 
 #include <deal.II/base/timer.h>

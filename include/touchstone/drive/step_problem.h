@@ -7,6 +7,7 @@
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/drive/newton.h>
 #include <touchstone/drive/time_integration.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 #include <touchstone/solid/rigid_body_modes.h>
 
