@@ -20,59 +20,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  template <class Archive>
-  void
-  serialize(Archive &archive, PairResult &result, const unsigned int)
-  {
-    archive &result.force &result.moment &result.area &result.max_pressure &result
-      .max_penetration &result.active &result.stick &result.slip &result.friction_work;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, RunSummary::Mesh &mesh, const unsigned int)
-  {
-    archive &mesh.step &mesh.cells &mesh.unknowns &mesh.estimated_error;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, Energies &energies, const unsigned int)
-  {
-    archive &energies.kinetic &energies.strain &energies.plastic &energies.contact &energies
-      .friction &energies.damping &energies.external &energies.initial &energies.largest;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, Motion::Impact &impact, const unsigned int)
-  {
-    archive &impact.begin &impact.end &impact.openings &impact.touching &impact.touched &impact
-      .impulse &impact.peak_force;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, Motion &motion, const unsigned int)
-  {
-    archive &motion.impacts &motion.velocities &motion.energies;
-  }
-
-  /** What is counted or known step by step; the rest is found out at the end. */
-  template <class Archive>
-  void
-  serialize(Archive &archive, RunSummary &summary, const unsigned int)
-  {
-    RunSummary::Iterations &iterations = summary.iterations;
-    RunSummary::Seconds    &seconds    = summary.seconds;
-    archive &summary.steps &summary.meshes &summary.contact &summary.reactions;
-    archive &iterations.newton &iterations.contact &iterations.damped &iterations.linear_total;
-    archive &seconds.wall &seconds.cpu &seconds.assembly &seconds.linear_solver &seconds
-      .search                                                                   &seconds.output;
-  }
-
-
-
   void
   StepProblem::forget()
   {

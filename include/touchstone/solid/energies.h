@@ -32,6 +32,16 @@ namespace Touchstone
     /** The largest energy so far, to compare with. */
     double largest = 0.;
 
+    /** @brief For checkpoints. All members are named, so that this does not compile if one is
+     * forgotten. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      auto &[k, s, p, c, f, d, e, first, most] = *this;
+      archive &k &s &p &c &f &d &e &first &most;
+    }
+
     /** @brief What the bodies have. */
     double
     present() const
