@@ -100,7 +100,7 @@ end
     input.solid        = &solid;
     input.displacement = &displacement;
     input.communicator = communicator;
-    const auto errors  = ReferenceRegistry::make(scene.reference.type, scene)->errors(input);
+    const auto errors  = scene.reference.type.make(scene)->errors(input);
     if (folder.rank == 0)
       for (const auto &[name, error] : errors)
         std::cout << "degree " << degree << ": " << name
@@ -111,8 +111,7 @@ end
                             {"Reference solution/Type=point displacement",
                              "Reference solution/Values=point x: 1, point y: 1, point z: 2, "
                              "displacement z: -0.03"});
-    const auto  lines =
-      ReferenceRegistry::make(point_scene.reference.type, point_scene)->compare(input).lines;
+    const auto  lines = point_scene.reference.type.make(point_scene)->compare(input).lines;
 
     VolumeOutput output(solid, folder);
     output.write(displacement, nullptr, 0, 0.);

@@ -20,13 +20,14 @@ namespace Touchstone
     std::shared_ptr<ReferenceSolution>
     make_reference(const Scene &scene)
     {
-      if (ReferenceRegistry::records().count(scene.reference.type) == 0)
+      const std::shared_ptr<ReferenceSolution> result = scene.reference.type.make(scene);
+      if (!result)
         throw InputError("Reference solution",
                          "Type",
-                         scene.reference.type,
+                         scene.reference.type.name,
                          "there is no such reference solution",
                          "choose one of " + ReferenceRegistry::selection() + ".");
-      return ReferenceRegistry::make(scene.reference.type, scene);
+      return result;
     }
 
     std::string

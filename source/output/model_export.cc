@@ -198,7 +198,7 @@ namespace Touchstone
       .set("degree", scene.discretisation.degree)
       .set("reference",
            Json::object()
-             .set("type", scene.reference.type)
+             .set("type", scene.reference.type.name)
              .set("pair", scene.reference.pair)
              .set("values", scene.reference.values));
     export_mesh(scene, solid, model);

@@ -164,7 +164,7 @@ namespace Touchstone
     declare_in("Linear solver", linear_solver);
     declare_in("Output", output);
     declare_in("Checkpoints", checkpoints);
-    declare_in("Reference solution", reference);
+    declare_choices_in("Reference solution", reference);
   }
 
 

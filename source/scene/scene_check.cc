@@ -71,7 +71,7 @@ namespace Touchstone
     reference.check("Reference solution");
     if (!reference.pair.empty())
       check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
-    if (reference.type == "formula")
+    if (reference.type.name == "formula")
       return;
     const auto no_formula =
       [&](const std::string &section, const std::string &key, const std::string &text) {
@@ -79,8 +79,8 @@ namespace Touchstone
           throw InputError(section,
                            key,
                            text,
-                           "means nothing while 'Reference solution/Type' is '" + reference.type +
-                             "'",
+                           "means nothing while 'Reference solution/Type' is '" +
+                             reference.type.name + "'",
                            "remove it, or set that type to 'formula'");
       };
     no_formula("Reference solution", "Pressure", reference.pressure);
