@@ -1,6 +1,5 @@
-// A pairing to start from: node to node. Copy to source/contact/NAME.cc, fill in
-// what is marked TODO, and add NAME to the key "Pairing" in
-// source/scene/contact_parameters.cc.
+// A pairing to start from: node to node. Copy to source/contact/pairing/NAME.cc and fill
+// in what is marked TODO: scenes can name it.
 
 #include <touchstone/contact/pairing/pairing.h>
 
