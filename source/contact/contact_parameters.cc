@@ -1,4 +1,3 @@
-#include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/enforcement/enforcement.h>
