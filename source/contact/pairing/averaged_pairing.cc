@@ -549,14 +549,13 @@ namespace Touchstone
           row.stencil.clear();
           if (!sum.suffices(nodes[k].area))
             {
-              row.status = ContactStatus::no_partner;
-              row.gap    = 0.;
-              row.share  = 1.;
-              row.lever  = Tensor<1, dim>();
+              row.has_partner = false;
+              row.gap         = 0.;
+              row.share       = 1.;
+              row.lever       = Tensor<1, dim>();
               continue;
             }
-          if (row.status == ContactStatus::no_partner)
-            row.status = ContactStatus::open;
+          row.has_partner = true;
           for (const StencilEntry &entry : sum.stencil)
             if (std::abs(entry.weight) > 1e-14 * sum.area)
               row.stencil.push_back({entry.node, entry.weight / sum.kept});
@@ -578,7 +577,7 @@ namespace Touchstone
     {
       AveragedDerivative derivative(search, slave_search.get(), /*gradual=*/!tied);
       for (const ContactRow &row : rows)
-        if (row.active())
+        if (row.was_active)
           derivative.add_row(row, sums[places.at(row.slave)]);
       for (const auto &[slave, masters] : slave_faces)
         if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
@@ -587,7 +586,7 @@ namespace Touchstone
                               masters_of(masters));
       derivative.finish();
       for (ContactRow &row : rows)
-        row.derivative = row.active() ? derivative.result(row.slave) : nullptr;
+        row.derivative = row.was_active ? derivative.result(row.slave) : nullptr;
     }
   } // namespace
 } // namespace Touchstone
