@@ -87,7 +87,7 @@ namespace
         const PairOfScene pair(
           master_only(geometry(cells), boundary, "set Contact geometry = faceted"));
         Touchstone::Vector zero(pair.solid.owned, pair.solid.relevant, MPI_COMM_WORLD);
-        pair.master->move(zero);
+        pair.move_surfaces(zero);
         for (const std::string kind : {"face", "averaged", "smoothed"})
           {
             const unsigned int    n_steps = 1000;

@@ -246,7 +246,7 @@ end
         gain                = std::max({gain, -taken, (now.present() - had) / now.largest});
         loss += taken;
         const unsigned int active =
-          run.problem.contact_state().results(run.problem.ghosted_displacement())[0].active;
+          pair_results(run.problem.contact_state(), run.problem.ghosted_displacement())[0].active;
         closing += active > before;
         opening += active < before;
         // The same nodes all the time: nothing is lost.

@@ -128,7 +128,7 @@ namespace
     const Touchstone::Vector &u      = run.problem.displacement();
     std::vector<double>       result = {u.l2_norm(), run.problem.strain_energy()};
     for (const PairResult &pair :
-         run.problem.contact_state().results(run.problem.ghosted_displacement()))
+         pair_results(run.problem.contact_state(), run.problem.ghosted_displacement()))
       result.insert(result.end(),
                     {pair.force[0],
                      pair.force[1],

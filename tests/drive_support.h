@@ -1,6 +1,7 @@
 #ifndef touchstone_tests_drive_support_h
 #define touchstone_tests_drive_support_h
 
+#include <touchstone/contact/results.h>
 #include <touchstone/drive/step_problem.h>
 
 #include <deal.II/base/mpi.h>

@@ -285,7 +285,7 @@ namespace Touchstone
         }
     end_v.compress(VectorOperation::insert);
     end_a.compress(VectorOperation::insert);
-    if (forces.pressing != nullptr)
+    if (forces.velocity_constraints != nullptr)
       lose_rebound(forces, result);
     result.kinetic = kinetic_energy(end_v);
     result.strain  = solid.strain_energy(u);
@@ -305,7 +305,7 @@ namespace Touchstone
   void
   Dynamics::lose_rebound(const StepForces &forces, Energies &energies)
   {
-    Impact             impact(*forces.pressing, mass, solid, forces.remove_support);
+    Impact             impact(*forces.velocity_constraints, mass, solid, forces.remove_support);
     const Impact::Loss of_acceleration = impact.stop(end_a, false);
     end_normal -= of_acceleration.normal;
     end_tangential -= of_acceleration.tangential;

@@ -12,8 +12,8 @@
 
 /**
  * @file
- * What a checkpoint holds of the problem and of the run. Contact adds its rows in
- * contact/history.cc.
+ * What a checkpoint holds of the problem and of the run. What contact adds is listed beside each
+ * struct: ContactRow, RowState, FrictionHistory, SlipKinematics.
  */
 
 namespace Touchstone
@@ -68,7 +68,7 @@ namespace Touchstone
             solid.set_cell_state(cell, states[cell]);
         solid.exchange_cell_states();
       }
-    contact.load(archive, u, time);
+    contact.load(archive);
     remember_contact();
     if (archive.has("largest force scale")) // not in checkpoints of earlier versions
       largest_force_scale = archive.get<double>("largest force scale");

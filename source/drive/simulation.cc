@@ -1,5 +1,6 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/results.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/output/resources.h>
@@ -162,8 +163,8 @@ namespace Touchstone
     if (!rates.empty())
       velocity = solid.ghosted(*rates.front());
     volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time);
-    contact_output.write(problem->contact_state().faces(),
-                         problem->contact_state().points(u),
+    contact_output.write(contact_faces(problem->contact_state()),
+                         contact_points(problem->contact_state(), u),
                          step,
                          time);
   }
@@ -178,7 +179,7 @@ namespace Touchstone
                           const unsigned int cuts)
   {
     const Vector u       = problem->ghosted_displacement();
-    const auto   results = problem->contact_state().results(u);
+    const auto   results = pair_results(problem->contact_state(), u);
     StepRecord   record;
     record.step              = step;
     record.time              = time;
@@ -436,7 +437,7 @@ namespace Touchstone
   void
   Simulation::measure_balance()
   {
-    const Contact::Work                               work   = problem->contact_state().work();
+    const ContactWork                                 work = contact_work(problem->contact_state());
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
@@ -482,8 +483,8 @@ namespace Touchstone
         ReferenceInput input;
         input.solid                      = &solid;
         input.displacement               = &u;
-        input.points                     = problem->contact_state().points(u);
-        input.pair_results               = problem->contact_state().results(u);
+        input.points                     = contact_points(problem->contact_state(), u);
+        input.pair_results               = pair_results(problem->contact_state(), u);
         input.motion                     = summary.motion ? &*summary.motion : nullptr;
         input.communicator               = communicator;
         const ReferenceComparison result = reference->compare(input);

@@ -25,8 +25,8 @@ namespace Touchstone
     const Vector *normal = nullptr, *tangential = nullptr;
     /** What supports add for the nodes to move as they do. */
     const Vector *support = nullptr;
-    /** For impacts without rebound, else null: where nodes press. It gets the impulses. */
-    std::vector<PressingNode> *pressing = nullptr;
+    /** For impacts without rebound, else null; gets the impulses. */
+    std::vector<VelocityConstraint> *velocity_constraints = nullptr;
     /** Takes from forces on nodes what supports carry. */
     std::function<void(Vector &)> remove_support;
     /** Work that moving obstacles do by the normal and by the tangential contact forces,

@@ -29,7 +29,7 @@ namespace Touchstone
       }
 
       void
-      prepare(Contact &, LinearSystem &system) override
+      prepare(const Contact &, LinearSystem &system) override
       {
         // Whatever the solver is.
         system.takes_multipliers = true;

@@ -44,12 +44,11 @@ namespace Touchstone
             const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
             ContactRow      &row = rows[k];
             row.stencil.clear();
-            row.shift      = shift;
-            row.normal     = surface->normal(x);
-            row.gap_vector = x - surface->project(x);
-            row.gap        = row.gap_vector * row.normal;
-            if (row.status == ContactStatus::no_partner)
-              row.status = ContactStatus::open;
+            row.shift       = shift;
+            row.normal      = surface->normal(x);
+            row.gap_vector  = x - surface->project(x);
+            row.gap         = row.gap_vector * row.normal;
+            row.has_partner = true;
           }
       }
 
@@ -63,7 +62,7 @@ namespace Touchstone
           {
             ContactRow &row = rows[k];
             row.derivative.reset();
-            if (!row.active())
+            if (!row.was_active)
               continue;
             const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
             RowDerivativeBuilder builder(0);
