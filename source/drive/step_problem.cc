@@ -622,7 +622,8 @@ namespace Touchstone
       }
     before_increment = u;
     u                = trial;
-    contact.enforcement().update(contact, scene.newton.line_search != "none");
+    contact.enforcement().update(contact,
+                                 scene.newton.line_search != NewtonParameters::LineSearch::none);
   }
 
 
