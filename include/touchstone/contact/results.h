@@ -38,7 +38,7 @@ namespace Touchstone
     ContactStatus status;
   };
 
-  /** @brief A slave face as polygon for pictures: nodes in lexicographic order,
+  /** @brief A slave face as polygon for VTU output: nodes in lexicographic order,
    * 4 for degree 1 and 9 for degree 2. */
   struct ContactFace
   {
