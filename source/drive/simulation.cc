@@ -206,7 +206,7 @@ namespace Touchstone
     const Energies &energies  = problem->time_integration().committed_energies();
     record.energies["strain"] = energies.strain;
     if (solid.has_history())
-      record.energies["plastic"] = energies.plastic;
+      record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
     if (problem->time_integration().dynamic())
       {
         record.energies["kinetic"]       = energies.kinetic;

@@ -143,7 +143,7 @@ namespace Touchstone
       bool
       available(const VolumeState &state) const override
       {
-        return state.solid.has_history();
+        return state.solid.plastic();
       }
       void
       evaluate(const VolumeState &state, std::vector<double> &values) const override
