@@ -1,6 +1,6 @@
+#include <touchstone/base/formula.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
-#include <touchstone/scene/formula.h>
 #include <touchstone/scene/scene.h>
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 #define touchstone_algebra_linear_solver_h
 
 #include <touchstone/algebra/condensed_system.h>
+#include <touchstone/algebra/solver_parameters.h>
 #include <touchstone/base/registry.h>
-#include <touchstone/scene/solver_parameters.h>
 
 #include <Epetra_MultiVector.h>
 #include <set>

@@ -1,9 +1,9 @@
 #ifndef touchstone_contact_unresolved_contact_h
 #define touchstone_contact_unresolved_contact_h
 
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/search/search.h>
-#include <touchstone/scene/contact_parameters.h>
 
 #include <functional>
 #include <string>

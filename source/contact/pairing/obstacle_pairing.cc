@@ -1,6 +1,6 @@
+#include <touchstone/base/formula.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/row_derivative.h>
-#include <touchstone/scene/formula.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 

@@ -2,10 +2,11 @@
 #define touchstone_contact_pairing_pairing_h
 
 #include <touchstone/base/registry.h>
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/search/search.h>
-#include <touchstone/scene/contact_parameters.h>
+#include <touchstone/mesh/obstacle_parameters.h>
 
 #include <cstdint>
 #include <functional>

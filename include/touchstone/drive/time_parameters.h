@@ -1,5 +1,5 @@
-#ifndef touchstone_scene_time_parameters_h
-#define touchstone_scene_time_parameters_h
+#ifndef touchstone_drive_time_parameters_h
+#define touchstone_drive_time_parameters_h
 
 #include <deal.II/base/parameter_handler.h>
 

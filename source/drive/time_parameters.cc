@@ -1,5 +1,5 @@
 #include <touchstone/base/input_error.h>
-#include <touchstone/scene/time_parameters.h>
+#include <touchstone/drive/time_parameters.h>
 
 #include <deal.II/base/utilities.h>
 

@@ -1,5 +1,5 @@
+#include <touchstone/base/formula.h>
 #include <touchstone/base/input_error.h>
-#include <touchstone/scene/formula.h>
 
 #include <deal.II/base/numbers.h>
 

@@ -1,5 +1,5 @@
-#ifndef touchstone_scene_formula_h
-#define touchstone_scene_formula_h
+#ifndef touchstone_base_formula_h
+#define touchstone_base_formula_h
 
 #include <touchstone/base/types.h>
 

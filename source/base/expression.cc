@@ -1,6 +1,6 @@
+#include <touchstone/base/expression.h>
+#include <touchstone/base/formula.h>
 #include <touchstone/base/input_error.h>
-#include <touchstone/scene/expression.h>
-#include <touchstone/scene/formula.h>
 
 #include <cmath>
 #include <iostream>

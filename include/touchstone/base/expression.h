@@ -1,5 +1,5 @@
-#ifndef touchstone_scene_expression_h
-#define touchstone_scene_expression_h
+#ifndef touchstone_base_expression_h
+#define touchstone_base_expression_h
 
 #include <string>
 
