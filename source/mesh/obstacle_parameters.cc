@@ -1,6 +1,10 @@
 #include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
 #include <touchstone/mesh/obstacle_parameters.h>
+#include <touchstone/mesh/obstacle_shape.h>
+
+#include <vector>
 
 namespace Touchstone
 {
@@ -16,31 +20,26 @@ namespace Touchstone
 
 
   void
-  ObstacleParameters::declare(ParameterHandler &prm)
+  ObstacleParameters::declare(ParameterHandler &prm, const std::string &chosen_shape)
   {
+    if (ObstacleShapeRegistry::records().count(chosen_shape) == 0)
+      {
+        std::vector<std::string> known;
+        for (const auto &[name, record] : ObstacleShapeRegistry::records())
+          known.push_back(name);
+        throw InputError(section(),
+                         "Shape",
+                         chosen_shape,
+                         "there is no such shape" + did_you_mean(chosen_shape, known),
+                         "take one of " + quoted_list(known));
+      }
     prm.add_parameter("Shape",
-                      shape,
-                      "The rigid surface: a 'plane', 'sphere' or 'cylinder'.",
-                      Patterns::Selection("plane|sphere|cylinder"));
-    prm.add_parameter("Point",
-                      point,
-                      "A point of the plane, the centre of the sphere, or a point "
-                      "of the cylinder's axis: x, y, z. [length]");
-    prm.add_parameter("Direction",
-                      direction,
-                      "The plane's normal, pointing to where the bodies are, or "
-                      "the direction of the cylinder's axis: x, y, z; its length "
-                      "does not count.");
-    prm.add_parameter("Radius",
-                      radius,
-                      "Radius of the sphere or cylinder, greater than zero. "
-                      "[length]",
-                      Patterns::Double());
-    prm.add_parameter("Side",
-                      side,
-                      "The bodies are 'outside' or 'inside' of the sphere or "
-                      "cylinder.",
-                      Patterns::Selection("outside|inside"));
+                      shape_name,
+                      "The rigid surface, which decides on the other keys here. " +
+                        ObstacleShapeRegistry::documentation(),
+                      Patterns::Selection(ObstacleShapeRegistry::selection()));
+    shape = ObstacleShapeRegistry::make(chosen_shape);
+    shape->declare(prm);
     const std::string motion = " component of the rigid motion, a formula in t (time). [length]";
     prm.add_parameter("Motion x", motion_x, "The x" + motion, Patterns::Anything());
     prm.add_parameter("Motion y", motion_y, "The y" + motion, Patterns::Anything());
@@ -52,18 +51,7 @@ namespace Touchstone
   void
   ObstacleParameters::check(const std::string &section) const
   {
-    if (shape != "sphere" && direction.norm() == 0.)
-      throw InputError(section,
-                       "Direction",
-                       Patterns::Tools::to_string(direction),
-                       "must not be zero",
-                       "give the normal of the plane or the axis of the cylinder");
-    if (shape != "plane" && radius <= 0.)
-      throw InputError(section,
-                       "Radius",
-                       Patterns::Tools::to_string(radius),
-                       "must be positive",
-                       "give the radius of the " + shape);
+    shape->check(section);
     check_expression(section, "Motion x", motion_x, "t");
     check_expression(section, "Motion y", motion_y, "t");
     check_expression(section, "Motion z", motion_z, "t");

@@ -165,7 +165,12 @@ namespace Touchstone
         prm.leave_subsection();
       }
     for (ObstacleParameters &obstacle : obstacles)
-      declare_in(obstacle.section(), obstacle);
+      {
+        const std::string shape = text.value(obstacle.section(), "Shape", obstacle.shape_name);
+        prm.enter_subsection(obstacle.section());
+        obstacle.declare(prm, shape);
+        prm.leave_subsection();
+      }
     for (ContactPairParameters &pair : pairs)
       {
         const std::string behaviour = text.value(pair.section(), "Behaviour", pair.behaviour);

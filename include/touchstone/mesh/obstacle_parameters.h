@@ -2,26 +2,21 @@
 #define touchstone_mesh_obstacle_parameters_h
 
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/tensor.h>
 
+#include <memory>
 #include <string>
 
 namespace Touchstone
 {
+  class ObstacleShape;
+
   /** @brief Section "Obstacle NAME": a rigid body given by one formula. */
   struct ObstacleParameters
   {
     std::string name;
-    /** "plane", "sphere" or "cylinder". */
-    std::string shape = "plane";
-    /** A point of the plane, the centre of the sphere, or a point of the axis. */
-    dealii::Tensor<1, 3> point;
-    /** Outward normal of the plane, or direction of the cylinder's axis. */
-    dealii::Tensor<1, 3> direction{{0., 0., 1.}};
-    /** Radius of sphere or cylinder, length. */
-    double radius = 1.;
-    /** The bodies are "outside" of the sphere or cylinder, or "inside". */
-    std::string side = "outside";
+    /** Name under which the shape is registered, and that with its own parameters read. */
+    std::string                    shape_name = "plane";
+    std::shared_ptr<ObstacleShape> shape;
     /** Rigid motion as expressions in t, length. */
     std::string motion_x = "0", motion_y = "0", motion_z = "0";
 
@@ -29,8 +24,10 @@ namespace Touchstone
     std::string
     section() const;
 
+    /** @param chosen_shape The shape that the scene sets, for its own keys.
+     * @throws InputError if there is none of this name */
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(dealii::ParameterHandler &prm, const std::string &chosen_shape);
     void
     check(const std::string &section) const;
   };
