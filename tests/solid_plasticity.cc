@@ -27,10 +27,7 @@ namespace
     explicit Bar(const MaterialParameters &material)
       : finite(material.finite_strain())
     {
-      if (finite)
-        law = FiniteStrainRegistry::make(material.law, material);
-      else
-        law = SmallStrainRegistry::make(material.law, material);
+      law = make_material_law(material);
       state.resize(law->n_state());
       law->start(state.data());
     }

@@ -19,10 +19,11 @@ namespace Touchstone
     class NeoHookean : public HyperelasticLaw
     {
     public:
-      explicit NeoHookean(const MaterialParameters &material)
-        : mu(material.shear_modulus())
-        , kappa(material.bulk_modulus())
+      void
+      initialize(const MaterialParameters &material) override
       {
+        mu    = material.shear_modulus();
+        kappa = material.bulk_modulus();
       }
 
       double
@@ -66,7 +67,7 @@ namespace Touchstone
       }
 
     private:
-      const double mu, kappa;
+      double mu = 0., kappa = 0.;
     };
 
     const HyperelasticRegistry::Entry<NeoHookean>

@@ -18,10 +18,11 @@ namespace Touchstone
     class StVenantKirchhoff : public HyperelasticLaw
     {
     public:
-      explicit StVenantKirchhoff(const MaterialParameters &material)
-        : mu(material.shear_modulus())
-        , lambda(material.bulk_modulus() - 2. / 3. * mu)
+      void
+      initialize(const MaterialParameters &material) override
       {
+        mu     = material.shear_modulus();
+        lambda = material.bulk_modulus() - 2. / 3. * mu;
       }
 
       double
@@ -59,7 +60,7 @@ namespace Touchstone
       }
 
     private:
-      const double mu, lambda;
+      double mu = 0., lambda = 0.;
 
       static Tensor<2, dim>
       strain(const Tensor<2, dim> &F)
