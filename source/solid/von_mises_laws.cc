@@ -1,7 +1,7 @@
 #include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/logarithmic_strain.h>
 #include <touchstone/solid/material_law.h>
-#include <touchstone/solid/von_mises->h>
+#include <touchstone/solid/von_mises.h>
 
 #include <algorithm>
 #include <cmath>
