@@ -6,6 +6,8 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
+
 namespace Touchstone
 {
   namespace
@@ -39,7 +41,7 @@ namespace Touchstone
         const Tensor<2, 3> identity(dealii::unit_symmetric_tensor<3>());
         const Tensor<1, 3> e = radial(x), n = normal(x);
         const Tensor<1, 3> around({-e[1], e[0], 0.});
-        const double       rho = (x - centre) * e;
+        const double       rho = std::max((x - centre) * e, 1e-12 * R);
         const Tensor<2, 3> dq  = R / rho * outer_product(around, around);
         return dq +
                r / (x - on_circle(x)).norm() * (identity - outer_product(n, n)) * (identity - dq);
@@ -56,13 +58,13 @@ namespace Touchstone
       const Point<3> centre;
       const double   R, r;
 
-      /** Direction away from the axis. */
+      /** Direction away from the axis; on it every direction leads to a closest point. */
       Tensor<1, 3>
       radial(const Point<3> &x) const
       {
         Tensor<1, 3> e = x - centre;
         e[2]           = 0.;
-        return e / e.norm();
+        return e.norm() > 1e-12 * R ? e / e.norm() : Tensor<1, 3>({1., 0., 0.});
       }
 
       Point<3>
