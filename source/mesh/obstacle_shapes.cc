@@ -81,7 +81,9 @@ namespace Touchstone
       void
       check(const std::string &section) const override
       {
-        check_direction(section, normal, "give the normal of the plane");
+        check_direction(section,
+                        normal,
+                        "give the normal of the plane or the axis of the cylinder");
       }
 
       std::shared_ptr<const AnalyticSurface>
@@ -142,7 +144,7 @@ namespace Touchstone
       void
       check(const std::string &section) const override
       {
-        check_direction(section, axis, "give the axis of the cylinder");
+        check_direction(section, axis, "give the normal of the plane or the axis of the cylinder");
         round.check(section, "cylinder");
       }
 
