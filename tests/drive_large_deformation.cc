@@ -187,7 +187,7 @@ end
     F[1][1] = F[2][2]      = exact.across;
     stress[0][0]           = exact.stress / (exact.across * exact.across);
     const auto   reactions = run.problem.reactions();
-    const auto  &made      = make_hyperelastic_law(law, run.scene.bodies[0].material);
+    const auto  &made      = HyperelasticRegistry::make(law, run.scene.bodies[0].material);
     const double energy    = run.problem.strain_energy() / made->energy(F) - 1.;
     const double place     = run.deviation(0, F);
     const double cauchy    = run.deviation(0, stress) / stress.norm();
@@ -225,8 +225,8 @@ end
       for (unsigned int d = 0; d < dim; ++d)
         overrides.push_back("Body rod/Boundary " + boundary + "/Displacement " + "xyz"[d] + "=" +
                             formulas[d]);
-    SolvedRun                     run(rod, overrides);
-    const auto                    made = make_hyperelastic_law(law, run.scene.bodies[0].material);
+    SolvedRun  run(rod, overrides);
+    const auto made = HyperelasticRegistry::make(law, run.scene.bodies[0].material);
     const SymmetricTensor<2, dim> exact =
       symmetrize(made->stress(F) * transpose(F)) / determinant(F);
     const double stress = run.deviation(0, exact) / 200., place = run.deviation(0, F);
@@ -304,7 +304,7 @@ end
       std::max(run.deviation(0, linear_stress), run.deviation(1, stress)) / 200.;
     const double energy =
       run.problem.strain_energy() - 0.5 * 200. -
-      make_hyperelastic_law("neo-Hookean", run.scene.bodies[1].material)->energy(F);
+      HyperelasticRegistry::make("neo-Hookean", run.scene.bodies[1].material)->energy(F);
     if (first_rank())
       std::cout << "linear and neo-Hookean: places " << small(place, 1e-10) << ", stresses "
                 << small(cauchy, 1e-10) << ", energy " << small(energy, 1e-8) << std::endl;

@@ -120,7 +120,7 @@ namespace
       rotation = std::max(rotation, std::abs(f) / largest);
 
     // Homogeneous deformation.
-    const auto     law = make_hyperelastic_law(law_name, material);
+    const auto     law = HyperelasticRegistry::make(law_name, material);
     Tensor<2, dim> F   = Q;
     F[0][1] += 0.3;
     F[2][2] += 0.5;

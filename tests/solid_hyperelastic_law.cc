@@ -63,7 +63,7 @@ namespace
   void
   check(const std::string &name, const double nu)
   {
-    const auto     law = make_hyperelastic_law(name, material(nu));
+    const auto     law = HyperelasticRegistry::make(name, material(nu));
     const double   mu = 1. / (1. + nu), lambda = 2. * nu / ((1. + nu) * (1. - 2. * nu));
     Tensor<2, dim> identity, F;
     for (unsigned int i = 0; i < dim; ++i)

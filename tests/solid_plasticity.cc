@@ -27,7 +27,10 @@ namespace
     explicit Bar(const MaterialParameters &material)
       : finite(material.finite_strain())
     {
-      law = make_material_law(material);
+      if (finite)
+        law = FiniteStrainRegistry::make(material.law, material);
+      else
+        law = SmallStrainRegistry::make(material.law, material);
       state.resize(law->n_state());
       law->start(state.data());
     }

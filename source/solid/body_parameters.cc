@@ -46,7 +46,7 @@ namespace Touchstone
   {
     return degree > 1                 ? "full"
            : material.finite_strain() ? "F-bar"
-           : !material.linear()       ? "b-bar"
+           : material.plastic()       ? "b-bar"
                                       : "incompatible modes";
   }
 
@@ -142,7 +142,7 @@ namespace Touchstone
                        "take the element 'automatic' or 'full', or degree 1");
     const ElementType type = element();
     const bool small_only  = type == ElementType::b_bar || type == ElementType::incompatible_modes;
-    if (type == ElementType::incompatible_modes && !material.linear() && !material.finite_strain())
+    if (type == ElementType::incompatible_modes && material.plastic() && !material.finite_strain())
       throw InputError(section(),
                        "Element",
                        element_name,

@@ -8,10 +8,51 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** A law without history. */
+    class Hyperelastic : public MaterialLaw
+    {
+    public:
+      explicit Hyperelastic(const MaterialParameters &material)
+        : law(HyperelasticRegistry::make(material.law, material))
+      {
+      }
+
+      void
+      respond(const MaterialInput &input,
+              const Demand         demand,
+              MaterialResponse    &response,
+              double *) const override
+      {
+        const Tensor<2, dim> &F = input.deformation;
+        if (demand == Demand::energy)
+          response.energy = response.elastic_energy = law->energy(F);
+        else
+          response.stress = law->stress(F);
+        if (demand == Demand::tangent)
+          response.tangent = law->tangent(F);
+      }
+
+    private:
+      const std::shared_ptr<HyperelasticLaw> law;
+    };
+
+    std::shared_ptr<const MaterialLaw>
+    make_law(const MaterialParameters &material)
+    {
+      if (FiniteStrainRegistry::records().count(material.law) > 0)
+        return FiniteStrainRegistry::make(material.law, material);
+      return std::make_shared<Hyperelastic>(material);
+    }
+  } // namespace
+
+
+
   FiniteStrainKernel::FiniteStrainKernel(const unsigned int        degree,
                                          const ElementType         type,
                                          const MaterialParameters &material)
-    : CellKernel(degree, make_material_law(material), type == ElementType::f_bar)
+    : CellKernel(degree, make_law(material), type == ElementType::f_bar)
     , kinematics(n_points)
   {
     Assert(type == ElementType::f_bar || type == ElementType::full, ExcNotImplemented());

@@ -9,16 +9,11 @@ namespace Touchstone
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
 
-  std::shared_ptr<MaterialLaw>
-  MaterialParameters::new_law(const std::string &name)
+  bool
+  MaterialParameters::plastic() const
   {
-    if (HyperelasticRegistry::records().count(name) > 0)
-      return HyperelasticRegistry::make(name);
-    if (SmallStrainRegistry::records().count(name) > 0)
-      return SmallStrainRegistry::make(name);
-    if (FiniteStrainRegistry::records().count(name) > 0)
-      return FiniteStrainRegistry::make(name);
-    return nullptr;
+    return SmallStrainRegistry::records().count(law) > 0 ||
+           FiniteStrainRegistry::records().count(law) > 0;
   }
 
 
@@ -36,8 +31,8 @@ namespace Touchstone
   {
     // What the scene has chosen decides on other keys, but is not the default of its own.
     const MaterialParameters defaults;
+    const bool               has_plasticity   = plastic();
     const std::string        chosen_hardening = hardening_name;
-    own_law                                   = new_law(law);
     law                                       = defaults.law;
     hardening_name                            = defaults.hardening_name;
     prm.add_parameter("Law",
@@ -74,9 +69,7 @@ namespace Touchstone
                       "Damping force per elastic force of the same velocity field, with the "
                       "stiffness of the undeformed body: it also resists finite rotations. [time]",
                       Patterns::Double(0.));
-    if (own_law)
-      own_law->declare(prm);
-    if (!own_law || !own_law->plastic())
+    if (!has_plasticity)
       return;
     prm.enter_subsection("Plasticity");
     prm.add_parameter("Hardening",
@@ -124,8 +117,6 @@ namespace Touchstone
                        "must be greater than -1 and less than 0.5",
                        std::string("for incompressible material take 0.4999 with the element '") +
                          (finite_strain() ? "F-bar" : "b-bar") + "' or degree 2");
-    if (own_law)
-      own_law->check(section);
     if (hardening)
       check_plasticity(section + "/Plasticity");
   }

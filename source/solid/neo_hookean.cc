@@ -19,11 +19,10 @@ namespace Touchstone
     class NeoHookean : public HyperelasticLaw
     {
     public:
-      void
-      initialize(const MaterialParameters &material) override
+      explicit NeoHookean(const MaterialParameters &material)
+        : mu(material.shear_modulus())
+        , kappa(material.bulk_modulus())
       {
-        mu    = material.shear_modulus();
-        kappa = material.bulk_modulus();
       }
 
       double
@@ -67,7 +66,7 @@ namespace Touchstone
       }
 
     private:
-      double mu = 0., kappa = 0.;
+      const double mu, kappa;
     };
 
     const HyperelasticRegistry::Entry<NeoHookean>

@@ -9,7 +9,9 @@ namespace Touchstone
   SmallStrainKernel::SmallStrainKernel(const unsigned int        degree,
                                        const ElementType         type,
                                        const MaterialParameters &material)
-    : CellKernel(degree, make_material_law(material), type == ElementType::b_bar)
+    : CellKernel(degree,
+                 SmallStrainRegistry::make(material.law, material),
+                 type == ElementType::b_bar)
   {
     Assert(type == ElementType::b_bar || type == ElementType::full, ExcNotImplemented());
   }

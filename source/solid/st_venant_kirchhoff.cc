@@ -18,11 +18,10 @@ namespace Touchstone
     class StVenantKirchhoff : public HyperelasticLaw
     {
     public:
-      void
-      initialize(const MaterialParameters &material) override
+      explicit StVenantKirchhoff(const MaterialParameters &material)
+        : mu(material.shear_modulus())
+        , lambda(material.bulk_modulus() - 2. / 3. * mu)
       {
-        mu     = material.shear_modulus();
-        lambda = material.bulk_modulus() - 2. / 3. * mu;
       }
 
       double
@@ -60,7 +59,7 @@ namespace Touchstone
       }
 
     private:
-      double mu = 0., lambda = 0.;
+      const double mu, lambda;
 
       static Tensor<2, dim>
       strain(const Tensor<2, dim> &F)

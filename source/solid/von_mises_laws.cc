@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace Touchstone
 {
@@ -51,23 +50,11 @@ namespace Touchstone
 
 
 
-    /** What both laws have, and say of their state. */
+    /** What both laws say of their state. */
     template <class Law>
     class PlasticLaw : public Law
     {
     public:
-      void
-      initialize(const MaterialParameters &material) override
-      {
-        von_mises = std::make_unique<VonMises>(material);
-      }
-
-      bool
-      symmetric() const override
-      {
-        return von_mises->symmetric();
-      }
-
       double
       dissipation(const double *state) const override
       {
@@ -85,9 +72,6 @@ namespace Touchstone
       {
         return state[at_strain];
       }
-
-    protected:
-      std::unique_ptr<const VonMises> von_mises;
     };
 
 
@@ -96,16 +80,27 @@ namespace Touchstone
     class SmallStrainVonMises : public PlasticLaw<SmallStrainLaw>
     {
     public:
+      explicit SmallStrainVonMises(const MaterialParameters &material)
+        : von_mises(material)
+      {
+      }
+
       unsigned int
       n_state() const override
       {
-        return own + n_independent * (von_mises->kinematic() ? 2 : 1);
+        return own + n_independent * (von_mises.kinematic() ? 2 : 1);
       }
 
       void
       start(double *state) const override
       {
         std::fill(state, state + n_state(), 0.);
+      }
+
+      bool
+      symmetric() const override
+      {
+        return von_mises.symmetric();
       }
 
       void
@@ -118,20 +113,23 @@ namespace Touchstone
         const SymmetricTensor<2, dim> strain    = symmetrize(input.deformation);
         const SymmetricTensor<2, dim> plastic   = read(committed + own);
         SymmetricTensor<2, dim>       back_stress;
-        if (von_mises->kinematic())
+        if (von_mises.kinematic())
           back_stress = read(committed + own + n_independent);
-        const ReturnMapping point = von_mises->respond(strain - plastic,
-                                                       committed[at_strain],
-                                                       back_stress,
-                                                       demand == Demand::tangent);
+        const ReturnMapping point = von_mises.respond(strain - plastic,
+                                                      committed[at_strain],
+                                                      back_stress,
+                                                      demand == Demand::tangent);
         keep(point, committed, response, present);
         write(plastic + point.plastic_increment, present + own);
-        if (von_mises->kinematic())
+        if (von_mises.kinematic())
           write(point.back_stress, present + own + n_independent);
         response.stress = point.stress;
         if (demand == Demand::tangent)
           response.tangent = Tensor<4, dim>(point.tangent);
       }
+
+    private:
+      const VonMises von_mises;
     };
 
 
@@ -155,10 +153,15 @@ namespace Touchstone
     class FiniteStrainVonMises : public PlasticLaw<FiniteStrainLaw>
     {
     public:
+      explicit FiniteStrainVonMises(const MaterialParameters &material)
+        : von_mises(material)
+      {
+      }
+
       unsigned int
       n_state() const override
       {
-        return own + dim * dim + (von_mises->kinematic() ? n_independent : 0);
+        return own + dim * dim + (von_mises.kinematic() ? n_independent : 0);
       }
 
       void
@@ -177,6 +180,12 @@ namespace Touchstone
         write_inverse(inverse, state);
       }
 
+      bool
+      symmetric() const override
+      {
+        return von_mises.symmetric();
+      }
+
       void
       respond(const MaterialInput &input,
               const Demand         demand,
@@ -189,12 +198,12 @@ namespace Touchstone
         const Tensor<2, dim>    F_e       = F * inverse;
         const LogarithmicStrain logarithm(symmetrize(transpose(F_e) * F_e));
         SymmetricTensor<2, dim> back_stress;
-        if (von_mises->kinematic())
+        if (von_mises.kinematic())
           back_stress = read(committed + own + dim * dim);
-        const ReturnMapping point = von_mises->respond(logarithm.strain(),
-                                                       committed[at_strain],
-                                                       back_stress,
-                                                       demand == Demand::tangent);
+        const ReturnMapping point = von_mises.respond(logarithm.strain(),
+                                                      committed[at_strain],
+                                                      back_stress,
+                                                      demand == Demand::tangent);
         keep(point, committed, response, present);
         // F_e at the end is R exp(E_e) with the rotation R of the trial, so that the elastic
         // strain, evaluated anew after the step, is that of the return mapping. Where both
@@ -205,7 +214,7 @@ namespace Touchstone
                         present);
         else
           write_inverse(inverse, present);
-        if (von_mises->kinematic())
+        if (von_mises.kinematic())
           write(point.back_stress, present + own + dim * dim);
         if (demand == Demand::energy)
           return;
@@ -233,6 +242,8 @@ namespace Touchstone
       }
 
     private:
+      const VonMises von_mises;
+
       static Tensor<2, dim>
       plastic_inverse(const double *state)
       {

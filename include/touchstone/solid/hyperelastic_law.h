@@ -1,10 +1,15 @@
 #ifndef touchstone_solid_hyperelastic_law_h
 #define touchstone_solid_hyperelastic_law_h
 
-#include <touchstone/solid/material_law.h>
+#include <touchstone/base/registry.h>
+#include <touchstone/base/types.h>
+
+#include <deal.II/base/tensor.h>
 
 namespace Touchstone
 {
+  struct MaterialParameters;
+
   /**
    * @brief A material law at finite strain: a strain energy density W of the
    * deformation gradient F = I + grad u, with its derivatives.
@@ -13,9 +18,11 @@ namespace Touchstone
    * stresses per reference volume and area. W must depend on F through F^T F
    * alone (objectivity), and det F > 0 may be assumed.
    */
-  class HyperelasticLaw : public MaterialLaw
+  class HyperelasticLaw
   {
   public:
+    virtual ~HyperelasticLaw() = default;
+
     /** @brief W(F), energy per reference volume; zero for F = I. */
     virtual double
     energy(const dealii::Tensor<2, dim> &F) const = 0;
@@ -28,21 +35,10 @@ namespace Touchstone
     /** @brief A = dP/dF, A[i][J][k][L] = A[k][L][i][J], force per area. */
     virtual dealii::Tensor<4, dim>
     tangent(const dealii::Tensor<2, dim> &F) const = 0;
-
-    /** @brief All of them by what is demanded. */
-    void
-    respond(const MaterialInput &input,
-            Demand               demand,
-            MaterialResponse    &response,
-            double              *present) const final;
   };
 
   /** @brief The laws by the name that the key "Law" of a material takes. */
-  using HyperelasticRegistry = Registry<HyperelasticLaw>;
-
-  /** @brief The law called @p name with the constants of @p material, ready for use. */
-  std::shared_ptr<const HyperelasticLaw>
-  make_hyperelastic_law(const std::string &name, const MaterialParameters &material);
+  using HyperelasticRegistry = Registry<HyperelasticLaw, const MaterialParameters &>;
 } // namespace Touchstone
 
 #endif

@@ -4,11 +4,7 @@
 #include <touchstone/base/registry.h>
 #include <touchstone/base/types.h>
 
-#include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/tensor.h>
-
-#include <memory>
-#include <string>
 
 namespace Touchstone
 {
@@ -55,9 +51,6 @@ namespace Touchstone
   /**
    * @brief A nonlinear material at one point, with or without history.
    *
-   * An object is made when its name is read, has its own keys read, then initialize(), and is
-   * constant from then on.
-   *
    * The history is an array of n_state() numbers. The response and the present state are
    * functions of the deformation and the committed state alone: evaluating twice changes
    * nothing.
@@ -66,22 +59,6 @@ namespace Touchstone
   {
   public:
     virtual ~MaterialLaw() = default;
-
-    /** @brief Declare keys of its own, in the section "Material" of a body. */
-    virtual void
-    declare(dealii::ParameterHandler & /*prm*/)
-    {
-    }
-
-    /** @throws InputError if a value of its own keys makes no sense */
-    virtual void
-    check(const std::string & /*section*/) const
-    {
-    }
-
-    /** @brief Take the constants that all materials have, and prepare for respond(). */
-    virtual void
-    initialize(const MaterialParameters &material) = 0;
 
     /** @brief How many numbers of history a point has. */
     virtual unsigned int
@@ -148,19 +125,14 @@ namespace Touchstone
   {
   };
 
-  /** @brief A law with history for finite strain; those without are HyperelasticLaws, see
-   * there. */
+  /** @brief A law with history for finite strain; those without are HyperelasticLaws. */
   class FiniteStrainLaw : public MaterialLaw
   {
   };
 
   /** @brief The laws by the name that the key "Law" of a material takes. */
-  using SmallStrainRegistry  = Registry<SmallStrainLaw>;
-  using FiniteStrainRegistry = Registry<FiniteStrainLaw>;
-
-  /** @brief The law of a nonlinear @p material, ready for use. */
-  std::shared_ptr<const MaterialLaw>
-  make_material_law(const MaterialParameters &material);
+  using SmallStrainRegistry  = Registry<SmallStrainLaw, const MaterialParameters &>;
+  using FiniteStrainRegistry = Registry<FiniteStrainLaw, const MaterialParameters &>;
 } // namespace Touchstone
 
 #endif

@@ -9,7 +9,6 @@
 namespace Touchstone
 {
   class HardeningLaw;
-  class MaterialLaw;
 
   /** @brief Section "Body NAME/Material": an isotropic elastic or elastoplastic material. */
   struct MaterialParameters
@@ -18,8 +17,6 @@ namespace Touchstone
      * or a FiniteStrainLaw, whose constants are those of linear elasticity at the
      * undeformed state. */
     std::string law = "linear elastic";
-    /** The law with its own keys read, see make_material_law(); null if it is linear. */
-    std::shared_ptr<MaterialLaw> own_law;
     /** Young's modulus, force per area; must be positive. */
     double young_modulus = 0.;
     /** Poisson's ratio, -1 < nu < 0.5. */
@@ -30,7 +27,7 @@ namespace Touchstone
      * time, b time. */
     double rayleigh_mass = 0., rayleigh_stiffness = 0.;
 
-    /** @name Subsection "Plasticity", of laws with plastic flow only */
+    /** @name Subsection "Plasticity", of plastic laws only */
     /** @{ */
     /** Name under which the isotropic hardening is registered, and that with its own
      * parameters read; null if the law is elastic. */
@@ -47,9 +44,9 @@ namespace Touchstone
     {
       return law == "linear elastic";
     }
-    /** @brief A law that is registered under @p name; null if there is none. */
-    static std::shared_ptr<MaterialLaw>
-    new_law(const std::string &name);
+    /** @brief Whether the law has history: it is a SmallStrainLaw or a FiniteStrainLaw. */
+    bool
+    plastic() const;
     /** @brief Whether the law is for finite strain. */
     bool
     finite_strain() const;
