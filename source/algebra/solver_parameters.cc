@@ -1,24 +1,95 @@
+#include <touchstone/algebra/linear_solver.h>
 #include <touchstone/algebra/solver_parameters.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/parameter_checks.h>
+
+#include <sstream>
 
 namespace Touchstone
 {
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
 
+  namespace
+  {
+    /** The lines "set KEY = VALUE" of the present values of options. */
+    std::vector<std::string>
+    lines(LinearSolverOptions &options)
+    {
+      ParameterHandler prm;
+      options.declare(prm);
+      std::stringstream text;
+      prm.print_parameters(text, ParameterHandler::ShortPRM);
+      std::vector<std::string> result;
+      for (std::string line; std::getline(text, line);)
+        if (const std::size_t begin = line.find("set "); begin != std::string::npos)
+          result.push_back(line.substr(begin + 4));
+      return result;
+    }
+
+    /** Refuse values other than the defaults of options that the scene does not use. */
+    void
+    refuse_unused(const std::string   &section,
+                  const std::string   &type,
+                  const std::string   &name,
+                  LinearSolverOptions &options)
+    {
+      const auto                     fresh = LinearSolverOptionsRegistry::make(name);
+      const std::vector<std::string> given = lines(options), defaults = lines(*fresh);
+      for (std::size_t k = 0; k < given.size(); ++k)
+        if (given[k] != defaults[k])
+          {
+            const std::size_t equal = given[k].find('=');
+            throw InputError(section,
+                             dealii::Utilities::trim(given[k].substr(0, equal)),
+                             dealii::Utilities::trim(given[k].substr(equal + 1)),
+                             "is an option of " + name + ", but 'Type' is '" + type + "'",
+                             "remove it, or set '" +
+                               std::string(LinearSolverRegistry::records().count(name) > 0
+                                             ? "Type"
+                                             : "Preconditioner") +
+                               "' to '" + name + "'");
+          }
+    }
+  } // namespace
+
+
+
+  std::map<std::string, std::shared_ptr<LinearSolverOptions>>
+  LinearSolverParameters::all_options()
+  {
+    std::map<std::string, std::shared_ptr<LinearSolverOptions>> result;
+    for (const auto &[name, record] : LinearSolverOptionsRegistry::records())
+      result[name] = record.make();
+    return result;
+  }
+
+
+
+  bool
+  LinearSolverParameters::takes_multipliers() const
+  {
+    return LinearSolverRegistry::make(type, *this)->takes_multipliers();
+  }
+
+
+
+  bool
+  LinearSolverParameters::symmetric_only() const
+  {
+    return LinearSolverRegistry::make(type, *this)->symmetric_only();
+  }
+
+
+
   void
   LinearSolverParameters::declare(ParameterHandler &prm)
   {
     prm.add_parameter("Type",
                       type,
-                      "'MUMPS' factorises; 'Belos CG' and 'Belos GMRES' iterate with "
-                      "multigrid, for large models without multipliers: CG takes "
-                      "symmetric systems, GMRES also unsymmetric ones. 'automatic' takes, from "
-                      "10,000 unknowns on and without multipliers, CG for symmetric systems and "
-                      "GMRES for unsymmetric ones, and MUMPS otherwise or if these would take "
-                      "longer, which the log says.",
-                      Patterns::Selection("automatic|MUMPS|Belos CG|Belos GMRES"));
+                      "What solves the linear systems of Newton's method. " +
+                        LinearSolverRegistry::documentation(),
+                      Patterns::Selection(LinearSolverRegistry::selection()));
     prm.add_parameter("Tolerance",
                       tolerance,
                       "Relative residual to which an iterative solver takes the linear "
@@ -27,7 +98,7 @@ namespace Touchstone
                       Patterns::Double(0., 1.));
     prm.add_parameter("Maximum iterations",
                       maximum_iterations,
-                      "Of Belos CG or GMRES in one solve.",
+                      "Of solvers that iterate, in one solve.",
                       Patterns::Integer(1));
     prm.add_parameter("Restart",
                       restart,
@@ -36,11 +107,8 @@ namespace Touchstone
                       Patterns::Integer(1));
     prm.add_parameter("Preconditioner",
                       preconditioner,
-                      "Of Belos CG or GMRES: 'multigrid' by smoothed aggregation, in whose place "
-                      "they keep the factors of a matrix where it would be slow; 'diagonal' "
-                      "multiplies by the inverse 3 x 3 diagonal blocks of the nodes, many times "
-                      "as slow, to compare with published work.",
-                      Patterns::Selection("multigrid|diagonal"));
+                      "Of Belos CG or GMRES. " + PreconditionerRegistry::documentation(),
+                      Patterns::Selection(PreconditionerRegistry::selection()));
     prm.add_parameter("Contact operator",
                       contact_operator,
                       "How an iterative solver multiplies: 'applied' applies constraints and "
@@ -48,19 +116,8 @@ namespace Touchstone
                       "one matrix only where multigrid is set up; 'assembled' does so in each "
                       "Newton iteration.",
                       Patterns::Selection("applied|assembled"));
-    prm.add_parameter(
-      "Low rank tolerance",
-      low_rank_tolerance,
-      "MUMPS compresses the blocks of its factors, up to this relative error: less "
-      "memory for large models, at about the same time; 0: not at all. 1e-8 costs no "
-      "Newton iteration. [no unit]",
-      Patterns::Double(0., 1e-2));
-    prm.add_parameter("Out of core",
-                      out_of_core,
-                      "MUMPS keeps its factors in files, in the folder that the environment "
-                      "variable MUMPS_OOC_TMPDIR names or in /tmp: for models that memory has "
-                      "no room for.",
-                      Patterns::Bool());
+    for (const auto &of_one : options)
+      of_one.second->declare(prm);
   }
 
 
@@ -72,23 +129,18 @@ namespace Touchstone
                    "Tolerance",
                    tolerance,
                    "two to four digits a Newton iteration are usual: 1e-3");
-    if (preconditioner != "multigrid" && !iterative())
+    const auto solver = LinearSolverRegistry::make(type, *this);
+    if (preconditioner != "multigrid" && !solver->takes_preconditioner())
       throw InputError(section,
                        "Preconditioner",
                        preconditioner,
                        "is for solvers that iterate, but 'Type' is '" + type + "'",
                        "remove it, or set 'Type' to 'Belos CG' or 'Belos GMRES'");
-    if (iterative())
-      for (const auto &[key, set, value] :
-           {std::make_tuple("Low rank tolerance",
-                            low_rank_tolerance > 0.,
-                            Patterns::Tools::to_string(low_rank_tolerance)),
-            std::make_tuple("Out of core", out_of_core, std::string("true"))})
-        if (set)
-          throw InputError(section,
-                           key,
-                           value,
-                           "is an option of MUMPS, but 'Type' is '" + type + "'",
-                           "remove it, or set 'Type' to 'MUMPS'");
+    const std::set<std::string> used = solver->used_options();
+    for (const auto &[name, of_one] : options)
+      if (used.count(name) > 0)
+        of_one->check(section);
+      else
+        refuse_unused(section, type, name, *of_one);
   }
 } // namespace Touchstone
