@@ -114,11 +114,10 @@ namespace
   class NeoHookeanEnergy : public EnergyLaw<NeoHookeanEnergy>
   {
   public:
-    void
-    initialize(const MaterialParameters &material) override
+    explicit NeoHookeanEnergy(const MaterialParameters &material)
+      : mu(material.shear_modulus())
+      , kappa(material.bulk_modulus())
     {
-      mu    = material.shear_modulus();
-      kappa = material.bulk_modulus();
     }
 
     template <class Number>
@@ -133,7 +132,7 @@ namespace
     }
 
   private:
-    double mu, kappa;
+    const double mu, kappa;
   };
 
   void
@@ -141,12 +140,11 @@ namespace
   {
     say("automatic differentiation");
     MaterialParameters material;
-    material.young_modulus = 2.;
-    material.poisson_ratio = 0.4;
-    const auto       hand  = make_hyperelastic_law("neo-Hookean", material);
-    NeoHookeanEnergy law;
-    law.initialize(material);
-    Tensor<2, dim> F;
+    material.young_modulus      = 2.;
+    material.poisson_ratio      = 0.4;
+    const auto             hand = HyperelasticRegistry::make("neo-Hookean", material);
+    const NeoHookeanEnergy law(material);
+    Tensor<2, dim>         F;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         F[i][j] = (i == j ? 1.3 - 0.2 * i : 0.) + 0.15 * std::sin(1. + 3. * i + 7. * j);

@@ -25,39 +25,45 @@ namespace Touchstone
     class Maxwell : public SmallStrainLaw
     {
     public:
-      void
-      declare(dealii::ParameterHandler &prm) override
+      // TODO: keys of its own, with their units.
+      struct Parameters : public PluginParameters
       {
-        // TODO: keys of its own, with their units.
-        prm.add_parameter("Relaxation time", tau, "Time constant tau, positive. [time]");
-        prm.add_parameter("Relaxing share",
-                          share,
-                          "Part r of the shear modulus that relaxes, from 0 to 1. [no unit]");
-      }
+        double tau = 1., share = 0.5;
 
-      void
-      check(const std::string &section) const override
-      {
-        // TODO: each value that makes no sense, with what to do about it.
-        if (!(tau > 0.))
-          throw InputError(section,
-                           "Relaxation time",
-                           dealii::Patterns::Tools::to_string(tau),
-                           "must be positive",
-                           "give the time in which the stress falls by a factor of e");
-        if (!(share >= 0. && share < 1.))
-          throw InputError(section,
-                           "Relaxing share",
-                           dealii::Patterns::Tools::to_string(share),
-                           "must be at least 0 and less than 1",
-                           "what does not relax holds the shape of the body");
-      }
+        void
+        declare(dealii::ParameterHandler &prm) override
+        {
+          prm.add_parameter("Relaxation time", tau, "Time constant tau, positive. [time]");
+          prm.add_parameter("Relaxing share",
+                            share,
+                            "Part r of the shear modulus that relaxes, from 0 to 1. [no unit]");
+        }
 
-      void
-      initialize(const MaterialParameters &material) override
+        void
+        check(const std::string &section) const override
+        {
+          // TODO: each value that makes no sense, with what to do about it.
+          if (!(tau > 0.))
+            throw InputError(section,
+                             "Relaxation time",
+                             dealii::Patterns::Tools::to_string(tau),
+                             "must be positive",
+                             "give the time in which the stress falls by a factor of e");
+          if (!(share >= 0. && share < 1.))
+            throw InputError(section,
+                             "Relaxing share",
+                             dealii::Patterns::Tools::to_string(share),
+                             "must be at least 0 and less than 1",
+                             "what does not relax holds the shape of the body");
+        }
+      };
+
+      Maxwell(const Parameters &own, const MaterialParameters &material)
+        : tau(own.tau)
+        , share(own.share)
+        , mu(material.shear_modulus())
+        , kappa(material.bulk_modulus())
       {
-        mu    = material.shear_modulus();
-        kappa = material.bulk_modulus();
       }
 
       // TODO: how many numbers the history has, here a (six) and the dissipated energy; all
@@ -115,8 +121,8 @@ namespace Touchstone
       }
 
     private:
-      static constexpr unsigned int n   = SymmetricTensor<2, dim>::n_independent_components;
-      double                        tau = 1., share = 0.5, mu = 0., kappa = 0.;
+      static constexpr unsigned int n = SymmetricTensor<2, dim>::n_independent_components;
+      const double                  tau, share, mu, kappa;
     };
 
     // TODO: the name that scenes use, and a sentence for the reference of keys.

@@ -24,35 +24,38 @@ namespace Touchstone
     class MooneyRivlin : public EnergyLaw<MooneyRivlin>
     {
     public:
-      void
-      declare(dealii::ParameterHandler &prm) override
+      // TODO: keys of its own, with their units.
+      struct Parameters : public PluginParameters
       {
-        // TODO: keys of its own, with their units.
-        prm.add_parameter("Second share",
-                          share,
-                          "c_2 / (c_1 + c_2), from 0 (neo-Hookean) to 1; rubber has 0.1 to 0.3. "
-                          "[no unit]");
-      }
+        double share = 0.2;
 
-      void
-      check(const std::string &section) const override
-      {
-        // TODO: each value that makes no sense, with what to do about it.
-        if (!(share >= 0. && share <= 1.))
-          throw InputError(section,
-                           "Second share",
-                           dealii::Patterns::Tools::to_string(share),
-                           "must be from 0 to 1",
-                           "give c_2 / (c_1 + c_2) of the two constants");
-      }
+        void
+        declare(dealii::ParameterHandler &prm) override
+        {
+          prm.add_parameter("Second share",
+                            share,
+                            "c_2 / (c_1 + c_2), from 0 (neo-Hookean) to 1; rubber has 0.1 to "
+                            "0.3. [no unit]");
+        }
 
-      void
-      initialize(const MaterialParameters &material) override
+        void
+        check(const std::string &section) const override
+        {
+          // TODO: each value that makes no sense, with what to do about it.
+          if (!(share >= 0. && share <= 1.))
+            throw InputError(section,
+                             "Second share",
+                             dealii::Patterns::Tools::to_string(share),
+                             "must be from 0 to 1",
+                             "give c_2 / (c_1 + c_2) of the two constants");
+        }
+      };
+
+      MooneyRivlin(const Parameters &own, const MaterialParameters &material)
+        : c_1(0.5 * (1. - own.share) * material.shear_modulus())
+        , c_2(0.5 * own.share * material.shear_modulus())
+        , kappa(material.bulk_modulus())
       {
-        const double mu = material.shear_modulus();
-        c_1             = 0.5 * (1. - share) * mu;
-        c_2             = 0.5 * share * mu;
-        kappa           = material.bulk_modulus();
       }
 
       // TODO: the energy. Number is a double or carries derivatives.
@@ -70,7 +73,7 @@ namespace Touchstone
       }
 
     private:
-      double share = 0.2, c_1 = 0., c_2 = 0., kappa = 0.;
+      const double c_1, c_2, kappa;
     };
 
     // TODO: the name that scenes use, and a sentence for the reference of keys.

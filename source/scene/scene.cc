@@ -152,12 +152,7 @@ namespace Touchstone
         declare_choices_in(body.section(), body);
       }
     for (ObstacleParameters &obstacle : obstacles)
-      {
-        const std::string shape = text.value(obstacle.section(), "Shape", obstacle.shape_name);
-        prm.enter_subsection(obstacle.section());
-        obstacle.declare(prm, shape);
-        prm.leave_subsection();
-      }
+      declare_choices_in(obstacle.section(), obstacle);
     for (ContactPairParameters &pair : pairs)
       declare_choices_in(pair.section(), pair);
     declare_choices_in("Contact", contact);

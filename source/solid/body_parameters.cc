@@ -47,7 +47,7 @@ namespace Touchstone
   {
     return degree > 1                 ? "full"
            : material.finite_strain() ? "F-bar"
-           : material.plastic()       ? "b-bar"
+           : !material.linear()       ? "b-bar"
                                       : "incompatible modes";
   }
 
@@ -147,7 +147,7 @@ namespace Touchstone
                        "take the element 'automatic' or 'full', or degree 1");
     const ElementType type = element();
     const bool small_only  = type == ElementType::b_bar || type == ElementType::incompatible_modes;
-    if (type == ElementType::incompatible_modes && material.plastic() && !material.finite_strain())
+    if (type == ElementType::incompatible_modes && !material.linear() && !material.finite_strain())
       throw InputError(section(),
                        "Element",
                        element_name,

@@ -1,9 +1,10 @@
 #ifndef touchstone_mesh_obstacle_parameters_h
 #define touchstone_mesh_obstacle_parameters_h
 
+#include <touchstone/base/choice.h>
+
 #include <deal.II/base/parameter_handler.h>
 
-#include <memory>
 #include <string>
 
 namespace Touchstone
@@ -14,9 +15,8 @@ namespace Touchstone
   struct ObstacleParameters
   {
     std::string name;
-    /** Name under which the shape is registered, and that with its own parameters read. */
-    std::string                    shape_name = "plane";
-    std::shared_ptr<ObstacleShape> shape;
+    /** The shape, whose own keys stand beside this one. */
+    Choice<Registry<ObstacleShape>> shape{"plane"};
     /** Rigid motion as expressions in t, length. */
     std::string motion_x = "0", motion_y = "0", motion_z = "0";
 
@@ -24,10 +24,9 @@ namespace Touchstone
     std::string
     section() const;
 
-    /** @param chosen_shape The shape that the scene sets, for its own keys.
-     * @throws InputError if there is none of this name */
+    /** @param values Of this section: the shape decides on other keys. */
     void
-    declare(dealii::ParameterHandler &prm, const std::string &chosen_shape);
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
   };

@@ -22,7 +22,7 @@ namespace Touchstone
         : Pairing(input)
       {
         const ObstacleParameters &o     = *input.obstacle;
-        surface                         = o.shape->surface();
+        surface                         = o.shape.make()->surface();
         const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
         for (unsigned int d = 0; d < dim; ++d)
           motion[d] = formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
