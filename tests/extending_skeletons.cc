@@ -1,12 +1,12 @@
-// The skeletons of contrib/skeletons compile and work: a friction law, a pairing
-// and an enforcement, and the other samples of doc/extending.md. Scenes name them like
-// any other class.
+// The skeletons of contrib/skeletons compile and work: scenes name them as they name built-in
+// classes. extending_plugins.cc has more of them.
 
 #include "../contrib/skeletons/enforcement.cc"
 #include "../contrib/skeletons/friction_law.cc"
 #include "../contrib/skeletons/geometry.cc"
 #include "../contrib/skeletons/linear_solver.cc"
 #include "../contrib/skeletons/pairing.cc"
+#include "../contrib/skeletons/preconditioner.cc"
 #include "../contrib/skeletons/reference_solution.cc"
 #include "extending_support.h"
 #include <cmath>
@@ -67,13 +67,18 @@ namespace
                      std::abs(a.max_pressure - b.max_pressure) / (b.force.norm() / b.area)});
   }
 
-  /** A scene with its own choice of @p key, and with @p own. */
+  /** Run a scene as it is, and with @p key set to the class of a skeleton. */
   void
-  compare_with(const std::string &scene, const std::string &key, const std::string &own)
+  compare_with(const std::string              &scene,
+               const std::string              &key,
+               const std::string              &own,
+               const std::vector<std::string> &overrides = {})
   {
-    const std::string text  = file_text("tests/" + scene + ".prm");
-    const RunSummary  right = run_scene(text, scene, {}),
-                     run    = run_scene(text, scene, {key + '=' + own});
+    const std::string        text  = file_text("tests/" + scene + ".prm");
+    const RunSummary         right = run_scene(text, scene, overrides);
+    std::vector<std::string> all   = overrides;
+    all.push_back(key + "=" + own);
+    const RunSummary run = run_scene(text, scene, all);
     say("  ",
         own,
         " in ",
@@ -126,13 +131,17 @@ main(int argc, char **argv)
   say("pairing");
   compare_with("patch_matching", "Contact pair interface/Pairing", "node to node");
   say("enforcement");
-  const std::string enforcement = "simple augmented lagrange";
-  slide("friction", "coulomb", {"Contact/Enforcement=" + enforcement});
+  slide("friction", "coulomb", {"Contact/Enforcement=simple augmented lagrange"});
   for (const std::string scene : {"small_sliding", "tied_shear", "sphere_obstacle"})
-    compare_with(scene, "Contact/Enforcement", enforcement);
+    compare_with(scene, "Contact/Enforcement", "simple augmented lagrange");
   say("geometry and reference solution");
   const RunSummary run = run_scene(wedge_scene, "wedge", {});
   say("  wedge", bound(": error of the force", run.errors.at("total_force"), 1e-6));
   say("linear solver");
   compare_with("small_sliding", "Linear solver/Type", "KLU");
+  say("preconditioner");
+  compare_with("small_sliding",
+               "Linear solver/Preconditioner",
+               "incomplete LU",
+               {"Linear solver/Type=Belos GMRES"});
 }

@@ -1,4 +1,4 @@
-// Pictures of the bodies and the uniform-stress reference: two boxes on top of
+// VTU output of the bodies and the uniform-stress reference: two boxes on top of
 // each other with the exact displacement of a uniform stress, for both degrees.
 
 #include <touchstone/output/volume_output.h>
@@ -131,7 +131,7 @@ end
                 if (line.find(pattern) != std::string::npos)
                   std::cout << line << std::endl;
           }
-        if (std::getenv("KEEP_PICTURES") == nullptr)
+        if (std::getenv("KEEP_VTU") == nullptr)
           std::filesystem::remove_all("volume_test");
       }
   }

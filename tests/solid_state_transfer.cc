@@ -164,12 +164,12 @@ end
       std::copy(one.begin(), one.end(), state);
     });
     const auto   same  = [&](const CellId &, unsigned int) { return one; };
-    const double work  = bodies.solid.plastic_dissipation();
+    const double work  = bodies.solid.dissipation();
     const auto   cells = bodies.forest.triangulation.n_global_active_cells();
     bodies.change(true);
     const auto   finer      = bodies.forest.triangulation.n_global_active_cells();
     const double refined    = bodies.difference(same);
-    const double work_after = bodies.solid.plastic_dissipation();
+    const double work_after = bodies.solid.dissipation();
     bodies.change(false);
     const auto   coarser   = bodies.forest.triangulation.n_global_active_cells();
     const double coarsened = bodies.difference(same);

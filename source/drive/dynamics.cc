@@ -289,7 +289,7 @@ namespace Touchstone
       lose_rebound(forces, result);
     result.kinetic = kinetic_energy(end_v);
     result.strain  = solid.strain_energy(u);
-    result.plastic = solid.has_history() ? solid.plastic_dissipation() : 0.;
+    result.plastic = solid.dissipation();
     result.contact += forces.obstacles_normal - work(old_normal, *forces.normal, at_end);
     result.friction +=
       forces.obstacles_tangential - work(old_tangential, *forces.tangential, at_end);

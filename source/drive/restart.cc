@@ -138,9 +138,11 @@ namespace Touchstone
     if (summary.motion)
       archive.put("motion", *summary.motion);
     archive.put("statistics", statistics.rows());
+    archive.put("quantities", statistics.memories());
+    archive.put("last quantities", statistics.for_summary());
     archive.put("volume pictures", volume_output.series().list());
     archive.put("contact pictures", contact_output.series().list());
-    archive.put("last picture", last_picture);
+    archive.put("last picture", last_vtu_step);
     problem->save(archive);
     const std::string name = checkpoints.write(archive.piece(),
                                                position.step - 1,
@@ -234,10 +236,16 @@ namespace Touchstone
     if (summary.motion)
       summary.motion = archive.get<Motion>("motion");
 
-    statistics.restore(archive.get<TableHandler>("statistics"));
-    volume_output.series().restore(archive.get<PictureSeries::List>("volume pictures"));
-    contact_output.series().restore(archive.get<PictureSeries::List>("contact pictures"));
-    last_picture = archive.get<unsigned int>("last picture");
+    // Checkpoints of earlier versions have no quantities but the table.
+    const bool any_quantities = archive.has("quantities");
+    statistics.restore(archive.get<TableHandler>("statistics"),
+                       any_quantities ? archive.get<Statistics::Memories>("quantities")
+                                      : Statistics::Memories(),
+                       any_quantities ? archive.get<std::vector<StepValue>>("last quantities")
+                                      : std::vector<StepValue>());
+    volume_output.series().restore(archive.get<VtuSeries::List>("volume pictures"));
+    contact_output.series().restore(archive.get<VtuSeries::List>("contact pictures"));
+    last_vtu_step = archive.get<unsigned int>("last picture");
     if (archive.has("warnings")) // not in checkpoints of earlier versions
       {
         warnings.restore(archive.get<std::vector<std::string>>("warnings"));

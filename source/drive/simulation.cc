@@ -151,12 +151,12 @@ namespace Touchstone
 
 
   void
-  Simulation::write_pictures(const unsigned int step, const double time)
+  Simulation::write_vtu(const unsigned int step, const double time)
   {
-    if (last_picture == step)
+    if (last_vtu_step == step)
       return;
     TimerOutput::Scope scope(timer, "output");
-    last_picture       = step;
+    last_vtu_step      = step;
     const Vector u     = problem->ghosted_displacement();
     const auto   rates = problem->time_integration().rates();
     Vector       velocity;
@@ -178,10 +178,13 @@ namespace Touchstone
                           const unsigned int newton,
                           const unsigned int cuts)
   {
-    const Vector u       = problem->ghosted_displacement();
-    const auto   results = pair_results(problem->contact_state(), u);
-    StepRecord   record;
-    record.step              = step;
+    const Vector  u       = problem->ghosted_displacement();
+    const auto    results = pair_results(problem->contact_state(), u);
+    ConvergedStep record;
+    record.solid             = &solid;
+    record.displacement      = &u;
+    record.points            = contact_points(problem->contact_state(), u);
+    record.number            = step;
     record.time              = time;
     record.step_size         = size;
     record.newton_iterations = newton;
@@ -205,7 +208,7 @@ namespace Touchstone
     const Energies &energies  = problem->time_integration().committed_energies();
     record.energies["strain"] = energies.strain;
     if (solid.has_history())
-      record.energies["plastic"] = energies.plastic;
+      record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
     if (problem->time_integration().dynamic())
       {
         record.energies["kinetic"]       = energies.kinetic;
@@ -235,9 +238,11 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);
     }
+    for (const auto &observer : observers)
+      observer(record);
     const unsigned int interval = scene.output.vtu_interval;
     if (interval > 0 && step % interval == 0)
-      write_pictures(step, time);
+      write_vtu(step, time);
   }
 
 
@@ -271,7 +276,7 @@ namespace Touchstone
   Simulation::stop(const std::string &reason, const Position &position)
   {
     summary.failure = reason;
-    write_pictures(position.step - 1, position.time);
+    write_vtu(position.step - 1, position.time);
     write_last_checkpoint(position);
   }
 
@@ -375,7 +380,7 @@ namespace Touchstone
           }
       }
     if (scene.output.vtu_interval > 0)
-      write_pictures(step - 1, time);
+      write_vtu(step - 1, time);
     write_last_checkpoint({time, size, step, cuts});
     summary.converged = true;
   }
@@ -425,7 +430,8 @@ namespace Touchstone
   {
     check_lost_contact();
     finish_summary();
-    summary.warnings = warnings.list();
+    summary.quantities = statistics.for_summary();
+    summary.warnings   = warnings.list();
     if (summary.ranks > 1)
       log.line(summary.balance_line());
     TimerOutput::Scope scope(timer, "output");

@@ -83,7 +83,7 @@ namespace Touchstone
       {
         Energies result = committed;
         result.strain   = solid.strain_energy(u);
-        result.plastic  = solid.has_history() ? solid.plastic_dissipation() : 0.;
+        result.plastic  = solid.dissipation();
         return result;
       }
 

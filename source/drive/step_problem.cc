@@ -156,6 +156,8 @@ namespace Touchstone
     loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
+    // Last: what came before looked at the committed state.
+    solid.begin_step(time - committed_time);
   }
 
 

@@ -38,7 +38,7 @@ namespace Touchstone
                "is made for degree 1, but 'Discretisation/Degree' is " +
                  std::to_string(scene.discretisation.degree),
                "take the element 'automatic' or 'full', or degree 1"},
-              {type == ElementType::incompatible_modes && material.plastic() &&
+              {type == ElementType::incompatible_modes && !material.linear() &&
                  !material.finite_strain(),
                section,
                "Element",

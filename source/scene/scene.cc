@@ -152,7 +152,7 @@ namespace Touchstone
         declare_choices_in(body.section(), body);
       }
     for (ObstacleParameters &obstacle : obstacles)
-      declare_in(obstacle.section(), obstacle);
+      declare_choices_in(obstacle.section(), obstacle);
     for (ContactPairParameters &pair : pairs)
       declare_choices_in(pair.section(), pair);
     declare_choices_in("Contact", contact);

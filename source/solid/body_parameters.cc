@@ -36,7 +36,7 @@ namespace Touchstone
   {
     return degree > 1                 ? ElementType::full
            : material.finite_strain() ? ElementType::f_bar
-           : material.plastic()       ? ElementType::b_bar
+           : !material.linear()       ? ElementType::b_bar
                                       : ElementType::incompatible_modes;
   }
 

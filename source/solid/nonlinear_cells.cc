@@ -27,6 +27,7 @@ namespace Touchstone
               std::make_unique<SmallStrainKernel>(fe.degree, body.element(), body.material);
           any_body      = true;
           any_history   = any_history || kernels[b]->n_state() > 0;
+          any_plastic   = any_plastic || kernels[b]->material()->plastic();
           all_symmetric = all_symmetric && kernels[b]->material()->symmetric();
         }
   }
@@ -83,6 +84,16 @@ namespace Touchstone
             }
         }
     present = committed;
+  }
+
+
+
+  void
+  NonlinearCells::set_step_length(const double length)
+  {
+    for (const auto &kernel : kernels)
+      if (kernel)
+        kernel->set_step_length(length);
   }
 
 

@@ -137,7 +137,8 @@ namespace Touchstone
   Solid::check_solved(const bool solved) const
   {
     if (has_history() && Utilities::MPI::min(solved ? 1 : 0, communicator) == 0)
-      throw MaterialFailure("the plastic strain of some point could not be found");
+      throw MaterialFailure(plastic() ? "the plastic strain of some point could not be found"
+                                      : "a material law has no answer at some point");
   }
 
 
@@ -281,14 +282,14 @@ namespace Touchstone
 
 
   double
-  Solid::plastic_dissipation() const
+  Solid::dissipation() const
   {
     double sum = 0.;
     if (!has_history())
       return sum;
     nonlinear->for_each_state(
-      [&](unsigned int, unsigned int, const double volume, const double *state) {
-        sum += volume * state[MaterialLaw::plastic_work];
+      [&](const unsigned int body, unsigned int, const double volume, const double *state) {
+        sum += volume * history_law(body)->dissipation(state);
       });
     return Utilities::MPI::sum(sum, communicator);
   }
@@ -300,12 +301,14 @@ namespace Touchstone
   {
     const unsigned int     n = dof_handler.get_triangulation().n_active_cells();
     dealii::Vector<double> result(n), volumes(n);
-    if (has_history())
-      nonlinear->for_each_state(
-        [&](unsigned int, const unsigned int cell, const double volume, const double *state) {
-          result(cell) += volume * state[MaterialLaw::plastic_strain];
-          volumes(cell) += volume;
-        });
+    if (plastic())
+      nonlinear->for_each_state([&](const unsigned int body,
+                                    const unsigned int cell,
+                                    const double       volume,
+                                    const double      *state) {
+        result(cell) += volume * history_law(body)->plastic_strain(state);
+        volumes(cell) += volume;
+      });
     for (unsigned int i = 0; i < n; ++i)
       if (volumes(i) > 0.)
         result(i) /= volumes(i);
@@ -319,12 +322,13 @@ namespace Touchstone
   {
     std::map<unsigned int, double> result;
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (history_law(b))
+      if (const auto law = history_law(b); law && law->plastic())
         result[b] = 0.;
-    if (has_history())
+    if (plastic())
       nonlinear->for_each_state(
         [&](const unsigned int body, unsigned int, double, const double *state) {
-          result[body] = std::max(result[body], state[MaterialLaw::plastic_strain]);
+          if (const auto found = result.find(body); found != result.end())
+            found->second = std::max(found->second, history_law(body)->plastic_strain(state));
         });
     for (auto &[body, value] : result)
       value = Utilities::MPI::max(value, communicator);

@@ -4,6 +4,7 @@
 #include <touchstone/contact/results.h>
 #include <touchstone/output/json.h>
 #include <touchstone/output/motion.h>
+#include <touchstone/output/step_quantity.h>
 
 #include <cstdint>
 #include <iosfwd>
@@ -128,6 +129,8 @@ namespace Touchstone
     std::map<std::string, std::map<std::string, dealii::Tensor<1, dim>>> reactions;
     /** Largest equivalent plastic strain of bodies that have one, by name; no unit. */
     std::map<std::string, double> plastic_strain;
+    /** Those of registered StepQuantity classes at the last step. */
+    std::vector<StepValue> quantities;
     /** Relative errors against the reference solution; no unit. */
     std::map<std::string, double> errors;
     /** Only where there is inertia. */

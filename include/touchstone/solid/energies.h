@@ -16,7 +16,7 @@ namespace Touchstone
   struct Energies
   {
     double kinetic = 0., strain = 0.;
-    /** Dissipated by plastic flow. */
+    /** Dissipated by materials, by plastic flow for example. */
     double plastic = 0.;
     /** Work against the normal contact forces: taken by impacts, or stored in
      * springs of a penalty. */
