@@ -23,7 +23,7 @@ namespace Touchstone
   void
   StepProblem::forget()
   {
-    solver->forget();
+    solver->clear_cache();
     // The tangent tells how large round-off is in the forces of finite strains.
     if (!solid.linear())
       solid.assemble(u);
