@@ -57,7 +57,7 @@ namespace Touchstone
       }
 
       void
-      forget() override
+      clear_cache() override
       {
         factors.clear();
       }

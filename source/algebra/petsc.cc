@@ -469,7 +469,7 @@ namespace Touchstone
       }
 
       void
-      forget() override
+      clear_cache() override
       {
         kept.reset();
       }

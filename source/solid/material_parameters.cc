@@ -11,20 +11,16 @@ namespace Touchstone
 
   namespace
   {
+    /** Whether the law called @p name has plastic flow: the law knows. */
     bool
-    has_plasticity(const std::string &law)
+    has_plasticity(const std::string &name, const MaterialParameters &material)
     {
-      return SmallStrainRegistry::knows(law) || FiniteStrainRegistry::knows(law);
+      return (SmallStrainRegistry::knows(name) &&
+              SmallStrainRegistry::make(name, material)->plastic()) ||
+             (FiniteStrainRegistry::knows(name) &&
+              FiniteStrainRegistry::make(name, material)->plastic());
     }
   } // namespace
-
-
-
-  bool
-  MaterialParameters::plastic() const
-  {
-    return has_plasticity(law.name);
-  }
 
 
 
@@ -70,7 +66,7 @@ namespace Touchstone
                       "stiffness of the undeformed body: it also resists finite rotations. [time]",
                       Patterns::Double(0.));
     law.declare_own_keys(prm);
-    if (!has_plasticity(law.chosen()))
+    if (!has_plasticity(law.chosen(), *this))
       return;
     prm.enter_subsection("Plasticity");
     hardening_type.declare_key(

@@ -15,21 +15,8 @@ namespace Touchstone
    * @brief Keys of a linear solver or preconditioner of its own, in the section "Linear solver";
    * registered under the name of that solver or preconditioner.
    */
-  class LinearSolverOptions
+  class LinearSolverOptions : public PluginParameters
   {
-  public:
-    virtual ~LinearSolverOptions() = default;
-
-    /** @brief Declare the keys, whose defaults are the present values. Their names are unlike
-     * those of all others of the section. */
-    virtual void
-    declare(dealii::ParameterHandler &prm) = 0;
-
-    /** @brief Called if the scene uses them. @throws InputError */
-    virtual void
-    check(const std::string & /*section*/) const
-    {
-    }
   };
 
   using LinearSolverOptionsRegistry = Registry<LinearSolverOptions>;

@@ -1,5 +1,5 @@
-#ifndef touchstone_output_picture_series_h
-#define touchstone_output_picture_series_h
+#ifndef touchstone_output_vtu_series_h
+#define touchstone_output_vtu_series_h
 
 #include <touchstone/base/folder.h>
 
@@ -13,21 +13,21 @@
 namespace Touchstone
 {
   /**
-   * @brief The files of a sequence of pictures: NAME_0007.vtu (serial), or
-   * NAME_0007.pvtu with a piece NAME_0007.RANK.vtu for each rank, and NAME.pvd
-   * that says which picture belongs to which time.
+   * @brief The files of a sequence of VTU files: NAME_0007.vtu (serial), or
+   * NAME_0007.pvtu with one file NAME_0007.RANK.vtu for each rank, and NAME.pvd
+   * that says which file belongs to which time.
    *
    * deal.II's own write_vtu_with_pvtu_record() leaves the other ranks waiting if
    * the disk is full for one of them.
    */
-  class PictureSeries
+  class VtuSeries
   {
   public:
     /** @param folder Must outlive this object.
      * @param name   Common beginning of the file names. */
-    PictureSeries(const OutputFolder &folder, const std::string &name);
+    VtuSeries(const OutputFolder &folder, const std::string &name);
 
-    /** @brief Write the picture of one step; its flags are set by the caller.
+    /** @brief Write the file of one step; its flags are set by the caller.
      * Collective. @throws OutputError */
     template <int patch_dim>
     void
@@ -51,7 +51,7 @@ namespace Touchstone
       return times_and_names;
     }
 
-    /** @brief Go on after pictures that were written before. Collective.
+    /** @brief Continue after files that were written before. Collective.
      * @throws OutputError */
     void
     restore(const List &before);
