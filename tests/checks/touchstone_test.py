@@ -246,7 +246,8 @@ def same(a, b, tolerance, newton=False, **factors):
     second = b.figures()
     problems, worst, compared = [], 0.0, 0
     if set(first) != set(second):
-        problems.append(f"not the same figures: {sorted(map(str, set(first) ^ set(second)))}")
+        others = sorted("/".join(map(str, path)) for path in set(first) ^ set(second))
+        problems.append(f"not the same figures: {', '.join(others)}")
     largest = {}
     for kind, value in first.values():
         largest[kind] = max(largest.get(kind, 0), abs(value))
