@@ -3,7 +3,7 @@
 #
 # Usage: contrib/check_sources.sh format    all sources are formatted by .clang-format
 #        contrib/check_sources.sh layers    no #include runs against the order of the folders
-#        contrib/check_sources.sh patches   the patches of contrib/mutations fit the sources
+#        contrib/check_sources.sh mutations the faults of contrib/mutations fit the sources
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 cd "$root"
@@ -27,7 +27,7 @@ format()
 
 case ${1-} in
   format) format ;;
-  layers) contrib/check_layers ;;
-  patches) python3 contrib/mutations --check ;;
+  layers) python3 contrib/check_layers ;;
+  mutations) python3 contrib/mutations --check ;;
   *) sed -n '2,6s/^# *//p' "$0" >&2; exit 2 ;;
 esac
