@@ -81,6 +81,16 @@ namespace Touchstone
     /** Beyond an edge by more than this a point lies in the wedge over it. */
     constexpr double in_wedge = 1e-6;
 
+    /** By the reach of a search: a point lies on the line of an edge, and the direction from there
+     * says nothing. */
+    constexpr double on_the_edge_line = 1e-8;
+
+    /** Squares of distances, relative to each other, that are equal up to round-off. */
+    constexpr double equal_squares = 1e-12;
+
+    /** By the length of the step: faces that meet in an edge are passed at the same time. */
+    constexpr double same_time = 1e-8;
+
     /** Closer than this surfaces touch, inside or outside: there are states in balance with gaps of
      * this size, by Newton's tolerance and the geometry of facets. */
     constexpr double touching = 1e-3;
@@ -138,6 +148,9 @@ namespace Touchstone
     /** Common parts of projected faces that are smaller by area are round-off, and so are corners
      * that cut off less than the second. */
     constexpr double sliver = 1e-12, flat_corner = 1e-9;
+
+    /** Areas, relative to each other, that are equal up to round-off. */
+    constexpr double equal_areas = 1e-9;
 
     /** A master face lies behind another if that covers this part of it; otherwise beside it. */
     constexpr double behind = 0.1;

@@ -56,7 +56,7 @@ namespace Touchstone
         const auto points = differentiated_overlap<n>(slave.face(), *face);
         if (points.empty())
           continue;
-        const Master &master = masters.try_emplace(face, search.geometry(*face)).first->second;
+        const Master &master = masters.try_emplace(face, exchange.geometry(*face)).first->second;
         auto         &part   = parts.emplace_back(master.geometry);
         for (const auto &point : points)
           part.add(point, on_slave, master.differentiator);
@@ -81,15 +81,15 @@ namespace Touchstone
     std::vector<const Face *> needed;
     for (const auto &[face, master] : masters)
       needed.push_back(face);
-    const Derivatives of_masters = search.normal_derivatives(needed);
+    const Derivatives of_masters = exchange.normal_derivatives(needed);
     Derivatives       of_slaves;
-    if (slave_search)
+    if (slave_exchange)
       {
         needed.clear();
         for (const auto &[node, row] : rows)
           for (const std::uint64_t key : row.slave_faces())
-            needed.push_back(slave_search->face(key));
-        of_slaves = slave_search->normal_derivatives(needed);
+            needed.push_back(slave_exchange->face(key));
+        of_slaves = slave_exchange->normal_derivatives(needed);
       }
 
     const auto of_face = [](const Derivatives &derivatives, const Face *face) {
@@ -98,9 +98,10 @@ namespace Touchstone
     };
     std::unordered_map<Index, std::shared_ptr<const RowDerivative>> result;
     for (auto &[node, row] : rows)
-      result[node] =
-        row.finish([&](const Face *face) { return of_face(of_masters, face); },
-                   [&](const std::uint64_t key) { return &of_slaves.at(slave_search->face(key)); });
+      result[node] = row.finish([&](const Face *face) { return of_face(of_masters, face); },
+                                [&](const std::uint64_t key) {
+                                  return &of_slaves.at(slave_exchange->face(key));
+                                });
     return result;
   }
 } // namespace Touchstone

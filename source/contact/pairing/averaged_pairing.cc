@@ -46,7 +46,7 @@ namespace Touchstone
                  Tolerances::negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
         , kind(master_normal(input.parameters->master_normal))
-        , tied(input.parameters->behaviour == "tied")
+        , tied(input.parameters->behaviour.name == "tied")
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           row_of_node.emplace(node.node, static_cast<int>(row_of_node.size()));
@@ -80,8 +80,10 @@ namespace Touchstone
         // facets that stray from their surface to one that does not. The normals of
         // faces of ghost cells are known to their owners only.
         if (kind == MasterNormal::smoothed)
-          slave_search = std::make_unique<Search>(
-            *input.slave, input.slave->largest_face(), 0., kind, input.solid->communicator);
+          slave_exchange = std::make_unique<FaceExchange>(*input.slave,
+                                                          input.slave->largest_face(),
+                                                          kind,
+                                                          input.solid->communicator);
       }
 
       void
@@ -117,8 +119,8 @@ namespace Touchstone
       search_work() const override
       {
         SearchWork work = search.work();
-        if (slave_search)
-          work += slave_search->work();
+        if (slave_exchange)
+          work += slave_exchange->work();
         return work;
       }
 
@@ -128,8 +130,8 @@ namespace Touchstone
       MasterNormal kind;
       /** Rows of tied pairs act once and for all: there is nothing to be smooth. */
       const bool tied;
-      /** Only for its exchange of faces, and only if they are smoothed. */
-      std::unique_ptr<Search> slave_search;
+      /** The slave faces, only if they are smoothed. */
+      std::unique_ptr<FaceExchange> slave_exchange;
 
       /** Of the last update: sums in the order of the owned nodes, and the slave faces
        * around them, in the order of `faces`. */
@@ -206,7 +208,7 @@ namespace Touchstone
     const FaceGeometry &
     AveragedPairing::geometry(const Face &master)
     {
-      auto &result = geometries[search.place(master)];
+      auto &result = geometries[search.exchange().index(master)];
       if (!result)
         result.emplace(search.geometry(master));
       return *result;
@@ -223,7 +225,7 @@ namespace Touchstone
         close = (present[i] - searched[i]).norm_square() <= square;
       if (Utilities::MPI::min(close ? 1 : 0, input.solid->communicator) == 1)
         return;
-      facing.look_anew();
+      facing.invalidate();
       searched = present;
     }
 
@@ -366,12 +368,12 @@ namespace Touchstone
             }
         }
       search.update(positions);
-      if (slave_search)
+      if (slave_exchange)
         {
-          slave_search->update(positions);
+          slave_exchange->update(positions);
           for (CoveredFace &covered : slave_faces)
             {
-              const Face &complete       = *slave_search->face(covered.slave.key);
+              const Face &complete       = *slave_exchange->face(covered.slave.key);
               covered.slave.normals      = complete.normals;
               covered.slave.edge_normals = complete.edge_normals;
               covered.slave.own_normals  = complete.own_normals;
@@ -431,7 +433,7 @@ namespace Touchstone
     void
     AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
-      AveragedDerivative derivative(search, slave_search.get(), /*gradual=*/!tied);
+      AveragedDerivative derivative(search.exchange(), slave_exchange.get(), /*gradual=*/!tied);
       for (const ContactRow &row : rows)
         if (row.active())
           derivative.add_row(row.slave,

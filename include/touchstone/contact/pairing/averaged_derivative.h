@@ -2,7 +2,7 @@
 #define touchstone_contact_pairing_averaged_derivative_h
 
 #include <touchstone/contact/pairing/averaged_row_derivative.h>
-#include <touchstone/contact/search/search.h>
+#include <touchstone/contact/search/face_exchange.h>
 
 #include <unordered_map>
 #include <vector>
@@ -20,13 +20,15 @@ namespace Touchstone
   class AveragedDerivative
   {
   public:
-    /** @param search       Of the master surface.
-     * @param slave_search Of the slave surface; needed where its faces are smoothed,
+    /** @param exchange       Of the master surface.
+     * @param slave_exchange Of the slave surface; needed where its faces are smoothed,
      *                     or null. Both must live as long.
      * @param gradual      Of the CoverShares. */
-    AveragedDerivative(const Search &search, const Search *slave_search, const bool gradual)
-      : search(search)
-      , slave_search(slave_search)
+    AveragedDerivative(const FaceExchange &exchange,
+                       const FaceExchange *slave_exchange,
+                       const bool          gradual)
+      : exchange(exchange)
+      , slave_exchange(slave_exchange)
       , gradual(gradual)
     {
     }
@@ -73,8 +75,8 @@ namespace Touchstone
       }
     };
 
-    const Search                                    &search;
-    const Search                                    *slave_search;
+    const FaceExchange                              &exchange;
+    const FaceExchange                              *slave_exchange;
     const bool                                       gradual;
     std::unordered_map<Index, AveragedRowDerivative> rows;
     std::unordered_map<const Face *, Master>         masters;

@@ -1,6 +1,7 @@
 #ifndef touchstone_contact_pairing_dual_basis_h
 #define touchstone_contact_pairing_dual_basis_h
 
+#include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/pairing/partial_cover.h>
 
 #include <deal.II/base/table.h>

@@ -1,6 +1,7 @@
 #ifndef touchstone_contact_pairing_overlap_integrals_h
 #define touchstone_contact_pairing_overlap_integrals_h
 
+#include <touchstone/contact/geometry/value_of.h>
 #include <touchstone/contact/pairing/overlap_sample.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -12,20 +13,6 @@
 
 namespace Touchstone
 {
-  /** @brief The value of a number that may carry derivatives. */
-  inline double
-  value_of(const double x)
-  {
-    return x;
-  }
-
-  template <int n>
-  double
-  value_of(const Sacado::Fad::SFad<double, n> &x)
-  {
-    return x.val();
-  }
-
   /** @brief The columns of OverlapIntegrals::q; those of the master nodes come last. */
   namespace OverlapColumns
   {
