@@ -1,7 +1,9 @@
 #include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact_parameters.h>
+#include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/friction/friction_law.h>
+#include <touchstone/contact/pairing/pairing.h>
 
 #include <cmath>
 #include <set>
@@ -20,7 +22,7 @@ namespace Touchstone
 
 
   void
-  ContactPairParameters::declare(ParameterHandler &prm, const std::string &behaviour_name)
+  ContactPairParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
     prm.add_parameter("Slave body",
                       slave_body,
@@ -43,27 +45,25 @@ namespace Touchstone
                       "Name of the rigid obstacle that must not be penetrated; "
                       "empty if it is a body.",
                       Patterns::Anything());
-    // The names of the formulations are repeated here, and not asked from
-    // their registries, so that the scene does not depend on contact.
-    prm.add_parameter("Pairing",
-                      pairing,
-                      "How rows are made of surfaces: 'pointwise' projects each "
-                      "slave node onto the master surface; 'averaged' averages over the "
-                      "slave faces with a dual basis and passes the patch test. An "
-                      "obstacle needs neither.",
-                      Patterns::Selection("averaged|pointwise"));
-    prm.add_parameter("Behaviour",
-                      behaviour,
-                      "'frictionless' contact; 'tied' once and for all where the surfaces "
-                      "face each other; or a friction law, whose own keys stand in the "
-                      "subsection 'Friction': " +
-                        FrictionLawRegistry::documentation(),
-                      Patterns::Selection("frictionless|tied|" + FrictionLawRegistry::selection()));
-    if (FrictionLawRegistry::records().count(behaviour_name) > 0)
+    pairing.declare_key(prm,
+                        values,
+                        "Pairing",
+                        "How rows are made of surfaces: 'pointwise' projects each "
+                        "slave node onto the master surface; 'averaged' averages over the "
+                        "slave faces with a dual basis and passes the patch test. An "
+                        "obstacle needs neither.");
+    behaviour.declare_key(prm,
+                          values,
+                          "Behaviour",
+                          "'frictionless' contact; 'tied' once and for all where the surfaces "
+                          "face each other; or a friction law, whose own keys stand in the "
+                          "subsection 'Friction':",
+                          {"frictionless", "tied"});
+    friction = behaviour.make();
+    if (friction)
       {
-        friction = FrictionLawRegistry::make(behaviour_name);
         prm.enter_subsection("Friction");
-        friction->declare(prm);
+        behaviour.declare_own_keys(prm);
         prm.leave_subsection();
       }
     prm.add_parameter("Initial overlap",
@@ -104,6 +104,7 @@ namespace Touchstone
                       "How far beyond the edge of the master surface a slave node "
                       "is still held, as a fraction of the face. [no unit]",
                       Patterns::Double(0., 1.));
+    pairing.declare_own_keys(prm);
   }
 
 
@@ -135,8 +136,8 @@ namespace Touchstone
                        "",
                        "the list is empty",
                        "name the boundaries of '" + master_body + "' that come into contact");
-    if (friction)
-      friction->check(section + "/Friction");
+    behaviour.check(section + "/Friction");
+    pairing.check(section);
     if (!obstacle.empty() && !master_boundaries.empty())
       throw InputError(section,
                        "Master boundaries",
@@ -172,17 +173,16 @@ namespace Touchstone
 
 
   void
-  ContactParameters::declare(ParameterHandler &prm)
+  ContactParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
-    prm.add_parameter("Enforcement",
-                      enforcement,
-                      "How contact is enforced: 'elimination' of the slave unknowns, which "
-                      "leaves a system for any linear solver; "
-                      "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
-                      "'augmented lagrange', springs whose forces grow until the gaps close; "
-                      "or 'penalty', springs that leave a penetration.",
-                      Patterns::Selection(
-                        "elimination|lagrange multipliers|augmented lagrange|penalty"));
+    enforcement.declare_key(prm,
+                            values,
+                            "Enforcement",
+                            "How contact is enforced: 'elimination' of the slave unknowns, which "
+                            "leaves a system for any linear solver; "
+                            "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
+                            "'augmented lagrange', springs whose forces grow until the gaps close; "
+                            "or 'penalty', springs that leave a penetration.");
     prm.add_parameter("Penalty factor",
                       penalty_factor,
                       "Multiplies the automatic stiffness of the springs, which is Young's "
@@ -213,6 +213,7 @@ namespace Touchstone
                       "where a direct solver takes unsymmetric systems, and for the rest of a step "
                       "in which a frozen iteration has gained little.",
                       Patterns::Selection("automatic|consistent|frozen"));
+    enforcement.declare_own_keys(prm);
   }
 
 
@@ -220,6 +221,7 @@ namespace Touchstone
   void
   ContactParameters::check(const std::string &section) const
   {
+    enforcement.check(section);
     if (!(penalty_factor > 0.) || !std::isfinite(penalty_factor))
       throw InputError(section,
                        "Penalty factor",

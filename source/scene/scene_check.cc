@@ -66,10 +66,10 @@ namespace Touchstone
     linear_solver.check("Linear solver");
     output.check("Output");
 
-    if (contact.enforcement == "lagrange multipliers" && !linear_solver.takes_multipliers())
+    if (contact.enforcement.name == "lagrange multipliers" && !linear_solver.takes_multipliers())
       throw InputError("Contact",
                        "Enforcement",
-                       contact.enforcement,
+                       contact.enforcement.name,
                        "multipliers make the system indefinite, which '" + linear_solver.type +
                          "' cannot solve",
                        "set 'Contact/Enforcement = elimination' or "
@@ -198,13 +198,13 @@ namespace Touchstone
     if (!pair.obstacle.empty())
       check_name(section, "Obstacle", pair.obstacle, "Obstacles", names(obstacles));
     pair.check(section);
-    if (pair.behaviour == "tied" && pair.initial_overlap != "interference")
+    if (pair.tied() && pair.initial_overlap != "interference")
       throw InputError(section,
                        "Initial overlap",
                        pair.initial_overlap,
                        "a tied pair holds the bodies as they are placed",
                        "remove the key");
-    if (pair.behaviour == "tied" && pair.sliding == "finite")
+    if (pair.tied() && pair.sliding == "finite")
       throw InputError(section,
                        "Sliding",
                        pair.sliding,

@@ -1,5 +1,6 @@
 #include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/solid/body_parameters.h>
 
@@ -53,7 +54,7 @@ namespace Touchstone
 
 
   void
-  BodyParameters::declare(ParameterHandler &prm, const std::string &geometry_type)
+  BodyParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
     prm.add_parameter("Element",
                       element_name,
@@ -104,20 +105,24 @@ namespace Touchstone
 
     prm.enter_subsection("Geometry");
     {
-      geometry_name = geometry_type;
-      geometry      = GeometryRegistry::make(geometry_type);
-      prm.add_parameter("Type",
-                        geometry_name,
-                        "The shape of the body, which decides on the other keys "
-                        "here. " +
-                          GeometryRegistry::documentation(),
-                        Patterns::Selection(GeometryRegistry::selection()));
-      geometry->declare(prm);
+      geometry_type.declare_key(prm,
+                                values.in("Geometry"),
+                                "Type",
+                                "The shape of the body, which decides on the other keys here.");
+      if (!GeometryRegistry::knows(geometry_type.chosen()))
+        throw InputError(section() + "/Geometry",
+                         "Type",
+                         geometry_type.chosen(),
+                         "there is no such geometry" +
+                           did_you_mean(geometry_type.chosen(), GeometryRegistry::names()),
+                         "take one of " + quoted_list(GeometryRegistry::names()));
+      geometry_type.declare_own_keys(prm);
+      geometry = geometry_type.make();
     }
     prm.leave_subsection();
 
     prm.enter_subsection("Material");
-    material.declare(prm);
+    material.declare(prm, values.in("Material"));
     prm.leave_subsection();
 
     for (const std::string &boundary : conditions)
@@ -146,21 +151,21 @@ namespace Touchstone
       throw InputError(section(),
                        "Element",
                        element_name,
-                       "has no plasticity, but 'Material/Law' is '" + material.law + "'",
+                       "has no plasticity, but 'Material/Law' is '" + material.law.name + "'",
                        "take the element 'automatic' or 'b-bar', degree 2, or the law 'linear "
                        "elastic'");
     if (material.finite_strain() && small_only)
       throw InputError(section(),
                        "Element",
                        element_name,
-                       "is for small strain, but 'Material/Law' is '" + material.law + "'",
+                       "is for small strain, but 'Material/Law' is '" + material.law.name + "'",
                        "take the element 'automatic', 'F-bar' or 'full', or the law "
                        "'linear elastic'");
     if (!material.finite_strain() && type == ElementType::f_bar)
       throw InputError(section(),
                        "Element",
                        element_name,
-                       "is for finite strain, but 'Material/Law' is '" + material.law + "'",
+                       "is for finite strain, but 'Material/Law' is '" + material.law.name + "'",
                        "take the element 'automatic', 'b-bar' or 'full', or another law");
   }
 
@@ -169,7 +174,7 @@ namespace Touchstone
   void
   BodyParameters::check(const unsigned int degree) const
   {
-    geometry->check(section() + "/Geometry");
+    geometry_type.check(section() + "/Geometry");
     material.check(section() + "/Material");
     check_element(degree);
     for (unsigned int d = 0; d < 3; ++d)

@@ -9,11 +9,21 @@ namespace Touchstone
   using dealii::ParameterHandler;
   namespace Patterns = dealii::Patterns;
 
+  namespace
+  {
+    bool
+    has_plasticity(const std::string &law)
+    {
+      return SmallStrainRegistry::knows(law) || FiniteStrainRegistry::knows(law);
+    }
+  } // namespace
+
+
+
   bool
   MaterialParameters::plastic() const
   {
-    return SmallStrainRegistry::records().count(law) > 0 ||
-           FiniteStrainRegistry::records().count(law) > 0;
+    return has_plasticity(law.name);
   }
 
 
@@ -21,30 +31,20 @@ namespace Touchstone
   bool
   MaterialParameters::finite_strain() const
   {
-    return !linear() && SmallStrainRegistry::records().count(law) == 0;
+    return !linear() && !SmallStrainRegistry::knows(law.name);
   }
 
 
 
   void
-  MaterialParameters::declare(ParameterHandler &prm)
+  MaterialParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
-    // What the scene has chosen decides on other keys, but is not the default of its own.
-    const MaterialParameters defaults;
-    const bool               has_plasticity   = plastic();
-    const std::string        chosen_hardening = hardening_name;
-    law                                       = defaults.law;
-    hardening_name                            = defaults.hardening_name;
-    prm.add_parameter("Law",
-                      law,
-                      "The material law, always isotropic. 'linear elastic': small "
-                      "strain and small rotations. " +
-                        HyperelasticRegistry::documentation() + ' ' +
-                        SmallStrainRegistry::documentation() + ' ' +
-                        FiniteStrainRegistry::documentation(),
-                      Patterns::Selection("linear elastic|" + HyperelasticRegistry::selection() +
-                                          '|' + SmallStrainRegistry::selection() + '|' +
-                                          FiniteStrainRegistry::selection()));
+    law.declare_key(prm,
+                    values,
+                    "Law",
+                    "The material law, always isotropic. 'linear elastic': small "
+                    "strain and small rotations.",
+                    {"linear elastic"});
     prm.add_parameter("Young modulus",
                       young_modulus,
                       "Young's modulus, greater than zero. Required. "
@@ -69,20 +69,17 @@ namespace Touchstone
                       "Damping force per elastic force of the same velocity field, with the "
                       "stiffness of the undeformed body: it also resists finite rotations. [time]",
                       Patterns::Double(0.));
-    if (!has_plasticity)
+    law.declare_own_keys(prm);
+    if (!has_plasticity(law.chosen()))
       return;
     prm.enter_subsection("Plasticity");
-    prm.add_parameter("Hardening",
-                      hardening_name,
-                      "Isotropic hardening: how the yield stress depends on the equivalent plastic "
-                      "strain p. " +
-                        HardeningLawRegistry::documentation(),
-                      Patterns::Selection(HardeningLawRegistry::selection()));
-    if (HardeningLawRegistry::records().count(chosen_hardening) > 0)
-      {
-        hardening = HardeningLawRegistry::make(chosen_hardening);
-        hardening->declare(prm);
-      }
+    hardening_type.declare_key(
+      prm,
+      values.in("Plasticity"),
+      "Hardening",
+      "Isotropic hardening: how the yield stress depends on the equivalent plastic strain p.");
+    hardening_type.declare_own_keys(prm);
+    hardening = hardening_type.make();
     prm.add_parameter("Kinematic modulus",
                       kinematic_modulus,
                       "Kinematic hardening, which may be added to the isotropic one: increase of "
@@ -117,6 +114,7 @@ namespace Touchstone
                        "must be greater than -1 and less than 0.5",
                        std::string("for incompressible material take 0.4999 with the element '") +
                          (finite_strain() ? "F-bar" : "b-bar") + "' or degree 2");
+    law.check(section);
     if (hardening)
       check_plasticity(section + "/Plasticity");
   }
@@ -126,7 +124,7 @@ namespace Touchstone
   void
   MaterialParameters::check_plasticity(const std::string &section) const
   {
-    hardening->check(section);
+    hardening_type.check(section);
     if (!(kinematic_modulus >= 0.))
       throw InputError(section,
                        "Kinematic modulus",

@@ -1,6 +1,8 @@
 #ifndef touchstone_contact_contact_parameters_h
 #define touchstone_contact_contact_parameters_h
 
+#include <touchstone/base/choice.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <memory>
@@ -9,7 +11,11 @@
 
 namespace Touchstone
 {
+  class Enforcement;
   class FrictionLaw;
+  class Pairing;
+  struct ContactParameters;
+  struct PairingInput;
 
   /** @brief Section "Contact pair NAME". */
   struct ContactPairParameters
@@ -21,11 +27,10 @@ namespace Touchstone
     std::string              master_body;
     std::vector<std::string> master_boundaries;
     std::string              obstacle;
-    /** Name under which the pairing is registered ("averaged"). */
-    std::string pairing = "averaged";
-    /** "frictionless", "tied", or the name under which a friction law is
-     * registered. */
-    std::string behaviour = "frictionless";
+    /** How rows are made; keys of its own stand beside the key. */
+    Choice<Registry<Pairing, const PairingInput &>> pairing{"averaged"};
+    /** "frictionless", "tied", or the name of a friction law. */
+    Choice<Registry<FrictionLaw>> behaviour{"frictionless"};
     /** The friction law with its own parameters read, subsection "Friction"; null
      * without friction. */
     std::shared_ptr<FrictionLaw> friction;
@@ -53,9 +58,16 @@ namespace Touchstone
     std::string
     section() const;
 
-    /** @param behaviour_name The behaviour that the scene sets, for its own keys. */
+    /** @brief Whether the bodies are joined where they face each other. */
+    bool
+    tied() const
+    {
+      return behaviour.name == "tied";
+    }
+
+    /** @param values Of this section: pairing and behaviour decide on other keys. */
     void
-    declare(dealii::ParameterHandler &prm, const std::string &behaviour_name);
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
   };
@@ -63,9 +75,8 @@ namespace Touchstone
   /** @brief Section "Contact": how all pairs of the scene are enforced. */
   struct ContactParameters
   {
-    /** Name under which the enforcement is registered
-     * ("elimination", "lagrange multipliers"). */
-    std::string enforcement = "elimination";
+    /** "elimination", "lagrange multipliers", ...; keys of its own stand beside the key. */
+    Choice<Registry<Enforcement, const ContactParameters &>> enforcement{"elimination"};
     /** Multiplies the automatic penalty (Young's modulus times tributary area over
      * face size, times 100 for penalty and 20 for augmented Lagrange); no unit. */
     double penalty_factor = 1.;
@@ -81,8 +92,9 @@ namespace Touchstone
      * solver allows it. */
     std::string linearisation = "automatic";
 
+    /** @param values Of this section: the enforcement decides on other keys. */
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
   };

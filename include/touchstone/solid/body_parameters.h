@@ -29,9 +29,8 @@ namespace Touchstone
   struct BodyParameters
   {
     std::string name;
-    /** Name under which the geometry is registered ("box", "tube", ...), the
-     * key "Type" of the subsection "Geometry". */
-    std::string geometry_name = "box";
+    /** The key "Type" of the subsection "Geometry" ("box", "tube", ...). */
+    Choice<Registry<Geometry>> geometry_type{"box"};
     /** The geometry with its own parameters read. */
     std::shared_ptr<Geometry> geometry;
     /** "full", "b-bar", "incompatible modes" or "F-bar"; "automatic" is replaced
@@ -70,12 +69,11 @@ namespace Touchstone
 
     /**
      * @brief Declare all entries, those of the geometry included; @p conditions
-     * must be known before, for it names subsections, and law and hardening of the
-     * material.
-     * @param geometry_type Name under which the geometry is registered.
+     * must be known before, for it names subsections.
+     * @param values Of this section: geometry, law and hardening decide on other keys.
      */
     void
-    declare(dealii::ParameterHandler &prm, const std::string &geometry_type);
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     /** @param degree Polynomial degree of the discretisation. */
     void
     check(unsigned int degree) const;

@@ -1,6 +1,8 @@
 #ifndef touchstone_solid_material_parameters_h
 #define touchstone_solid_material_parameters_h
 
+#include <touchstone/base/choice.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <memory>
@@ -9,14 +11,20 @@
 namespace Touchstone
 {
   class HardeningLaw;
+  class HyperelasticLaw;
+  class SmallStrainLaw;
+  class FiniteStrainLaw;
 
   /** @brief Section "Body NAME/Material": an isotropic elastic or elastoplastic material. */
   struct MaterialParameters
   {
     /** "linear elastic" (small strain) or the name of a HyperelasticLaw, a SmallStrainLaw
      * or a FiniteStrainLaw, whose constants are those of linear elasticity at the
-     * undeformed state. */
-    std::string law = "linear elastic";
+     * undeformed state; keys of its own stand beside them. */
+    Choice<Registry<HyperelasticLaw, const MaterialParameters &>,
+           Registry<SmallStrainLaw, const MaterialParameters &>,
+           Registry<FiniteStrainLaw, const MaterialParameters &>>
+      law{"linear elastic"};
     /** Young's modulus, force per area; must be positive. */
     double young_modulus = 0.;
     /** Poisson's ratio, -1 < nu < 0.5. */
@@ -29,10 +37,10 @@ namespace Touchstone
 
     /** @name Subsection "Plasticity", of plastic laws only */
     /** @{ */
-    /** Name under which the isotropic hardening is registered, and that with its own
-     * parameters read; null if the law is elastic. */
-    std::string                   hardening_name = "none";
-    std::shared_ptr<HardeningLaw> hardening;
+    /** The isotropic hardening, and that with its own parameters read; null if the law is
+     * elastic. */
+    Choice<Registry<HardeningLaw>> hardening_type{"none"};
+    std::shared_ptr<HardeningLaw>  hardening;
     /** C of Armstrong and Frederick, force per area, 0 for none; and gamma, no unit, 0 for
      * linear kinematic hardening. */
     double kinematic_modulus = 0., kinematic_recovery = 0.;
@@ -42,7 +50,7 @@ namespace Touchstone
     bool
     linear() const
     {
-      return law == "linear elastic";
+      return law.name == "linear elastic";
     }
     /** @brief Whether the law has history: it is a SmallStrainLaw or a FiniteStrainLaw. */
     bool
@@ -62,10 +70,10 @@ namespace Touchstone
     {
       return young_modulus / (3. * (1. - 2. * poisson_ratio));
     }
-    /** @brief Declare all entries; @p law and @p hardening_name must be known before, for
-     * they decide on others. */
+    /** @brief Declare all entries.
+     * @param values Of this section: law and hardening decide on other keys. */
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -121,7 +122,19 @@ namespace Touchstone
     const PairingInput input;
   };
 
+  /** @brief The pairings that the key "Pairing" of a contact pair names. */
   using PairingRegistry = Registry<Pairing, const PairingInput &>;
+
+  /** @brief The pairing with an obstacle. */
+  std::shared_ptr<Pairing>
+  make_obstacle_pairing(const PairingInput &input);
+
+  /** @brief The pairing that the parameters choose, or that with the obstacle. */
+  inline std::shared_ptr<Pairing>
+  make_pairing(const PairingInput &input)
+  {
+    return input.obstacle ? make_obstacle_pairing(input) : input.parameters->pairing.make(input);
+  }
 } // namespace Touchstone
 
 #endif
