@@ -1,6 +1,7 @@
 #ifndef touchstone_tests_drive_support_h
 #define touchstone_tests_drive_support_h
 
+#include <touchstone/contact/results.h>
 #include <touchstone/drive/step_problem.h>
 
 #include <deal.II/base/mpi.h>
@@ -72,8 +73,8 @@ end
         const std::vector<std::string> &overrides,
         const MPI_Comm                  communicator)
       : scene(text, "scene.prm", overrides)
-      , forest(scene, "", communicator)
-      , solid(scene, forest, communicator)
+      , forest(scene.forest_input(), "", communicator)
+      , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
       , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
       , problem(scene, forest, solid, timer)
     {

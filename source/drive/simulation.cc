@@ -1,5 +1,6 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/results.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/output/resources.h>
@@ -20,13 +21,14 @@ namespace Touchstone
     std::shared_ptr<ReferenceSolution>
     make_reference(const Scene &scene)
     {
-      if (ReferenceRegistry::records().count(scene.reference.type) == 0)
+      const std::shared_ptr<ReferenceSolution> result = scene.reference.type.make(scene);
+      if (!result)
         throw InputError("Reference solution",
                          "Type",
-                         scene.reference.type,
+                         scene.reference.type.name,
                          "there is no such reference solution",
                          "choose one of " + ReferenceRegistry::selection() + ".");
-      return ReferenceRegistry::make(scene.reference.type, scene);
+      return result;
     }
 
     std::string
@@ -57,10 +59,10 @@ namespace Touchstone
     , folder(scene.output.directory, communicator)
     , log(folder, terminal, resume)
     , warnings(log)
-    , forest(scene, folder_of_scene, communicator)
-    , solid(scene, forest, communicator)
+    , forest(scene.forest_input(), folder_of_scene, communicator)
+    , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
     , problem(std::make_unique<StepProblem>(scene, forest, solid, timer))
-    , refinement(scene, forest, solid)
+    , refinement(scene.refinement, forest, solid)
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
     , volume_output(solid, folder)
@@ -149,20 +151,20 @@ namespace Touchstone
 
 
   void
-  Simulation::write_pictures(const unsigned int step, const double time)
+  Simulation::write_vtu(const unsigned int step, const double time)
   {
-    if (last_picture == step)
+    if (last_vtu_step == step)
       return;
     TimerOutput::Scope scope(timer, "output");
-    last_picture       = step;
+    last_vtu_step      = step;
     const Vector u     = problem->ghosted_displacement();
     const auto   rates = problem->time_integration().rates();
     Vector       velocity;
     if (!rates.empty())
       velocity = solid.ghosted(*rates.front());
     volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time);
-    contact_output.write(problem->contact_state().faces(),
-                         problem->contact_state().points(u),
+    contact_output.write(contact_faces(problem->contact_state()),
+                         contact_points(problem->contact_state(), u),
                          step,
                          time);
   }
@@ -176,10 +178,13 @@ namespace Touchstone
                           const unsigned int newton,
                           const unsigned int cuts)
   {
-    const Vector u       = problem->ghosted_displacement();
-    const auto   results = problem->contact_state().results(u);
-    StepRecord   record;
-    record.step              = step;
+    const Vector  u       = problem->ghosted_displacement();
+    const auto    results = pair_results(problem->contact_state(), u);
+    ConvergedStep record;
+    record.solid             = &solid;
+    record.displacement      = &u;
+    record.points            = contact_points(problem->contact_state(), u);
+    record.number            = step;
     record.time              = time;
     record.step_size         = size;
     record.newton_iterations = newton;
@@ -203,7 +208,7 @@ namespace Touchstone
     const Energies &energies  = problem->time_integration().committed_energies();
     record.energies["strain"] = energies.strain;
     if (solid.has_history())
-      record.energies["plastic"] = energies.plastic;
+      record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
     if (problem->time_integration().dynamic())
       {
         record.energies["kinetic"]       = energies.kinetic;
@@ -233,9 +238,11 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);
     }
+    for (const auto &observer : observers)
+      observer(record);
     const unsigned int interval = scene.output.vtu_interval;
     if (interval > 0 && step % interval == 0)
-      write_pictures(step, time);
+      write_vtu(step, time);
   }
 
 
@@ -269,7 +276,7 @@ namespace Touchstone
   Simulation::stop(const std::string &reason, const Position &position)
   {
     summary.failure = reason;
-    write_pictures(position.step - 1, position.time);
+    write_vtu(position.step - 1, position.time);
     write_last_checkpoint(position);
   }
 
@@ -373,7 +380,7 @@ namespace Touchstone
           }
       }
     if (scene.output.vtu_interval > 0)
-      write_pictures(step - 1, time);
+      write_vtu(step - 1, time);
     write_last_checkpoint({time, size, step, cuts});
     summary.converged = true;
   }
@@ -389,7 +396,7 @@ namespace Touchstone
              summary.title);
     log.line(std::to_string(summary.cells) + " cells, " + std::to_string(summary.unknowns / dim) +
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
-             std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement + ", " +
+             std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement.name + ", " +
              scene.linear_solver.type);
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
@@ -423,7 +430,8 @@ namespace Touchstone
   {
     check_lost_contact();
     finish_summary();
-    summary.warnings = warnings.list();
+    summary.quantities = statistics.for_summary();
+    summary.warnings   = warnings.list();
     if (summary.ranks > 1)
       log.line(summary.balance_line());
     TimerOutput::Scope scope(timer, "output");
@@ -435,7 +443,7 @@ namespace Touchstone
   void
   Simulation::measure_balance()
   {
-    const Contact::Work                               work   = problem->contact_state().work();
+    const ContactWork                                 work = contact_work(problem->contact_state());
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
@@ -481,8 +489,8 @@ namespace Touchstone
         ReferenceInput input;
         input.solid                      = &solid;
         input.displacement               = &u;
-        input.points                     = problem->contact_state().points(u);
-        input.pair_results               = problem->contact_state().results(u);
+        input.points                     = contact_points(problem->contact_state(), u);
+        input.pair_results               = pair_results(problem->contact_state(), u);
         input.motion                     = summary.motion ? &*summary.motion : nullptr;
         input.communicator               = communicator;
         const ReferenceComparison result = reference->compare(input);
@@ -510,8 +518,8 @@ namespace Touchstone
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
-    const Forest forest(scene, folder_of_scene, communicator);
-    Solid        solid(scene, forest, communicator);
+    const Forest forest(scene.forest_input(), folder_of_scene, communicator);
+    Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     StepProblem  problem(scene, forest, solid, timer);
     // Up to the first linear system: finds bodies that nothing holds.

@@ -1,7 +1,9 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/drive/step_problem.h>
+#include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -23,8 +25,9 @@ namespace Touchstone
     bool
     consistent(const Scene &scene, const bool iterates)
     {
-      return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && scene.has_friction() && !iterates);
+      return scene.contact.linearisation == ContactParameters::Linearisation::consistent ||
+             (scene.contact.linearisation == ContactParameters::Linearisation::automatic &&
+              scene.has_friction() && !iterates);
     }
   } // namespace
 
@@ -37,9 +40,11 @@ namespace Touchstone
     : scene(scene)
     , solid(solid)
     , timer(timer)
-    , boundary_conditions(scene, forest, solid)
-    , contact(scene, forest, solid, boundary_conditions.mirrors())
-    , enforcement(EnforcementRegistry::make(scene.contact.enforcement, scene.contact))
+    , boundary_conditions(forest, solid)
+    , contact(pair_inputs(scene, forest, solid),
+              scene.contact,
+              solid,
+              boundary_conditions.mirrors())
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
     , u(solid.owned, solid.communicator)
     , committed_u(u)
@@ -56,20 +61,23 @@ namespace Touchstone
       solid.assemble();
       ++assemblies;
     }
-    modes = std::make_unique<RigidBodyModes>(scene, solid);
+    modes = std::make_unique<RigidBodyModes>(solid);
     std::set<Index> slaves;
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        if (!row.tied)
-          slaves.insert(dim * row.slave);
-    integration = TimeIntegration::make(scene, solid, slaves, committed_u);
+    for (const ContactRow &row : contact.rows())
+      if (!row.tied)
+        slaves.insert(dim * row.slave);
+    integration = TimeIntegration::make(scene.time_integration,
+                                        scene.load_stepping.end_time / scene.load_stepping.steps,
+                                        solid,
+                                        slaves,
+                                        committed_u);
     length      = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
     length      = Utilities::MPI::min(length, solid.communicator);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
     extent                 = Utilities::MPI::max(extent, solid.communicator);
-    const auto       boxes = body_boxes(scene, solid);
+    const auto       boxes = body_boxes(solid);
     BoundingBox<dim> all(boxes.front());
     for (const auto &box : boxes)
       all.merge_with(box);
@@ -114,7 +122,7 @@ namespace Touchstone
                                                   remove_supported(force);
                                                 }});
       }
-    return contact.start_report();
+    return start_report(contact);
   }
 
 
@@ -140,7 +148,7 @@ namespace Touchstone
   StepProblem::begin_step(const double t)
   {
     time = t;
-    enforcement->begin_step();
+    contact.enforcement().begin_step();
     integration->begin_step(time, u);
     touch_unknown = integration->dynamic();
     last_residual = 0.;
@@ -148,6 +156,8 @@ namespace Touchstone
     loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
+    // Last: what came before looked at the committed state.
+    solid.begin_step(time - committed_time);
   }
 
 
@@ -181,8 +191,8 @@ namespace Touchstone
   StepProblem::keep(const StepForces &forces, const Energies &end)
   {
     integration->commit(u, forces, end);
-    if (forces.pressing != nullptr)
-      contact.add_jumps(*forces.pressing, time - committed_time);
+    if (forces.velocity_constraints != nullptr)
+      contact.add_impulses(*forces.velocity_constraints, time - committed_time);
     committed_u    = u;
     committed_time = time;
     solid.commit();
@@ -200,22 +210,22 @@ namespace Touchstone
     if (!integration->dynamic())
       return use(StepForces());
     Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
-    contact.add_forces(normal, Contact::Part::normal);
-    contact.add_forces(tangential, Contact::Part::tangential);
+    contact.add_forces(normal, ForcePart::normal);
+    contact.add_forces(tangential, ForcePart::tangential);
     support *= -1.;
-    std::vector<PressingNode> pressing;
-    const bool                plastic = scene.time_integration.plastic_impacts();
+    std::vector<VelocityConstraint> constraints;
+    const bool                      plastic = scene.time_integration.plastic_impacts();
     if (plastic && time > committed_time)
-      pressing = contact.pressing(graph, time - committed_time);
+      constraints = velocity_constraints(contact, graph, time - committed_time);
     use({&external,
          &internal,
          &normal,
          &tangential,
          &support,
-         plastic ? &pressing : nullptr,
+         plastic ? &constraints : nullptr,
          [this](Vector &force) { remove_supported(force); },
-         contact.work_of_obstacles(Contact::Part::normal),
-         contact.work_of_obstacles(Contact::Part::tangential)});
+         contact.work_of_obstacles(ForcePart::normal),
+         contact.work_of_obstacles(ForcePart::tangential)});
   }
 
 
@@ -342,8 +352,6 @@ namespace Touchstone
     graph.clear();
     missed           = boundary_conditions.prescribe(time, u, graph);
     state.prescribed = missed <= scene.newton.gap_tolerance * length;
-    if (scene.has_friction())
-      contact.find_shared_nodes(graph);
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
@@ -353,7 +361,7 @@ namespace Touchstone
     integration->balance(u, external, internal, applied);
     Vector without_contact(applied);
     solid.condense(without_contact);
-    enforcement->recover(contact, without_contact, graph);
+    contact.enforcement().recover(contact, without_contact, graph);
 
     Vector contact_force(solid.owned, solid.communicator);
     contact.add_forces(contact_force);
@@ -367,8 +375,8 @@ namespace Touchstone
       {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
     const double round_off =
       solid.round_off(u) + integration->round_off(u) +
-      std::sqrt(
-        Utilities::MPI::sum(enforcement->round_off_squared(contact, extent), solid.communicator));
+      std::sqrt(Utilities::MPI::sum(contact.enforcement().round_off_squared(contact.rows(), extent),
+                                    solid.communicator));
     // Where forces vanish, at the end of contact for example, what is left of them is
     // round-off, and no scale: then a small part of the forces that have acted before is.
     // Those of a body in free flight are round-off from the start, and no such forces.
@@ -382,30 +390,19 @@ namespace Touchstone
     if (largest_force_scale > 0.)
       state.round_off = std::min(state.round_off, largest_round_off);
 
-    std::vector<std::vector<ContactStatus>> before(contact.rows.size());
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (const ContactRow &row : contact.rows[p])
-        before[p].push_back(row.status);
-    const Contact::ActiveSetUpdate set =
-      contact.update_active_set(scene.newton.gap_tolerance, caution);
+    const ActiveSetUpdate set =
+      contact.enforcement().update_active_set(contact, scene.newton.gap_tolerance, caution);
     changed_rows.clear();
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (std::size_t k = 0; k < before[p].size(); ++k)
-        if (const ContactRow &row = contact.rows[p][k]; row.status != before[p][k])
-          {
-            std::array<double, dim + 1> place;
-            for (unsigned int d = 0; d < dim; ++d)
-              place[d] = row.position[d] - u(dim * row.slave + d);
-            place[dim] = p;
-            changed_rows.push_back(place);
-          }
+    for (const ContactRow *row : set.changed)
+      changed_rows.push_back(
+        {{row->reference[0], row->reference[1], row->reference[2], double(row->pair)}});
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;
     state.signature = set.signature;
 
     if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
-      enforcement->balanced(contact);
+      contact.enforcement().balanced(contact);
 
     // A solve that goes far below what Newton needs in the end is wasted. But one
     // that moves supports has a right-hand side much larger than the forces that
@@ -462,10 +459,9 @@ namespace Touchstone
     system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
     if (!system->keep_symmetric &&
         (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (slow && scene.contact.linearisation == "automatic")))
+         (slow && scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
       contact.differentiate();
-    contact.drop_circles(graph, enforcement->smallest_circle());
-    enforcement->enforce(contact, graph, *system);
+    contact.enforcement().enforce(contact, graph, *system);
     if (!boundary_conditions.follower_pressure().empty())
       {
         const std::size_t before = system->terms.size();
@@ -478,11 +474,7 @@ namespace Touchstone
             entry.second *= integration->weight();
         system->symmetric = system->symmetric && system->keep_symmetric;
       }
-    RowTerms terms(*system);
-    for (auto &rows : contact.rows)
-      for (ContactRow &row : rows)
-        terms.add_row(row);
-    terms.finish();
+    contact.enforcement().add_friction(contact, *system);
     if (!integration->dynamic())
       check_supports();
     // Contact terms may refer to nodes that are far from this rank's cells, and to
@@ -509,10 +501,9 @@ namespace Touchstone
     if (solver->wants_basis_change(static_cast<int>(u.size())))
       {
         // After all conditions, for these decide nothing.
-        for (const auto &rows : contact.rows)
-          for (const ContactRow &row : rows)
-            for (const Condition &spring : friction_springs(row))
-              graph.accept(spring, ConstraintGraph::Treatment::spring);
+        for (const ContactRow &row : contact.rows())
+          for (const Condition &spring : friction_springs(row, contact.state(row)))
+            graph.accept(spring, ConstraintGraph::Treatment::spring);
         system->basis_change =
           graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
         if (!system->keep_symmetric &&
@@ -538,12 +529,11 @@ namespace Touchstone
   StepProblem::check_supports()
   {
     std::vector<Condition> supports = graph.accepted();
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        {
-          const auto springs = elastic_stick(row);
-          supports.insert(supports.end(), springs.begin(), springs.end());
-        }
+    for (const ContactRow &row : contact.rows())
+      {
+        const auto springs = elastic_stick(row, contact.state(row));
+        supports.insert(supports.end(), springs.begin(), springs.end());
+      }
     const FreeMotion motion = modes->free_motion(supports);
     if (motion.n_modes == 0)
       return;
@@ -570,15 +560,15 @@ namespace Touchstone
     double       distance = std::numeric_limits<double>::max();
     double       size     = 0.;
     unsigned int active   = 0;
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        if (row.status != ContactStatus::no_partner)
-          {
-            size = std::max(size, row.size);
-            active += row.active();
-            if (!row.active() && row.gap > 0.)
-              distance = std::min(distance, row.gap);
-          }
+    for (const ContactRow &row : contact.rows())
+      if (row.has_partner)
+        {
+          const bool is_active = contact.state(row).active();
+          size                 = std::max(size, row.size);
+          active += is_active;
+          if (!is_active && row.gap > 0.)
+            distance = std::min(distance, row.gap);
+        }
     distance = Utilities::MPI::min(distance, solid.communicator);
     size     = Utilities::MPI::max(size, solid.communicator);
     active   = Utilities::MPI::sum(active, solid.communicator);
@@ -605,7 +595,7 @@ namespace Touchstone
     check_increment();
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
     condensed.reset();
-    enforcement->take(
+    contact.enforcement().take(
       {*system, graph, solved_increment, extra, [this](Vector &force) { solid.condense(force); }});
     const unsigned int iterations = solver->counts().iterations - before;
     return iterations == 0 ? -1 : static_cast<int>(iterations);
@@ -618,8 +608,6 @@ namespace Touchstone
   {
     // What turns a cell inside out has no energy. The multipliers are those of the
     // end of the increment and stay.
-    if (scene.newton.line_search != "none")
-      before_rows = contact.rows;
     admissible_part = 1.;
     increment       = solved_increment;
     Vector trial(u);
@@ -636,7 +624,8 @@ namespace Touchstone
       }
     before_increment = u;
     u                = trial;
-    enforcement->update(contact);
+    contact.enforcement().update(contact,
+                                 scene.newton.line_search != NewtonParameters::LineSearch::none);
   }
 
 
@@ -646,23 +635,9 @@ namespace Touchstone
   {
     u = before_increment;
     u.add(fraction, increment);
-    // Forces that are unknowns go the same part of their way. Springs and
-    // elimination make forces from the displacement, from the rows as they were.
-    contact.rows = before_rows;
-    enforcement->update(contact);
-    const double part =
-      fraction < 1. ? fraction * admissible_part : 1.; // all of it: as update() had it
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (std::size_t k = 0; k < contact.rows[p].size(); ++k)
-        {
-          ContactRow       &row    = contact.rows[p][k];
-          const ContactRow &before = before_rows[p][k];
-          row.force                = before.force + part * (row.force - before.force);
-          row.lambda               = before.lambda + part * (row.lambda - before.lambda);
-          if (row.friction)
-            row.friction->base =
-              before.friction->base + part * (row.friction->base - before.friction->base);
-        }
+    contact.enforcement().shorten(contact,
+                                  fraction < 1. ? fraction * admissible_part
+                                                : 1.); // all of it: as update() had it
   }
 
 
@@ -691,9 +666,8 @@ namespace Touchstone
   {
     std::string  text;
     unsigned int dropped = 0;
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        dropped += (row.active() && row.dropped());
+    for (const ContactRow &row : contact.rows())
+      dropped += (contact.state(row).active() && contact.state(row).dropped());
     dropped = Utilities::MPI::sum(dropped, solid.communicator);
     if (dropped > 0)
       text = std::to_string(dropped) +

@@ -15,17 +15,17 @@ namespace Touchstone
     {
     public:
       explicit Hyperelastic(const MaterialParameters &material)
-        : law(HyperelasticRegistry::make(material.law, material))
+        : law(material.law.make<HyperelasticRegistry>(material))
       {
       }
 
       void
-      respond(const Tensor<2, dim> &F,
-              const double *,
-              const Demand      demand,
-              MaterialResponse &response,
+      respond(const MaterialInput &input,
+              const Demand         demand,
+              MaterialResponse    &response,
               double *) const override
       {
+        const Tensor<2, dim> &F = input.deformation;
         if (demand == Demand::energy)
           response.energy = response.elastic_energy = law->energy(F);
         else
@@ -41,8 +41,8 @@ namespace Touchstone
     std::shared_ptr<const MaterialLaw>
     make_law(const MaterialParameters &material)
     {
-      if (FiniteStrainRegistry::records().count(material.law) > 0)
-        return FiniteStrainRegistry::make(material.law, material);
+      if (FiniteStrainRegistry::knows(material.law.name))
+        return material.law.make<FiniteStrainRegistry>(material);
       return std::make_shared<Hyperelastic>(material);
     }
   } // namespace

@@ -1,32 +1,24 @@
 #!/bin/sh
-# extending.sh PROGRAM PROJECT FOLDER: each sample of doc/extending.md is, line for
-# line, the file of contrib/skeletons that the page names before it, and no file
-# is missing. The unit tests extending_* compile and run them.
+# extending.sh PROGRAM PROJECT FOLDER: the table of doc/extending.md names every sample of
+# contrib/skeletons with its number of lines, and no other file; and every sample is compiled
+# and run by a test.
 set -eu
 . "$(dirname -- "$0")/common.sh"
 page=$source/doc/extending.md
 samples=$source/contrib/skeletons
 
-rm -rf samples
-mkdir samples
-# A sample is the code after a line that ends with the name of its file.
-awk '
-  /^```/ && inside { inside = 0; close(file); next }
-  /^```/           { inside = 1; file = "samples/" (name == "" ? "unnamed" : name); next }
-  inside           { print > file; next }
-  /contrib\/skeletons\/[a-z_]+\.[a-z]+`:$/ {
-    name = $0; sub(/.*contrib\/skeletons\//, "", name); sub(/`:$/, "", name); next
-  }
-  /[^ ]/           { name = "" }' "$page"
-rm -f samples/unnamed
+sed -n 's/^| [^|]* | `\([a-z_/]*\.cc\)` | \([0-9]*\) |.*| 0 |$/\1 \2/p' "$page" | sort >named
+for file in "$samples"/*.cc "$samples"/outside/main.cc; do
+  echo "${file#"$samples"/} $(awk 'END { print NR }' "$file")"
+done | sort >there
+diff named there || fail "doc/extending.md (<) and contrib/skeletons (>) differ: files and their lines"
 
-for file in "$samples"/*; do
-  name=${file##*/}
-  [ -f "samples/$name" ] || { fail "doc/extending.md does not show contrib/skeletons/$name"; continue; }
-  diff "samples/$name" "$file" || fail "doc/extending.md and contrib/skeletons/$name differ"
+for file in "$samples"/*.cc; do
+  grep -q "skeletons/${file##*/}" "$source"/tests/extending_*.cc ||
+    fail "no test compiles contrib/skeletons/${file##*/}"
 done
-for file in samples/*; do
-  [ -f "$samples/${file##*/}" ] || fail "doc/extending.md names ${file##*/}, which does not exist"
+for file in $(grep -o '`[a-z_]*\.prm`' "$page" | tr -d '`'); do
+  [ -f "$samples/$file" ] || [ -f "$source/doc/$file" ] || fail "doc/extending.md names $file"
 done
 
 finish

@@ -1,8 +1,8 @@
 #ifndef touchstone_contact_unresolved_contact_h
 #define touchstone_contact_unresolved_contact_h
 
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
-#include <touchstone/scene/contact_parameters.h>
 
 #include <deal.II/base/bounding_box.h>
 

@@ -7,6 +7,7 @@
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/drive/newton.h>
 #include <touchstone/drive/time_integration.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 #include <touchstone/solid/rigid_body_modes.h>
 
@@ -193,7 +194,6 @@ namespace Touchstone
     dealii::TimerOutput            &timer;
     BoundaryConditions              boundary_conditions;
     Contact                         contact;
-    std::shared_ptr<Enforcement>    enforcement;
     std::shared_ptr<LinearSolver>   solver;
     std::unique_ptr<RigidBodyModes> modes;
 
@@ -207,12 +207,11 @@ namespace Touchstone
     /** Part of the step after which the first guess of its end has bodies meet. */
     double touch         = 1.;
     bool   touch_unknown = false;
-    /** @name What shorten() goes back to: displacement and rows before the last
+    /** @name What shorten() goes back to: the displacement before the last
      * update(), and the part of the increment that left all cells admissible */
     /** @{ */
-    Vector                               before_increment;
-    std::vector<std::vector<ContactRow>> before_rows;
-    double                               admissible_part = 1.;
+    Vector before_increment;
+    double admissible_part = 1.;
     /** @} */
     ConstraintGraph                  graph;
     std::unique_ptr<LinearSystem>    system;

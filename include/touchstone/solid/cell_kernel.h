@@ -1,7 +1,7 @@
 #ifndef touchstone_solid_cell_kernel_h
 #define touchstone_solid_cell_kernel_h
 
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/material_law.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -46,6 +46,13 @@ namespace Touchstone
     material() const
     {
       return law;
+    }
+
+    /** @brief Time since the committed state, see MaterialInput. */
+    void
+    set_step_length(const double length)
+    {
+      step_length = length;
     }
 
     /** @brief Numbers of history of a cell: those of its points one after the other. */
@@ -212,6 +219,7 @@ namespace Touchstone
     std::vector<double> unit_weights;
     std::vector<double> virgin, present_state;
     const double       *committed_state = nullptr;
+    double              step_length     = 0.;
     bool                all_solved      = true;
 
     std::vector<double> nodal_force, blocks, matrix;

@@ -24,7 +24,7 @@ namespace Touchstone
                    ? input.search_distance
                    : 4. * std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
       {
         search.commit(nullptr);
@@ -98,19 +98,18 @@ namespace Touchstone
           const auto &partner = partners[k] = search.find({positions[k],
                                                            start[k],
                                                            input.slave->normal(nodes[k].node),
-                                                           row.active(),
+                                                           row.was_active,
                                                            present_faces[k]});
           present_faces[k] =
             partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
           row.stencil.clear();
           if (!partner)
             {
-              row.status = ContactStatus::no_partner;
-              row.gap    = 0.;
+              row.has_partner = false;
+              row.gap         = 0.;
               continue;
             }
-          if (row.status == ContactStatus::no_partner)
-            row.status = ContactStatus::open;
+          row.has_partner = true;
           const FaceShapes shapes(partner->face->degree, partner->xi);
           for (unsigned int m = 0; m < partner->face->n_nodes(); ++m)
             if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
@@ -332,7 +331,7 @@ namespace Touchstone
     {
       std::vector<const Face *> needed;
       for (std::size_t k = 0; k < rows.size(); ++k)
-        if (rows[k].active())
+        if (rows[k].was_active)
           needed.push_back(partners[k]->face);
       const auto normal_derivatives = search.normal_derivatives(needed);
 
@@ -340,7 +339,7 @@ namespace Touchstone
         {
           ContactRow &row = rows[k];
           row.derivative.reset();
-          if (!row.active())
+          if (!row.was_active)
             continue;
           const Face                  &face     = *partners[k]->face;
           const FaceGeometry           geometry = search.geometry(face);

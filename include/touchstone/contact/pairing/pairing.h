@@ -2,14 +2,16 @@
 #define touchstone_contact_pairing_pairing_h
 
 #include <touchstone/base/registry.h>
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/search/search.h>
-#include <touchstone/scene/contact_parameters.h>
+#include <touchstone/mesh/obstacle_parameters.h>
 
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -54,8 +56,8 @@ namespace Touchstone
     virtual ~Pairing() = default;
 
     /**
-     * @brief Read the deformed surfaces: set stencil, normal, gap_vector, gap and
-     * status (no_partner where there is none) of all rows. What else the rows
+     * @brief Read the deformed surfaces: set has_partner, stencil, normal, gap_vector and gap
+     * of all rows, and area, share, lever and shift where they change. What else the rows
      * hold is left alone.
      * @param u    Displacement with ghosts; the surfaces have been moved to it.
      * @param time For obstacles that move.
@@ -65,8 +67,8 @@ namespace Touchstone
     update(const Vector &u, double time, std::vector<ContactRow> &rows) = 0;
 
     /**
-     * @brief Set the derivative of the active rows, for the consistent
-     * linearisation. Called after update() with the same arguments, on all ranks.
+     * @brief Set the derivative of the rows that were active (ContactRow::was_active), for the
+     * consistent linearisation. Called after update() with the same arguments, on all ranks.
      *
      * A pairing that does not implement it keeps normals and stencils constant
      * within a Newton iteration.
@@ -120,7 +122,19 @@ namespace Touchstone
     const PairingInput input;
   };
 
+  /** @brief The pairings that the key "Pairing" of a contact pair names. */
   using PairingRegistry = Registry<Pairing, const PairingInput &>;
+
+  /** @brief The pairing with an obstacle. */
+  std::shared_ptr<Pairing>
+  make_obstacle_pairing(const PairingInput &input);
+
+  /** @brief The pairing that the parameters choose, or that with the obstacle. */
+  inline std::shared_ptr<Pairing>
+  make_pairing(const PairingInput &input)
+  {
+    return input.obstacle ? make_obstacle_pairing(input) : input.parameters->pairing.make(input);
+  }
 } // namespace Touchstone
 
 #endif

@@ -1,0 +1,149 @@
+#ifndef touchstone_contact_contact_parameters_h
+#define touchstone_contact_contact_parameters_h
+
+#include <touchstone/base/choice.h>
+#include <touchstone/base/keyword.h>
+#include <touchstone/contact/geometry/master_normal.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  class Enforcement;
+  class FrictionLaw;
+  class Pairing;
+  struct ContactParameters;
+  struct PairingInput;
+
+  /** @brief Section "Contact pair NAME". */
+  struct ContactPairParameters
+  {
+    std::string              name;
+    std::string              slave_body;
+    std::vector<std::string> slave_boundaries;
+    /** Master body and its boundaries, or the name of an obstacle. */
+    std::string              master_body;
+    std::vector<std::string> master_boundaries;
+    std::string              obstacle;
+    /** How rows are made; keys of its own stand beside the key. */
+    Choice<Registry<Pairing, const PairingInput &>> pairing{"averaged"};
+    /** "frictionless", "tied", or the name of a friction law. */
+    Choice<Registry<FrictionLaw>> behaviour{"frictionless"};
+    /** The friction law with its own parameters read, subsection "Friction"; null
+     * without friction. */
+    std::shared_ptr<FrictionLaw> friction;
+    /** What becomes of an overlap of the bodies as they are placed. */
+    enum class Overlap
+    {
+      /** It presses the bodies apart. */
+      interference,
+      /** Gaps count from it: no overlap. */
+      adjust,
+      /** An interference that grows over the time of the run. */
+      ramp
+    };
+    Keyword<Overlap> initial_overlap{Overlap::interference,
+                                     {{"interference", Overlap::interference},
+                                      {"adjust", Overlap::adjust},
+                                      {"ramp", Overlap::ramp}}};
+    /** finite: search in each iteration; small: reference pairing. Tied pairs are always
+     * small. */
+    enum class Sliding
+    {
+      finite,
+      small
+    };
+    Keyword<Sliding> sliding{Sliding::finite,
+                             {{"finite", Sliding::finite}, {"small", Sliding::small}}};
+    /** Where gaps and normals come from: the exact surfaces where the geometry knows them, or
+     * the faces of the mesh. */
+    enum class Shape
+    {
+      manifold,
+      faceted
+    };
+    Keyword<Shape>        contact_geometry{Shape::manifold,
+                                    {{"manifold", Shape::manifold}, {"faceted", Shape::faceted}}};
+    Keyword<MasterNormal> master_normal{MasterNormal::averaged,
+                                        {{"face", MasterNormal::face},
+                                         {"averaged", MasterNormal::averaged},
+                                         {"smoothed", MasterNormal::smoothed}}};
+    /** Farthest distance at which a slave node looks for a master face,
+     * length; 0 chooses it from the size of the faces. */
+    double search_distance = 0.;
+    /** How far beyond the edge of the master surface a slave node is still
+     * held, as a fraction of the face. */
+    double edge_tolerance = 0.01;
+
+    /** @brief "Contact pair NAME". */
+    std::string
+    section() const;
+
+    /** @brief Whether the bodies are joined where they face each other. */
+    bool
+    tied() const
+    {
+      return behaviour.name == "tied";
+    }
+
+    /** @param values Of this section: pairing and behaviour decide on other keys. */
+    void
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
+    void
+    check(const std::string &section) const;
+  };
+
+  /** @brief Section "Contact": how all pairs of the scene are enforced. */
+  struct ContactParameters
+  {
+    /** "elimination", "lagrange multipliers", ...; keys of its own stand beside the key. */
+    Choice<Registry<Enforcement, const ContactParameters &>> enforcement{"elimination"};
+    /** Multiplies the automatic penalty (Young's modulus times tributary area over
+     * face size, times 100 for penalty and 20 for augmented Lagrange); no unit. */
+    double penalty_factor = 1.;
+    /** Of augmented Lagrange: merged with Newton's iterations, or in an outer loop around
+     * them (Uzawa). */
+    enum class Augmentation
+    {
+      merged,
+      outer
+    };
+    Keyword<Augmentation> augmentation{Augmentation::merged,
+                                       {{"merged", Augmentation::merged},
+                                        {"outer", Augmentation::outer}}};
+    /** Stick: exact without any slip, or regularised by elastic slip. */
+    enum class Stick
+    {
+      exact,
+      regularised
+    };
+    Keyword<Stick> friction{Stick::exact,
+                            {{"exact", Stick::exact}, {"regularised", Stick::regularised}}};
+    /** Multiplies the automatic stiffness of regularised stick; no unit. */
+    double tangential_factor = 1.;
+    /** consistent: with the change of normals, stencils and slip directions; frozen: without;
+     * automatic: consistent with friction, if the linear solver allows it. */
+    enum class Linearisation
+    {
+      automatic,
+      consistent,
+      frozen
+    };
+    Keyword<Linearisation> linearisation{Linearisation::automatic,
+                                         {{"automatic", Linearisation::automatic},
+                                          {"consistent", Linearisation::consistent},
+                                          {"frozen", Linearisation::frozen}}};
+
+    /** @param values Of this section: the enforcement decides on other keys. */
+    void
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,35 @@
+#ifndef touchstone_mesh_obstacle_parameters_h
+#define touchstone_mesh_obstacle_parameters_h
+
+#include <touchstone/base/choice.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace Touchstone
+{
+  class ObstacleShape;
+
+  /** @brief Section "Obstacle NAME": a rigid body given by one formula. */
+  struct ObstacleParameters
+  {
+    std::string name;
+    /** The shape, whose own keys stand beside this one. */
+    Choice<Registry<ObstacleShape>> shape{"plane"};
+    /** Rigid motion as expressions in t, length. */
+    std::string motion_x = "0", motion_y = "0", motion_z = "0";
+
+    /** @brief "Obstacle NAME". */
+    std::string
+    section() const;
+
+    /** @param values Of this section: the shape decides on other keys. */
+    void
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,43 @@
+#include <touchstone/base/expression.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/mesh/obstacle_parameters.h>
+#include <touchstone/mesh/obstacle_shape.h>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  std::string
+  ObstacleParameters::section() const
+  {
+    return "Obstacle " + name;
+  }
+
+
+
+  void
+  ObstacleParameters::declare(ParameterHandler &prm, const EarlyValues &values)
+  {
+    shape.declare_key(prm,
+                      values,
+                      "Shape",
+                      "The rigid surface, which decides on the other keys here.");
+    shape.declare_own_keys(prm);
+    const std::string motion = " component of the rigid motion, a formula in t (time). [length]";
+    prm.add_parameter("Motion x", motion_x, "The x" + motion, Patterns::Anything());
+    prm.add_parameter("Motion y", motion_y, "The y" + motion, Patterns::Anything());
+    prm.add_parameter("Motion z", motion_z, "The z" + motion, Patterns::Anything());
+  }
+
+
+
+  void
+  ObstacleParameters::check(const std::string &section) const
+  {
+    shape.check(section);
+    check_expression(section, "Motion x", motion_x, "t");
+    check_expression(section, "Motion y", motion_y, "t");
+    check_expression(section, "Motion z", motion_z, "t");
+  }
+} // namespace Touchstone
