@@ -34,7 +34,7 @@ namespace Touchstone
                    const Mirrors &mirrors)
     : solid(solid)
     , friction_rows(solid)
-    , method(EnforcementRegistry::make(scene.contact.enforcement, scene.contact))
+    , method(scene.contact.enforcement.make(scene.contact))
     , impulse_forces("impulse force")
     , ghosted(solid.owned, solid.relevant, solid.communicator)
   {

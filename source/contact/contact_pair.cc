@@ -11,7 +11,7 @@ namespace Touchstone
 
   ContactPair::ContactPair(const ContactPairInput &input)
     : input(input)
-    , is_tied(input.parameters.behaviour == "tied")
+    , is_tied(input.parameters.tied())
     , small(is_tied || (input.obstacle == nullptr && input.parameters.sliding == "small"))
     , slave_surface(
         make_surface(input.slave_body, input.parameters.slave_boundaries, "Slave boundaries"))
@@ -70,13 +70,12 @@ namespace Touchstone
   std::shared_ptr<Pairing>
   ContactPair::make_pairing(const double search_distance) const
   {
-    return PairingRegistry::make(input.obstacle ? "obstacle" : input.parameters.pairing,
-                                 {&input.parameters,
-                                  input.obstacle,
-                                  &input.solid,
-                                  slave_surface.get(),
-                                  master_surface.get(),
-                                  search_distance});
+    return Touchstone::make_pairing({&input.parameters,
+                                     input.obstacle,
+                                     &input.solid,
+                                     slave_surface.get(),
+                                     master_surface.get(),
+                                     search_distance});
   }
 
 

@@ -1,5 +1,6 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/contact/work.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,6 +1,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/contact/work.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/output/resources.h>
@@ -390,7 +391,7 @@ namespace Touchstone
              summary.title);
     log.line(std::to_string(summary.cells) + " cells, " + std::to_string(summary.unknowns / dim) +
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
-             std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement + ", " +
+             std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement.name + ", " +
              scene.linear_solver.type);
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);

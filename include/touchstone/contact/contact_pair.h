@@ -7,7 +7,7 @@
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/stateful.h>
 #include <touchstone/mesh/forest.h>
-#include <touchstone/scene/contact_parameters.h>
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/solid/solid.h>
 
 #include <functional>

@@ -1,10 +1,10 @@
 #ifndef touchstone_drive_refinement_h
 #define touchstone_drive_refinement_h
 
+#include <touchstone/base/formula.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/mesh/forest.h>
-#include <touchstone/scene/formula.h>
 
 #include <deal.II/lac/vector.h>
 

@@ -6,7 +6,7 @@
 #include <touchstone/base/registry.h>
 #include <touchstone/contact/row_array.h>
 #include <touchstone/contact/row_state.h>
-#include <touchstone/scene/contact_parameters.h>
+#include <touchstone/contact/contact_parameters.h>
 
 #include <cstdint>
 #include <functional>
