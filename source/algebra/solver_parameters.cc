@@ -59,8 +59,8 @@ namespace Touchstone
   LinearSolverParameters::all_options()
   {
     std::map<std::string, std::shared_ptr<LinearSolverOptions>> result;
-    for (const auto &[name, record] : LinearSolverOptionsRegistry::records())
-      result[name] = record.make();
+    for (const std::string &name : LinearSolverOptionsRegistry::names())
+      result[name] = LinearSolverOptionsRegistry::make(name);
     return result;
   }
 

@@ -46,7 +46,7 @@ namespace Touchstone
                  Tolerances::negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
         , kind(master_normal(input.parameters->master_normal))
-        , tied(input.parameters->behaviour == "tied")
+        , tied(input.parameters->behaviour.name == "tied")
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           row_of_node.emplace(node.node, static_cast<int>(row_of_node.size()));
