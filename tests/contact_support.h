@@ -2,6 +2,7 @@
 #define touchstone_tests_contact_support_h
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/drive/pair_inputs.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -74,7 +75,7 @@ namespace Touchstone
       : scene(text, "scene.prm", overrides)
       , forest(scene, "", MPI_COMM_WORLD)
       , solid(scene, forest, MPI_COMM_WORLD)
-      , pair(pair_input(scene, forest, solid, 0))
+      , pair(pair_inputs(scene, forest, solid).at(0))
       , slave(&pair.slave())
       , master(pair.master())
       , pairing(&pair.pairing())

@@ -185,7 +185,7 @@ end
       : friction(friction)
       , enforcement_name(enforcement_name)
       , made(text, overrides(pairing, enforcement_name, friction, beyond_edge))
-      , contact(made.scene, made.forest, made.solid)
+      , contact(pair_inputs(made.scene, made.forest, made.solid), made.scene.contact, made.solid)
       , u(made.solid.owned, MPI_COMM_WORLD)
     {
       const bool   body   = made.master != nullptr;

@@ -1,6 +1,5 @@
 // An enforcement to start from: an augmented Lagrangian in its simplest form. Copy
-// to source/contact/NAME.cc, fill in what is marked TODO, and add NAME to the key
-// "Enforcement" in source/scene/contact_parameters.cc.
+// to source/contact/enforcement/NAME.cc and fill in what is marked TODO.
 
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>

@@ -28,22 +28,22 @@ namespace Touchstone
 
 
 
-  Contact::Contact(const Scene   &scene,
-                   const Forest  &forest,
-                   const Solid   &solid,
-                   const Mirrors &mirrors)
+  Contact::Contact(const std::vector<ContactPairInput> &inputs,
+                   const ContactParameters             &parameters,
+                   const Solid                         &solid,
+                   const Mirrors                       &mirrors)
     : solid(solid)
     , friction_rows(solid)
-    , method(scene.contact.enforcement.make(scene.contact))
+    , method(parameters.enforcement.make(parameters))
     , impulse_forces("impulse force")
     , ghosted(solid.owned, solid.relevant, solid.communicator)
   {
     std::vector<FrictionRow> frictions;
-    for (unsigned int p = 0; p < scene.pairs.size(); ++p)
+    for (const ContactPairInput &input : inputs)
       {
-        pairs.push_back(std::make_unique<ContactPair>(pair_input(scene, forest, solid, p)));
+        pairs.push_back(std::make_unique<ContactPair>(input));
         pairs.back()->number_rows(frictions.size());
-        for (FrictionRow &row : pairs.back()->friction_rows(mirrors, scene.contact))
+        for (FrictionRow &row : pairs.back()->friction_rows(mirrors, parameters))
           frictions.push_back(std::move(row));
       }
     friction_rows.reinit(std::move(frictions));
@@ -71,32 +71,6 @@ namespace Touchstone
     seen.compress();
     ghosted.reinit(solid.owned, seen, solid.communicator);
     import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
-  }
-
-
-
-  ContactPairInput
-  pair_input(const Scene       &scene,
-             const Forest      &forest,
-             const Solid       &solid,
-             const unsigned int number)
-  {
-    const ContactPairParameters &parameters = scene.pairs[number];
-    ContactPairInput             input{parameters, nullptr, solid, forest};
-    input.number     = number;
-    input.slave_body = scene.body_index(parameters.slave_body);
-    input.modulus    = scene.bodies[input.slave_body].material.young_modulus;
-    input.end_time   = scene.load_stepping.end_time;
-    for (const ObstacleParameters &obstacle : scene.obstacles)
-      if (obstacle.name == parameters.obstacle)
-        input.obstacle = &obstacle;
-    if (input.obstacle == nullptr)
-      {
-        input.master_body = scene.body_index(parameters.master_body);
-        input.modulus =
-          std::min(input.modulus, scene.bodies[input.master_body].material.young_modulus);
-      }
-    return input;
   }
 
 

@@ -2,6 +2,7 @@
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/drive/pair_inputs.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/solid/bodies.h>
 
@@ -39,7 +40,10 @@ namespace Touchstone
     , solid(solid)
     , timer(timer)
     , boundary_conditions(scene, forest, solid)
-    , contact(scene, forest, solid, boundary_conditions.mirrors())
+    , contact(pair_inputs(scene, forest, solid),
+              scene.contact,
+              solid,
+              boundary_conditions.mirrors())
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
     , u(solid.owned, solid.communicator)
     , committed_u(u)

@@ -7,7 +7,6 @@
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/friction/friction_rows.h>
 #include <touchstone/contact/velocity_constraints.h>
-#include <touchstone/scene/scene.h>
 
 #include <memory>
 #include <optional>
@@ -33,12 +32,14 @@ namespace Touchstone
   public:
     using Mirrors = ContactPair::Mirrors;
 
-    /** @param mirrors Of owned nodes, by node.
+    /** @param inputs     What the pairs are made from, in their order.
+     * @param parameters How they are enforced; must live as long as this.
+     * @param mirrors    Of owned nodes, by node.
      * @throws InputError for boundaries that do not exist, and surfaces without faces. */
-    Contact(const Scene   &scene,
-            const Forest  &forest,
-            const Solid   &solid,
-            const Mirrors &mirrors = Mirrors());
+    Contact(const std::vector<ContactPairInput> &inputs,
+            const ContactParameters             &parameters,
+            const Solid                         &solid,
+            const Mirrors                       &mirrors = Mirrors());
     Contact(const Contact &) = delete;
 
     /** @brief The rows of this rank, pair after pair. */
@@ -238,10 +239,6 @@ namespace Touchstone
     /** All that has history, in the order in which it is committed and loaded. */
     std::vector<Stateful *> parts;
   };
-
-  /** @brief What a pair of a scene is made from. @param number Of the pair. */
-  ContactPairInput
-  pair_input(const Scene &scene, const Forest &forest, const Solid &solid, unsigned int number);
 } // namespace Touchstone
 
 #endif
