@@ -125,7 +125,7 @@ fi
 # Partial slip: tractions at the nodes against Cattaneo and Mindlin.
 if wants partial_slip; then
 run benchmarks/cattaneo_mindlin
-perl tests/checks/contact_points.pl "$runs"/benchmarks/cattaneo_mindlin/contact_0008.vtu >"$runs/slip.txt"
+contrib/contact_points "$runs"/benchmarks/cattaneo_mindlin/contact_0008.vtu >"$runs/slip.txt"
 awk '/"force":/ { sub(/.*force/, ""); gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print f[3] / 0.25, -f[1] / 0.25 }' \
   "$runs/benchmarks/cattaneo_mindlin/summary.json" >"$runs/slip_forces.txt"
 gnuplot <<END
