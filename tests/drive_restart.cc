@@ -161,7 +161,6 @@ namespace
                      {"Newton/Residual tolerance=1e-12", "Newton/Gap tolerance=1e-12"});
     Run whole(scene, overrides, MPI_COMM_WORLD);
     steps(whole, 0, 4);
-    whole.problem.forget();
     ArchiveWriter writer(whole.solid);
     whole.problem.save(writer);
     const auto pieces = all_pieces(writer);

@@ -85,8 +85,7 @@ end
     void
     solve(const NewtonParameters &parameters, const double time)
     {
-      problem.begin_step(time);
-      Newton(parameters).solve(problem, [](unsigned int, const NewtonState &, int) {});
+      problem.solve(time, parameters, [](unsigned int, const NewtonState &, int) {});
     }
 
     /** Solve all steps of the scene, which end at time one, and keep them. @return
@@ -98,10 +97,11 @@ end
       for (unsigned int step = 1; step <= scene.load_stepping.steps; ++step)
         {
           residuals.emplace_back();
-          problem.begin_step(double(step) / scene.load_stepping.steps);
-          Newton(scene.newton).solve(problem, [&](unsigned int, const NewtonState &state, int) {
-            residuals.back().push_back(state.residual);
-          });
+          problem.solve(double(step) / scene.load_stepping.steps,
+                        scene.newton,
+                        [&](unsigned int, const NewtonState &state, int) {
+                          residuals.back().push_back(state.residual);
+                        });
           problem.commit();
         }
       return residuals;

@@ -152,7 +152,7 @@ namespace Touchstone
 
 
   Vector
-  Refinement::faces_at_masters(const StepProblem    &problem,
+  Refinement::faces_at_masters(const Step           &problem,
                                const unsigned int    pair,
                                const PairBoundaries &boundaries,
                                const double          length,
@@ -184,7 +184,7 @@ namespace Touchstone
 
 
   bool
-  Refinement::follow_slaves(const StepProblem &problem)
+  Refinement::follow_slaves(const Step &problem)
   {
     int        changes = 0;
     const auto pairs   = pair_boundaries(problem.contact_state());
@@ -234,7 +234,7 @@ namespace Touchstone
 
 
   double
-  Refinement::estimate(const StepProblem &problem)
+  Refinement::estimate(const Step &problem)
   {
     using Estimator = RefinementParameters::Estimator;
     const Vector u  = problem.ghosted_displacement();
@@ -306,7 +306,7 @@ namespace Touchstone
 
 
   bool
-  Refinement::mark(const StepProblem &problem, const double time)
+  Refinement::mark(const Step &problem, const double time)
   {
     auto &mesh = forest.triangulation;
 

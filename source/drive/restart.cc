@@ -32,8 +32,9 @@ namespace Touchstone
 
 
   void
-  StepProblem::save(ArchiveWriter &archive) const
+  StepProblem::save(ArchiveWriter &archive)
   {
+    forget();
     const LinearSolverCounts counts = linear_counts();
     archive.put("committed time", committed_time);
     archive.put("linear solver counts", counts);
@@ -124,9 +125,8 @@ namespace Touchstone
   Simulation::write_checkpoint(const Position &position)
   {
     TimerOutput::Scope scope(timer, "output");
-    problem->forget();
-    RunSummary now = summary;
-    now.seconds    = seconds_so_far();
+    RunSummary         now = summary;
+    now.seconds            = seconds_so_far();
     ArchiveWriter archive(solid);
     archive.put("position", position);
     archive.put("end time", scene.load_stepping.end_time);
@@ -195,7 +195,7 @@ namespace Touchstone
         forest.refine(refined);
         solid.reinit();
         volume_output.reinit();
-        problem = std::make_unique<StepProblem>(scene, forest, solid, timer);
+        problem = Step::make(scene, forest, solid, timer);
       }
     try
       {

@@ -1,5 +1,6 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/contact_counts.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
@@ -61,7 +62,7 @@ namespace Touchstone
     , warnings(log)
     , forest(scene.forest_input(), folder_of_scene, communicator)
     , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
-    , problem(std::make_unique<StepProblem>(scene, forest, solid, timer))
+    , problem(Step::make(scene, forest, solid, timer))
     , refinement(scene.refinement, forest, solid)
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
@@ -90,11 +91,11 @@ namespace Touchstone
   {
     last_state          = NewtonState();
     last_state.residual = std::numeric_limits<double>::quiet_NaN();
-    problem->begin_step(time);
-    const Newton newton(scene.newton);
     // Iterations of attempts that fail count as well.
-    return newton.solve(
-      *problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
+    return problem->solve(
+      time,
+      scene.newton,
+      [&](const unsigned int iteration, const NewtonState &state, const int linear) {
         last_state = state;
         progress.iteration(
           {iteration, state.residual, state.gap, state.active, state.changes, linear});
@@ -121,8 +122,7 @@ namespace Touchstone
       return 0;
     for (unsigned int cycle = 0;; ++cycle)
       {
-        std::vector<Vector>       fields;
-        std::vector<BodyMomentum> momenta;
+        StepTransfer transfer;
         {
           TimerOutput::Scope scope(timer, "refinement");
           const double       error = refinement.estimate(*problem);
@@ -130,15 +130,13 @@ namespace Touchstone
           if (cycle == cycles || error < scene.refinement.tolerance ||
               !refinement.mark(*problem, time))
             return newton;
-          momenta = problem->time_integration().momenta();
-          fields  = refinement.execute(problem->carry_over());
+          transfer        = problem->transfer();
+          transfer.fields = refinement.execute(transfer.fields);
           volume_output.reinit();
         }
-        auto next = std::make_unique<StepProblem>(scene, forest, solid, timer);
-        next->start();
-        next->count_on(*problem);
-        problem = std::move(next);
-        problem->adopt(fields, momenta, committed_time, time);
+        problem = Step::make(scene, forest, solid, timer);
+        problem->start();
+        problem->adopt(transfer, time);
         summary.cells    = forest.triangulation.n_global_active_cells();
         summary.unknowns = solid.dof_handler.n_dofs();
         log.line("  mesh " + std::to_string(summary.meshes.size() + 1) + ": " +
@@ -189,9 +187,9 @@ namespace Touchstone
     record.step_size         = size;
     record.newton_iterations = newton;
     record.linear_iterations =
-      problem->linear_counts().iterations - summary.iterations.linear_total;
+      problem->state().counts.linear.iterations - summary.iterations.linear_total;
     record.cuts                     = cuts;
-    summary.iterations.linear_total = problem->linear_counts().iterations;
+    summary.iterations.linear_total = problem->state().counts.linear.iterations;
     for (unsigned int p = 0; p < results.size(); ++p)
       {
         const std::string &pair = scene.pairs[p].name;
@@ -253,9 +251,10 @@ namespace Touchstone
     std::string text = failure.what();
     if (!failure.shorter_step_may_help())
       return text;
-    if (const std::string place = problem->worst_place(); !place.empty())
-      text += "; farthest from a solution: " + place;
-    text += problem->suspicion();
+    const StepDifficulty difficulty = problem->difficulty();
+    if (!difficulty.position.empty())
+      text += "; farthest from a solution: " + difficulty.position;
+    text += difficulty.suspicion;
     if (!repeated)
       return text;
     std::ostringstream more;
@@ -321,9 +320,7 @@ namespace Touchstone
           {
             unsigned int newton = solve_step(next);
             newton += adapt(step, next);
-            const std::string remarks = problem->remarks();
-            const auto        loose   = problem->check_loose_bodies();
-            problem->check_contact();
+            const StepFindings findings = problem->findings();
             part = problem->try_commit(scene.time_integration.smallest_step * nominal / now);
             if (part < 1.)
               {
@@ -332,12 +329,12 @@ namespace Touchstone
                 progress.shorten_step(part * size);
                 continue;
               }
-            if (!remarks.empty())
-              log.line("  " + remarks);
+            if (!findings.remarks.empty())
+              log.line("  " + findings.remarks);
             committed_time = time = next;
             repeated_failure.forget();
             progress.end_step(newton);
-            for (const std::string &text : loose)
+            for (const std::string &text : findings.warnings)
               warnings.add(text);
             record_step(step, time, now, newton, cuts);
             log.check();
@@ -354,9 +351,10 @@ namespace Touchstone
           }
         catch (const NonConvergence &failure)
           {
-            const bool repeated = repeated_failure.add(failure, last_state, problem->worst_place());
-            const bool hopeless = repeated || !failure.shorter_step_may_help();
-            const std::string reason = describe(failure, repeated);
+            const bool repeated =
+              repeated_failure.add(failure, last_state, problem->difficulty().position);
+            const bool        hopeless = repeated || !failure.shorter_step_may_help();
+            const std::string reason   = describe(failure, repeated);
             problem->rollback();
             part = 1.;
             if (cuts >= parameters.maximum_cuts || hopeless)
@@ -443,7 +441,7 @@ namespace Touchstone
   void
   Simulation::measure_balance()
   {
-    const ContactWork                                 work = contact_work(problem->contact_state());
+    const ContactCounts work = contact_counts(problem->contact_state());
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
@@ -499,14 +497,14 @@ namespace Touchstone
       }
     for (const auto &[body, strain] : solid.largest_plastic_strain())
       summary.plastic_strain[scene.bodies[body].name] = strain;
-    const LinearSolverCounts counts = problem->linear_counts();
+    const LinearSolverCounts counts = problem->state().counts.linear;
     summary.iterations.linear_total = counts.iterations;
     summary.iterations.linear_mean =
       counts.solves > 0 ? double(counts.iterations) / counts.solves : 0.;
-    summary.counts.assemblies            = problem->n_assemblies();
+    summary.counts.assemblies            = problem->state().counts.assemblies;
     summary.counts.factorisations        = counts.factorisations;
     summary.counts.preconditioner_setups = counts.preconditioner_setups;
-    summary.counts.searches              = problem->n_searches();
+    summary.counts.searches              = problem->state().counts.searches;
 
     summary.seconds        = seconds_so_far();
     summary.peak_memory_mb = peak_memory_mb(communicator);
@@ -525,7 +523,8 @@ namespace Touchstone
     // Up to the first linear system: finds bodies that nothing holds.
     problem.start();
     problem.begin_step(scene.load_stepping.end_time / scene.load_stepping.steps);
-    problem.residual(0);
-    problem.linearize();
+    NonlinearProblem &newton = problem;
+    newton.residual(0);
+    newton.linearize();
   }
 } // namespace Touchstone

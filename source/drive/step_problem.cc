@@ -55,6 +55,9 @@ namespace Touchstone
     , increment(u)
     , solved_increment(u)
     , before_increment(u)
+    , forcing_term(scene.linear_solver.tolerance,
+                   scene.newton.residual_tolerance,
+                   scene.has_friction())
   {
     {
       TimerOutput::Scope scope(timer, "assembly");
@@ -99,7 +102,9 @@ namespace Touchstone
       contact.commit();
       remember_contact();
     }
-    if (integration->dynamic())
+    if (!integration->dynamic())
+      check_bodies_without_support();
+    else
       {
         solid.internal_force(u, internal);
         graph.clear();
@@ -151,8 +156,7 @@ namespace Touchstone
     contact.enforcement().begin_step();
     integration->begin_step(time, u);
     touch_unknown = integration->dynamic();
-    last_residual = 0.;
-    slow          = false;
+    forcing_term.begin_step();
     loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
@@ -162,10 +166,13 @@ namespace Touchstone
 
 
 
-  void
-  StepProblem::commit()
+  unsigned int
+  StepProblem::solve(const double            t,
+                     const NewtonParameters &parameters,
+                     const Newton::Observer &observer)
   {
-    with_forces([&](const StepForces &forces) { keep(forces, integration->end_step(u, forces)); });
+    begin_step(t);
+    return Newton(parameters).solve(*this, observer);
   }
 
 
@@ -176,7 +183,8 @@ namespace Touchstone
     double part = 1.;
     with_forces([&](const StepForces &forces) {
       const Energies end = integration->end_step(u, forces);
-      part               = acceptable_part(end);
+      if (smallest_part <= 1.)
+        part = acceptable_part(end);
       if (part < smallest_part)
         part = 1.;
       if (part == 1.)
@@ -259,67 +267,63 @@ namespace Touchstone
 
 
 
-  std::vector<Vector>
-  StepProblem::carry_over() const
+  StepTransfer
+  StepProblem::transfer() const
   {
-    std::vector<Vector> result;
+    StepTransfer result;
     for (const bool of_committed : {true, false})
       {
-        result.push_back(of_committed ? committed_u : u);
+        result.fields.push_back(of_committed ? committed_u : u);
         for (Vector &field : contact.fields(of_committed))
-          result.push_back(std::move(field));
+          result.fields.push_back(std::move(field));
       }
     for (const Vector *field : integration->rates())
-      result.push_back(*field);
+      result.fields.push_back(*field);
+    result.momenta             = integration->momenta();
+    result.committed_time      = committed_time;
+    result.energies            = integration->committed_energies();
+    result.largest_force_scale = largest_force_scale;
+    result.counts              = {linear_counts(), assemblies, n_searches()};
     return result;
   }
 
 
 
   void
-  StepProblem::adopt(const std::vector<Vector>       &fields,
-                     const std::vector<BodyMomentum> &momenta,
-                     const double                     start_time,
-                     const double                     t)
+  StepProblem::adopt(const StepTransfer &before, const double t)
   {
-    const std::size_t n_rates = integration->rates().size();
-    const auto        middle  = fields.begin() + (fields.size() - n_rates) / 2;
-    const auto        rates   = fields.end() - n_rates;
+    earlier             = before.counts.linear;
+    earlier_searches    = before.counts.searches;
+    largest_force_scale = before.largest_force_scale;
+    committed_time      = before.committed_time;
+    assemblies += before.counts.assemblies;
+    // At time 0 the energies are those that the first velocities mean on this mesh.
+    if (committed_time > 0.)
+      integration->resume(committed_time, before.energies);
+
+    const std::vector<Vector> &fields  = before.fields;
+    const std::size_t          n_rates = integration->rates().size();
+    const auto                 middle  = fields.begin() + (fields.size() - n_rates) / 2;
+    const auto                 rates   = fields.end() - n_rates;
     // Before the first step there is no history but what start() makes.
-    if (start_time > 0.)
+    if (committed_time > 0.)
       {
         committed_u = u = fields.front();
-        contact.update(u, start_time);
+        contact.update(u, committed_time);
         contact.adopt({fields.begin() + 1, middle}, true);
         if (integration->dynamic())
           {
-            boundary_conditions.external_force(start_time, u, external);
+            boundary_conditions.external_force(committed_time, u, external);
             solid.internal_force(u, internal);
             unbalanced = 0.;
           }
         with_forces([&](const StepForces &forces) {
-          integration->adopt({rates, fields.end()}, forces, momenta);
+          integration->adopt({rates, fields.end()}, forces, before.momenta);
         });
-        committed_time = start_time;
       }
     u = *middle;
     contact.update(u, t);
     contact.adopt({middle + 1, rates}, false);
-  }
-
-
-
-  void
-  StepProblem::count_on(const StepProblem &before)
-  {
-    earlier             = before.linear_counts();
-    largest_force_scale = before.largest_force_scale;
-    committed_time      = before.committed_time;
-    // At time 0 the energies are those that the first velocities mean on this mesh.
-    if (committed_time > 0.)
-      integration->resume(committed_time, before.integration->committed_energies());
-    earlier_searches = before.n_searches();
-    assemblies += before.assemblies;
   }
 
 
@@ -339,7 +343,25 @@ namespace Touchstone
 
 
   NewtonState
-  StepProblem::residual(const unsigned int caution)
+  StepProblem::residual(const unsigned int damping)
+  {
+    NewtonState state;
+    update_geometry(state);
+    Vector without_contact(solid.owned, solid.communicator);
+    balance(without_contact);
+    contact.enforcement().recover(contact, without_contact, graph);
+    judge_balance(without_contact, state);
+    update_active_set(damping, state);
+    if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
+      contact.enforcement().balanced(contact);
+    forcing_term.update(state, solver->symmetric_only() && solid.linear());
+    return state;
+  }
+
+
+
+  void
+  StepProblem::update_geometry(NewtonState &state)
   {
     {
       TimerOutput::Scope scope(timer, "search");
@@ -348,10 +370,16 @@ namespace Touchstone
     if (touch_unknown)
       touch = contact.part_to_touch();
     touch_unknown = false;
-    NewtonState state;
     graph.clear();
     missed           = boundary_conditions.prescribe(time, u, graph);
     state.prescribed = missed <= scene.newton.gap_tolerance * length;
+  }
+
+
+
+  void
+  StepProblem::balance(Vector &without_contact)
+  {
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
@@ -359,10 +387,15 @@ namespace Touchstone
         boundary_conditions.external_force(time, u, external);
     }
     integration->balance(u, external, internal, applied);
-    Vector without_contact(applied);
+    without_contact = applied;
     solid.condense(without_contact);
-    contact.enforcement().recover(contact, without_contact, graph);
+  }
 
+
+
+  void
+  StepProblem::judge_balance(const Vector &without_contact, NewtonState &state)
+  {
     Vector contact_force(solid.owned, solid.communicator);
     contact.add_forces(contact_force);
     unbalanced = without_contact;
@@ -389,9 +422,15 @@ namespace Touchstone
     // Only before the first forces act round-off can be as large as they are.
     if (largest_force_scale > 0.)
       state.round_off = std::min(state.round_off, largest_round_off);
+  }
 
+
+
+  void
+  StepProblem::update_active_set(const unsigned int damping, NewtonState &state)
+  {
     const ActiveSetUpdate set =
-      contact.enforcement().update_active_set(contact, scene.newton.gap_tolerance, caution);
+      contact.enforcement().update_active_set(contact, scene.newton.gap_tolerance, damping);
     changed_rows.clear();
     for (const ContactRow *row : set.changed)
       changed_rows.push_back(
@@ -400,41 +439,6 @@ namespace Touchstone
     state.active    = set.active;
     state.changes   = set.changes;
     state.signature = set.signature;
-
-    if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
-      contact.enforcement().balanced(contact);
-
-    // A solve that goes far below what Newton needs in the end is wasted. But one
-    // that moves supports has a right-hand side much larger than the forces that
-    // it leads to, and one that leads to wrong signs of contact forces costs
-    // further iterations: these get two digits more, three where stick and slip are
-    // told apart by small differences. One that can be the last should be: it aims well
-    // below the residual that Newton asks for, with two digits more if it takes them.
-    const double usual = scene.linear_solver.tolerance;
-    const double last  = 0.03 * scene.newton.residual_tolerance / state.residual;
-    linear_tolerance   = usual;
-    if (!state.prescribed || state.changes > 0)
-      linear_tolerance *= scene.has_friction() ? 1e-3 : 1e-2;
-    else
-      {
-        // Symmetric systems leave out how normals change, and Newton converges linearly: to
-        // solve much better than what that left of the last residual is wasted. A tenth of it
-        // and more would cost another solve now and then.
-        // Eisenstat and Walker (1996), SIAM J. Sci. Comput. 17, the first of their choices.
-        double left = 0.;
-        if (last_residual > 0. && solver->symmetric_only() && solid.linear())
-          left = 0.03 * state.residual / last_residual;
-        if (state.residual > 0. && last >= 1e-2 * usual)
-          linear_tolerance = std::min(last, std::max(usual, 0.1));
-        linear_tolerance = std::max(linear_tolerance, std::min(left, 1e-2));
-      }
-    // Frozen normals and contact points usually leave a hundredth of the residual. Where they leave
-    // more than this part of it, they would take longer than a system that is not symmetric.
-    constexpr double much = 0.3;
-    slow =
-      slow || (last_residual > 0. && state.changes == 0 && state.residual > much * last_residual);
-    last_residual = state.changes == 0 && state.prescribed ? state.residual : 0.;
-    return state;
   }
 
 
@@ -448,35 +452,65 @@ namespace Touchstone
         solid.assemble(u, solver->symmetric_only());
         ++assemblies;
       }
+    begin_system();
+    if (!system->keep_symmetric &&
+        (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
+         (forcing_term.slow() &&
+          scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
+      contact.differentiate();
+    contact.enforcement().enforce(contact, graph, *system);
+    add_follower_pressure();
+    contact.enforcement().add_friction(contact, *system);
+    if (!integration->dynamic())
+      check_supports();
+    const IndexSet needed = dofs_of_system();
+    constrain_system(needed);
+    if (solver->wants_basis_change(static_cast<int>(u.size())))
+      change_basis(needed);
+    condensed =
+      std::make_unique<CondensedSystem>(*system,
+                                        solver->applies_operator(static_cast<int>(u.size())));
+  }
+
+
+
+  void
+  StepProblem::begin_system()
+  {
     system            = std::make_unique<LinearSystem>();
     system->stiffness = &integration->stiffness();
     system->rhs.reinit(solid.owned, solid.communicator);
     system->rhs               = applied;
     system->first_extra       = system->rhs.size();
-    system->tolerance         = linear_tolerance;
+    system->tolerance         = forcing_term.tolerance();
     system->keep_symmetric    = solver->symmetric_only();
     system->symmetric         = system->keep_symmetric || solid.symmetric();
     system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
-    if (!system->keep_symmetric &&
-        (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (slow && scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
-      contact.differentiate();
-    contact.enforcement().enforce(contact, graph, *system);
-    if (!boundary_conditions.follower_pressure().empty())
-      {
-        const std::size_t before = system->terms.size();
-        boundary_conditions.follower_pressure().add_stiffness(time,
-                                                              u,
-                                                              system->keep_symmetric,
-                                                              system->terms);
-        for (std::size_t k = before; k < system->terms.size(); ++k)
-          for (auto &entry : system->terms[k].left)
-            entry.second *= integration->weight();
-        system->symmetric = system->symmetric && system->keep_symmetric;
-      }
-    contact.enforcement().add_friction(contact, *system);
-    if (!integration->dynamic())
-      check_supports();
+  }
+
+
+
+  void
+  StepProblem::add_follower_pressure()
+  {
+    if (boundary_conditions.follower_pressure().empty())
+      return;
+    const std::size_t before = system->terms.size();
+    boundary_conditions.follower_pressure().add_stiffness(time,
+                                                          u,
+                                                          system->keep_symmetric,
+                                                          system->terms);
+    for (std::size_t k = before; k < system->terms.size(); ++k)
+      for (auto &entry : system->terms[k].left)
+        entry.second *= integration->weight();
+    system->symmetric = system->symmetric && system->keep_symmetric;
+  }
+
+
+
+  IndexSet
+  StepProblem::dofs_of_system() const
+  {
     // Contact terms may refer to nodes that are far from this rank's cells, and to
     // components of them that no condition knows of.
     std::set<Index> far;
@@ -487,10 +521,23 @@ namespace Touchstone
             far.insert(i);
     IndexSet needed = solid.relevant;
     needed.add_indices(far.begin(), far.end());
+    return needed;
+  }
+
+
+
+  bool
+  StepProblem::everywhere(const bool here) const
+  {
+    return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
+  }
+
+
+
+  void
+  StepProblem::constrain_system(const IndexSet &needed)
+  {
     system->constraints = graph.constraints(solid.hanging, solid.owned, needed, solid.communicator);
-    const auto everywhere = [&](const bool here) {
-      return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
-    };
     if (!everywhere(graph.symmetric()))
       {
         system->test_constraints =
@@ -498,29 +545,53 @@ namespace Touchstone
         system->symmetric = false;
       }
     system->symmetric = everywhere(system->symmetric);
-    if (solver->wants_basis_change(static_cast<int>(u.size())))
+  }
+
+
+
+  void
+  StepProblem::change_basis(const IndexSet &needed)
+  {
+    // After all conditions, for these determine nothing.
+    for (const ContactRow &row : contact.rows())
+      for (const Condition &spring : friction_springs(row, contact.state(row)))
+        graph.accept(spring, ConstraintGraph::Treatment::spring);
+    system->basis_change =
+      graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
+    if (!system->keep_symmetric && !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
       {
-        // After all conditions, for these decide nothing.
-        for (const ContactRow &row : contact.rows())
-          for (const Condition &spring : friction_springs(row, contact.state(row)))
-            graph.accept(spring, ConstraintGraph::Treatment::spring);
-        system->basis_change =
-          graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
-        if (!system->keep_symmetric &&
-            !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
-          {
-            system->test_basis_change =
-              graph.test_basis_change(system->test_constraints ? *system->test_constraints
-                                                               : system->constraints,
-                                      solid.owned,
-                                      needed,
-                                      solid.communicator);
-            system->symmetric = false;
-          }
+        system->test_basis_change =
+          graph.test_basis_change(system->test_constraints ? *system->test_constraints
+                                                           : system->constraints,
+                                  solid.owned,
+                                  needed,
+                                  solid.communicator);
+        system->symmetric = false;
       }
-    condensed =
-      std::make_unique<CondensedSystem>(*system,
-                                        solver->applies_operator(static_cast<int>(u.size())));
+  }
+
+
+
+  void
+  StepProblem::check_bodies_without_support()
+  {
+    graph.clear();
+    boundary_conditions.prescribe(0., u, graph);
+    const FreeMotion motion = modes->free_motion(graph.accepted());
+    for (const unsigned int body : motion.bodies)
+      {
+        const std::string &name  = scene.bodies[body].name;
+        bool               meets = false;
+        for (const ContactPairParameters &pair : scene.pairs)
+          meets = meets || pair.slave_body == name || pair.master_body == name;
+        if (!meets)
+          throw InputError("Body " + name,
+                           "Fixed",
+                           "",
+                           "nothing holds the bodies in place: " + motion.description,
+                           "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
+                           "contact pair.");
+      }
   }
 
 
@@ -537,21 +608,6 @@ namespace Touchstone
     const FreeMotion motion = modes->free_motion(supports);
     if (motion.n_modes == 0)
       return;
-    for (const unsigned int body : motion.bodies)
-      {
-        const std::string &name  = scene.bodies[body].name;
-        bool               meets = false;
-        for (const ContactPairParameters &pair : scene.pairs)
-          meets = meets || pair.slave_body == name || pair.master_body == name;
-        if (!meets)
-          throw InputError("Body " + name,
-                           "Fixed",
-                           "",
-                           "nothing holds the bodies in place: " + motion.description,
-                           "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
-                           "contact pair.");
-      }
-
     // Before contact, not farther than the nearest gap, so that contact can catch
     // the body. In contact the body is left to slide: there, the springs must
     // outweigh the geometric stiffness of the contact forces, which is about the
@@ -642,21 +698,46 @@ namespace Touchstone
 
 
 
-  Vector
-  StepProblem::ghosted_displacement() const
+  StepState
+  StepProblem::state() const
   {
-    return solid.ghosted(u);
+    return {u, contact, *integration, solid, {linear_counts(), assemblies, n_searches()}, [this]() {
+              // What the supports must add for the nodes to be in balance.
+              Vector support(unbalanced);
+              support *= -1.;
+              return boundary_conditions.reactions(support);
+            }};
   }
 
 
 
-  std::vector<Reaction>
-  StepProblem::reactions() const
+  StepFindings
+  StepProblem::findings() const
   {
-    // What the supports must add for the nodes to be in balance.
-    Vector support(unbalanced);
-    support *= -1.;
-    return boundary_conditions.reactions(support);
+    StepFindings result;
+    result.remarks  = remarks();
+    result.warnings = check_loose_bodies();
+    check_contact();
+    return result;
+  }
+
+
+
+  StepDifficulty
+  StepProblem::difficulty() const
+  {
+    return {worst_place(),
+            stabilised.empty()
+              ? ""
+              : "; held by contact alone, perhaps against no resistance: " + stabilised};
+  }
+
+
+
+  std::unique_ptr<Step>
+  Step::make(const Scene &scene, const Forest &forest, Solid &solid, TimerOutput &timer)
+  {
+    return std::make_unique<StepProblem>(scene, forest, solid, timer);
   }
 
 

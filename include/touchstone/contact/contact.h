@@ -32,7 +32,9 @@ namespace Touchstone
   public:
     using Mirrors = ContactPair::Mirrors;
 
-    /** @param mirrors Of owned nodes, by node.
+    /** @param inputs     What the pairs are made from, in their order.
+     * @param parameters How they are enforced; must live as long as this.
+     * @param mirrors    Of owned nodes, by node.
      * @throws InputError for boundaries that do not exist, and surfaces without faces. */
     Contact(const std::vector<ContactPairInput> &inputs,
             const ContactParameters             &parameters,

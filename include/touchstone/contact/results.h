@@ -3,13 +3,11 @@
 
 #include <touchstone/base/types.h>
 #include <touchstone/contact/row_state.h>
-#include <touchstone/contact/search/search_work.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
-#include <cstdint>
 #include <set>
 #include <vector>
 
@@ -90,13 +88,6 @@ namespace Touchstone
     }
   };
 
-  /** @brief Contact work of this rank, in counts that do not depend on the machine. */
-  struct ContactWork
-  {
-    std::uint64_t slave_rows = 0, master_faces = 0;
-    SearchWork    search;
-  };
-
   /** @brief Boundaries of the slave and of the master surface of a pair, by
    * body; empty for an obstacle. */
   struct PairBoundaries
@@ -116,10 +107,6 @@ namespace Touchstone
   /** @brief Sums per pair over all ranks. Collective. */
   std::vector<PairResult>
   pair_results(const Contact &contact, const Vector &u);
-
-  /** @brief Counts of this rank so far. */
-  ContactWork
-  contact_work(const Contact &contact);
 
   /** @brief Of each pair. */
   std::vector<PairBoundaries>

@@ -4,7 +4,7 @@
 #include <touchstone/base/formula.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/refinement_parameters.h>
-#include <touchstone/drive/step_problem.h>
+#include <touchstone/drive/step.h>
 #include <touchstone/mesh/forest.h>
 
 #include <deal.II/lac/vector.h>
@@ -35,14 +35,14 @@ namespace Touchstone
      * estimator. Collective.
      */
     double
-    estimate(const StepProblem &problem);
+    estimate(const Step &problem);
 
     /**
      * @brief Mark cells by what estimate() found in the same state.
      * @return whether the mesh is going to change. Collective.
      */
     bool
-    mark(const StepProblem &problem, double time);
+    mark(const Step &problem, double time);
 
     /**
      * @brief Change the mesh as marked, share it out to the ranks, and begin the solid
@@ -76,7 +76,7 @@ namespace Touchstone
     /** Of the slave faces of a pair whose rows refer to a master node, as they will be: the
      * sum of (length / size)^sharpness, on the first component of the node. */
     Vector
-    faces_at_masters(const StepProblem    &problem,
+    faces_at_masters(const Step           &problem,
                      unsigned int          pair,
                      const PairBoundaries &boundaries,
                      double                length,
@@ -84,7 +84,7 @@ namespace Touchstone
     /** Mark the master faces that would be coarser than the refined slave faces that they
      * meet, and keep those that would become so. @return whether any. Collective. */
     bool
-    follow_slaves(const StepProblem &problem);
+    follow_slaves(const Step &problem);
     /** Learn the marks of ghost cells. @return whether any is new. Collective. */
     bool
     share_marks();

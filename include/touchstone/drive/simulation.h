@@ -76,7 +76,7 @@ namespace Touchstone
     Warnings                           warnings;
     Forest                             forest;
     Solid                              solid;
-    std::unique_ptr<StepProblem>       problem;
+    std::unique_ptr<Step>              problem;
     Refinement                         refinement;
     Progress                           progress;
     Statistics                         statistics;

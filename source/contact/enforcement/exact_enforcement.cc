@@ -41,7 +41,7 @@ namespace Touchstone
       const ConstraintGraph::Treatment way = treatment(row);
       adjust(row, condition);
       if (row_states[row].record(condition, graph.accept(condition, way)))
-        accepted.push_back({&row, condition, graph.accepted().size() - 1, way});
+        accepted.push_back({&row, condition, graph.accepted().size() - 1, way, row.normal});
     };
     // Nothing may penetrate: what closes gaps precedes what constrains nodes along surfaces.
     std::vector<std::pair<const ContactRow *, std::vector<Condition>>> stick;
@@ -129,12 +129,12 @@ namespace Touchstone
         if (!found.insert(&row).second)
           continue;
         RowState &state = row_states[row];
-        state.lambda    = state.force * row.normal;
+        state.lambda    = state.force * entry.normal;
         if (!row.friction || !state.fully_constrained())
           continue;
         for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
           state.force += (state.friction.base * tangent) * tangent;
-        state.friction.base = state.force - state.lambda * row.normal;
+        state.friction.base = state.force - state.lambda * entry.normal;
       }
     solved = true;
   }

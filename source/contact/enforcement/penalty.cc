@@ -133,7 +133,7 @@ namespace Touchstone
         for (const Spring &spring : springs)
           row_states[*spring.row].force += spring.force * spring.condition.direction;
         for (const Spring &spring : springs)
-          row_states[*spring.row].lambda = row_states[*spring.row].force * spring.row->normal;
+          row_states[*spring.row].lambda = row_states[*spring.row].force * spring.normal;
         solved = true;
       }
 
@@ -172,13 +172,14 @@ namespace Touchstone
       choose_formulation(const ContactRow &row, RowState &state, double epsilon) const = 0;
 
     private:
-      /** A condition that a spring meets: its force before a solve, then after it; its stiffness.
-       */
+      /** A condition that a spring meets: its force before a solve, then after it; its stiffness;
+       * the normal of the row in the linear system. */
       struct Spring
       {
         const ContactRow *row;
         Condition         condition;
         double            force, epsilon;
+        Tensor<1, dim>    normal;
       };
 
       const double        factor;
@@ -252,7 +253,7 @@ namespace Touchstone
         terms.add_load(row, force * direction);
         terms.add_stiffness(row, epsilon * direction, condition.motion_form());
         if (!by_gap(row))
-          springs.push_back({&row, condition, force, epsilon});
+          springs.push_back({&row, condition, force, epsilon, row.normal});
       }
     };
 

@@ -32,13 +32,15 @@ namespace Touchstone
     }
 
   protected:
-    /** A condition of a row that the graph has accepted, its number there, and how it is met. */
+    /** A condition of a row that the graph has accepted, its number there, how it is met, and the
+     * normal of the row in the linear system. */
     struct Accepted
     {
       const ContactRow          *row;
       Condition                  condition;
       std::size_t                number;
       ConstraintGraph::Treatment treatment;
+      dealii::Tensor<1, dim>     normal;
     };
 
     void
