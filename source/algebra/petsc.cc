@@ -361,7 +361,7 @@ namespace Touchstone
 
 
 
-    class PetscKeys : public LinearSolverOptions
+    class PetscKeys : public PluginParameters
     {
     public:
       std::string text;
