@@ -88,7 +88,7 @@ pvbatch contrib/render.py "$runs/benchmarks/twist" "$pictures/twist.png" --unit 
 
 # Partial slip: tractions at the nodes against Cattaneo and Mindlin.
 run benchmarks/cattaneo_mindlin
-perl tests/checks/contact_points.pl "$runs"/benchmarks/cattaneo_mindlin/contact_0008.vtu >"$runs/slip.txt"
+contrib/contact_points "$runs"/benchmarks/cattaneo_mindlin/contact_0008.vtu >"$runs/slip.txt"
 awk '/"force":/ { sub(/.*force/, ""); gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print f[3] / 0.25, -f[1] / 0.25 }' \
   "$runs/benchmarks/cattaneo_mindlin/summary.json" >"$runs/slip_forces.txt"
 gnuplot <<END
