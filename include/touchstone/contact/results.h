@@ -3,7 +3,7 @@
 
 #include <touchstone/base/types.h>
 #include <touchstone/contact/row_state.h>
-#include <touchstone/contact/search/search.h>
+#include <touchstone/contact/search/face_exchange.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
