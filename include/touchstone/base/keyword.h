@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace Touchstone
   template <class Enum>
   class Keyword
   {
+    // A string literal would become true.
+    static_assert(!std::is_same_v<Enum, bool>);
+
   public:
     /** @param value Default of the key.
      * @param words All words with what they stand for, in the order of messages. */

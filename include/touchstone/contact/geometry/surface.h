@@ -1,9 +1,9 @@
 #ifndef touchstone_contact_geometry_surface_h
 #define touchstone_contact_geometry_surface_h
 
+#include <touchstone/algebra/stencil.h>
 #include <touchstone/contact/geometry/face_derivative.h>
 #include <touchstone/contact/geometry/trace_basis.h>
-#include <touchstone/contact/results.h>
 #include <touchstone/solid/solid.h>
 
 #include <set>
