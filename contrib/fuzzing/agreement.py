@@ -57,3 +57,14 @@ def compare(scene, default, variant_scene, result, variant):
         bound, kind = STEPS["path" if dependent else "exact"], f"differs: {variant.name}"
     if not d <= bound:
         yield Finding(kind, f"{where}: {d:.1e}")
+
+
+def explained_by_steps(scene, default, variant_scene, result, fine_scene, fine):
+    """Whether two runs that differ do so because the result depends on the steps: with small
+    steps it is as far from the default run, and near to the other one, which has cut its steps."""
+    if not fine.converged():
+        return False
+    d, _ = difference(scene, default, variant_scene, result)
+    to_default, _ = difference(scene, default, fine_scene, fine)
+    to_variant, _ = difference(fine_scene, fine, variant_scene, result)
+    return to_default >= 0.5 * d and to_variant <= 0.5 * d

@@ -75,6 +75,23 @@ def outcome(result, default):
     return None
 
 
+SMALL_STEPS = 16  # times as many as the scene has
+
+
+def compare(scene, default, own, result, variant, program, folder, time_limit):
+    """Findings from a run with default settings and one of a variant. Where friction or
+    plasticity makes the result depend on the steps and a run has cut some of them, one with
+    small steps decides."""
+    found = list(agreement.compare(scene, default, own, result, variant))
+    if not found or not agreement.path_dependent(scene) or len(default.rows) == len(result.rows):
+        return found
+    fine = dataclasses.replace(scene, steps=SMALL_STEPS * scene.steps)
+    reference = runs.run(program, fine, runs.folder_of(folder, "small steps"), (), 1,
+                         SMALL_STEPS * time_limit)
+    explained = agreement.explained_by_steps(scene, default, own, result, fine, reference)
+    return [] if explained else found
+
+
 def judge_scene(scene, index, variants, program, folder, time_limit):
     """Run a scene in all variants."""
     verdict = Verdict(index, scene.title, scene.frictional(), [], {}, 0.0, scene)
@@ -95,7 +112,7 @@ def judge_scene(scene, index, variants, program, folder, time_limit):
             found += [end] if end else []
         elif default.converged():
             found += [end] if end else []
-            found += agreement.compare(scene, default, own, result, variant)
+            found += compare(scene, default, own, result, variant, program, folder, time_limit)
         verdict.findings += [(variant.name, f) for f in found]
     return verdict
 
