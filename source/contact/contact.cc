@@ -125,7 +125,7 @@ namespace Touchstone
           }
         pair.overlap.assign(pair_rows.size(), 0.);
         if (parameters.friction)
-          pair.tangents = pair.slave->tangents();
+          pair.tangents = pair.slave->material_tangents();
         rows.push_back(pair_rows);
         pairs.push_back(std::move(pair));
       }

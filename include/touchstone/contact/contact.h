@@ -247,9 +247,9 @@ namespace Touchstone
       std::vector<ContactRow> reference;
       /** Initial overlaps that do not count, or not yet; of each row. */
       std::vector<double> overlap;
-      /** With friction: a tangent of each slave node that moves with the surface,
-       * as a stencil of positions. */
-      std::vector<Stencil> tangents;
+      /** With friction: two material vectors of the surface at each slave node, see
+       * Surface::material_tangents(). */
+      std::vector<std::array<Stencil, 2>> tangents;
     };
 
     const Solid                         &solid;
@@ -292,6 +292,10 @@ namespace Touchstone
     /** Slip of the rows with friction. */
     void
     update_slip(const Vector &u);
+    /** A direction in the plane of the row's normal that turns with the surface of the slave
+     * body, whichever directions its mesh has. @param tangents See Surface::material_tangents(). */
+    dealii::Tensor<1, dim>
+    in_plane_rotation(const ContactRow &row, const std::array<Stencil, 2> &tangents) const;
     /** Position of a node that positions knows. */
     dealii::Tensor<1, dim>
     position(Index node) const;
@@ -312,7 +316,7 @@ namespace Touchstone
     void
     set_anchor(ContactRow &row) const;
     void
-    set_slip_gradient(ContactRow &row, const Stencil &tangent) const;
+    set_slip_gradient(ContactRow &row, const std::array<Stencil, 2> &tangents) const;
     void
     commit_friction(ContactRow &row) const;
     /** Pairs whose rows can depend on each other in a circle, in their order. */

@@ -18,18 +18,44 @@ namespace Touchstone
 
 
 
+  Tensor<1, dim>
+  Contact::in_plane_rotation(const ContactRow &row, const std::array<Stencil, 2> &tangents) const
+  {
+    Tensor<1, dim> q[2];
+    for (unsigned int a = 0; a < 2; ++a)
+      for (const StencilEntry &entry : tangents[a])
+        q[a] += entry.weight * position(entry.node);
+    // The rotation in the polar decomposition of the surface's deformation in the plane of the
+    // normal, doc/theory.md, section 6.2. A surface that faces away from the master surface has
+    // none; such rows carry no force.
+    const Tensor<1, dim> along     = tangential_projector(row.normal) * q[0];
+    const Tensor<1, dim> direction = along + cross_product_3d(q[1], row.normal);
+    return direction.norm() > 1e-3 * q[0].norm() ? direction : along;
+  }
+
+
+
   void
   Contact::update_slip(const Vector &u)
   {
     // Positions of all nodes that stencils, anchors and tangents speak of.
-    IndexSet needed = solid.relevant;
+    IndexSet   needed = solid.relevant;
+    const auto need   = [&needed](const Stencil &stencil) {
+      for (const StencilEntry &entry : stencil)
+        if (!needed.is_element(dim * entry.node))
+          needed.add_range(dim * entry.node, dim * entry.node + dim);
+    };
     for (const auto &pair_rows : rows)
       for (const ContactRow &row : pair_rows)
         if (row.friction)
-          for (const Stencil *stencil : {&row.stencil, &row.friction->anchor})
-            for (const StencilEntry &entry : *stencil)
-              if (!needed.is_element(dim * entry.node))
-                needed.add_range(dim * entry.node, dim * entry.node + dim);
+          {
+            need(row.stencil);
+            need(row.friction->anchor);
+          }
+    for (const Pair &pair : pairs)
+      for (const auto &tangents : pair.tangents)
+        for (const Stencil &tangent : tangents)
+          need(tangent);
     needed.compress();
     const int same = positions.size() > 0 && needed == positions_known;
     if (Utilities::MPI::min(same, solid.communicator) == 0)
@@ -51,12 +77,9 @@ namespace Touchstone
             continue;
           FrictionState       &f          = *row.friction;
           const Tensor<2, dim> tangential = tangential_projector(row.normal);
-          Tensor<1, dim>       direction;
-          for (const StencilEntry &entry : pairs[p].tangents[k])
-            direction += entry.weight * position(entry.node);
-          direction  = tangential * direction;
-          f.frame[0] = direction / direction.norm();
-          f.frame[1] = cross_product_3d(row.normal, f.frame[0]);
+          const Tensor<1, dim> direction  = in_plane_rotation(row, pairs[p].tangents[k]);
+          f.frame[0]                      = direction / direction.norm();
+          f.frame[1]                      = cross_product_3d(row.normal, f.frame[0]);
           f.find_tangents(row.normal);
           f.start = f.tangential * f.carry(f.stored);
           f.slip_gradient.clear();
@@ -196,7 +219,7 @@ namespace Touchstone
 
 
   void
-  Contact::set_slip_gradient(ContactRow &row, const Stencil &tangent) const
+  Contact::set_slip_gradient(ContactRow &row, const std::array<Stencil, 2> &tangents) const
   {
     FrictionState                      &f          = *row.friction;
     const RowDerivative                &d          = *row.derivative;
@@ -204,16 +227,18 @@ namespace Touchstone
     std::map<Index, FrictionState::Mat> slip;
     std::map<Index, FrictionState::Vec> spin;
 
-    // The frame turns with the tangent q: omega = e_2 . dq / |T q|.
-    Tensor<1, dim> q;
-    for (const StencilEntry &entry : tangent)
-      {
-        q += entry.weight * position(entry.node);
-        spin[entry.node] += entry.weight * f.frame[1];
-      }
+    // The frame turns with the direction q = T q_1 + q_2 x n: omega = e_2 . dq / |q|.
+    Tensor<1, dim> q[2];
+    for (unsigned int a = 0; a < 2; ++a)
+      for (const StencilEntry &entry : tangents[a])
+        {
+          q[a] += entry.weight * position(entry.node);
+          spin[entry.node] += (a == 0 ? entry.weight * f.frame[1] : -entry.weight * f.frame[0]);
+        }
     for (std::size_t a = 0; a < d.nodes.size(); ++a)
-      spin[d.nodes[a]] -= (row.normal * q) * (f.frame[1] * d.normal[a]);
-    const double length = (tangential_projector(row.normal) * q).norm();
+      spin[d.nodes[a]] += (row.normal * q[1]) * (f.frame[0] * d.normal[a]) -
+                          (row.normal * q[0]) * (f.frame[1] * d.normal[a]);
+    const double length = in_plane_rotation(row, tangents).norm();
     for (auto &entry : spin)
       entry.second /= length;
 
