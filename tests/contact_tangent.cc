@@ -90,6 +90,35 @@ end
     ContactStatus status;
   };
 
+  /** A limit that falls with the slip path and with the slip rate, and depends on the area. */
+  class WeakeningLaw : public FrictionLaw
+  {
+  public:
+    void
+    declare(ParameterHandler &) override
+    {
+    }
+
+    void
+    check(const std::string &) const override
+    {
+    }
+
+    FrictionLimit
+    limit(const FrictionInput &input) const override
+    {
+      const double path = std::exp(-input.slip_length / 0.1), rate = 1. + input.slip_rate;
+      const double mu = 0.2 + 0.2 * path / rate;
+      return {mu * input.normal_force + 0.01 * input.area,
+              mu,
+              0.01,
+              -2. * path / rate * input.normal_force,
+              -0.2 * path / (rate * rate) * input.normal_force};
+    }
+  };
+
+  const FrictionLawRegistry::Entry<WeakeningLaw> weakening_law("weakening", "for this test.");
+
   const std::vector<Friction> frictions = {
     {"frictionless", "frictionless", "exact", ContactStatus::slip},
     {"exact stick", "coulomb", "exact", ContactStatus::stick},
@@ -97,7 +126,9 @@ end
     {"regularised stick", "coulomb", "regularised", ContactStatus::stick},
     {"regularised slip", "coulomb", "regularised", ContactStatus::slip},
     {"tresca slip", "tresca", "exact", ContactStatus::slip},
-    {"regularised tresca slip", "tresca", "regularised", ContactStatus::slip}};
+    {"regularised tresca slip", "tresca", "regularised", ContactStatus::slip},
+    {"weakening slip", "weakening", "exact", ContactStatus::slip},
+    {"regularised weakening slip", "weakening", "regularised", ContactStatus::slip}};
 
   const std::vector<std::string> enforcements = {"lagrange multipliers",
                                                  "elimination",
@@ -189,7 +220,7 @@ end
       u = made.displacement([&](const Point<dim> &x, const unsigned int number) {
         return rotation * place(x, number, true) - x;
       });
-      contact.update(u, 0.);
+      contact.update(u, step);
       for (ContactRow &row : contact.rows[0])
         {
           if (row.status == ContactStatus::no_partner)
@@ -212,6 +243,9 @@ end
               -row.friction->limit / row.friction->slip.norm() * row.friction->slip;
       evaluate();
     }
+
+    /** Length of the step in time. */
+    static constexpr double step = 0.1;
 
     const Friction               friction;
     const std::string            enforcement_name;
@@ -498,15 +532,15 @@ end
         Touchstone::Vector       plus(c.u), minus(c.u);
         plus.add(h, direction);
         minus.add(-h, direction);
-        c.contact.update(plus, 0.);
+        c.contact.update(plus, Case::step);
         Touchstone::Vector            difference = c.forces();
         const std::vector<ContactRow> rows_plus  = c.rows();
         c.rows()                                 = base;
-        c.contact.update(minus, 0.);
+        c.contact.update(minus, Case::step);
         difference -= c.forces();
         difference /= 2. * h;
         const std::vector<ContactRow> rows_minus = c.rows();
-        c.contact.update(c.u, 0.);
+        c.contact.update(c.u, Case::step);
         c.rows() = base;
         errors[4].add(c.change(v, std::vector<double>(extra.size(), 0.)), difference);
 
@@ -652,6 +686,6 @@ main(int argc, char **argv)
             pairing == "obstacle" ? obstacle : blocks, pairing, enforcement, friction, argc > 1);
   // Cones that depend on the area.
   for (const Friction &friction : frictions)
-    if (friction.behaviour == "tresca")
+    if (friction.behaviour == "tresca" || friction.behaviour == "weakening")
       check(blocks, "averaged", "lagrange multipliers", friction, argc > 1, true);
 }

@@ -40,9 +40,10 @@ namespace Touchstone
       limit(const FrictionInput &input) const override
       {
         // TODO: the radius L of the cone, a force, from the normal force, the area
-        // (pressure = force / area), the length of the slip path up to the last step,
-        // and whether the node slips. The second number is dL / d(normal force), a third
-        // would be dL / d(area): a wrong one costs iterations, not accuracy.
+        // (pressure = force / area), the length of the slip path up to the end of the step,
+        // the slip rate, the time, and whether the node slips. The second number is
+        // dL / d(normal force); dL / d(area), dL / d(path) and dL / d(rate) would follow: a
+        // wrong one costs iterations, not accuracy.
         return {coefficient * input.normal_force, coefficient};
       }
 

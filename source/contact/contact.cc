@@ -373,7 +373,8 @@ namespace Touchstone
         }
     if (positions.size() > 0)
       start_step();
-    committed = rows;
+    committed      = rows;
+    committed_time = time;
   }
 
 

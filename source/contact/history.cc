@@ -88,7 +88,10 @@ namespace Touchstone
     if (history && positions.size() > 0)
       start_step();
     if (history)
-      committed = rows;
+      {
+        committed      = rows;
+        committed_time = time;
+      }
   }
 
 
@@ -295,7 +298,7 @@ namespace Touchstone
   void
   Contact::load(const ArchiveReader &archive, const Vector &u, const double t)
   {
-    time = t;
+    time = committed_time = t;
     (*import_ghosts)(u, ghosted);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {

@@ -269,7 +269,7 @@ namespace Touchstone
     dealii::IndexSet positions_known;
     unsigned int     searches = 0;
     bool             started  = false;
-    double           time     = 0.;
+    double           time = 0., committed_time = 0.;
     const double     end_time;
 
     /** See unresolved(), for one pair. */

@@ -257,6 +257,12 @@ namespace Touchstone
           slope += spring * outer_product(tangent, tangent);
         }
     add_load(row, rest);
+    // A limit that falls with the slip is no spring: symmetric systems lag it.
+    if (f.slip_coupling.norm_square() > 0. && !system.keep_symmetric)
+      {
+        slope -= outer_product(f.slip_coupling, f.slip_direction);
+        system.symmetric = false;
+      }
     if (slope.norm_square() > 0.)
       {
         NodalMatrices change;

@@ -86,6 +86,8 @@ namespace Touchstone
           f.spin_gradient.clear();
 
           f.area = row.area;
+          f.time = time;
+          f.step = time - committed_time;
           f.slip = f.tangential * (f.has_anchor ? way_from_anchor(row) - f.carry(f.anchor_way)
                                                 : relative_displacement(row));
         }

@@ -76,6 +76,8 @@ namespace Touchstone
     Vec slip;
     /** Tributary area of the row. */
     double area = 0.;
+    /** Time at the end of the step, and the length of the step in time. */
+    double time = 0., step = 0.;
     /** Unit tangents; the first one is carried along with the slave surface. */
     std::array<Vec, 2> frame;
     /** Projector onto the directions that friction can act along, which are tangential and
@@ -111,8 +113,9 @@ namespace Touchstone
      * the direction is zero while sticking. */
     Vec direction, last_direction;
     Mat slope, last_slope;
-    /** Linearised, t = rest + coupling lambda + area_coupling dA - slope ds - turn omega. */
-    Vec rest, coupling, area_coupling, turn;
+    /** Linearised, t = rest + coupling lambda + area_coupling dA - slope ds - turn omega
+     * + slip_coupling (slip_direction . ds), the last where the limit depends on the slip. */
+    Vec rest, coupling, area_coupling, turn, slip_coupling, slip_direction;
     /** Radius of the cone, force. */
     double limit = 0.;
     /** |t_tr| - L, force: positive asks for slip, negative for stick. */
@@ -133,9 +136,24 @@ namespace Touchstone
       return components[0] * frame[0] + components[1] * frame[1];
     }
 
-    /** @brief The cone of the law under a normal force. */
+    /** @brief The cone of the law under a normal force.
+     * @param slip Irreversible slip of the step, length. */
     FrictionLimit
-    cone(double normal_force, bool sliding) const;
+    cone(double normal_force, bool sliding, double slip = 0.) const;
+
+    /** @brief The cone of a slipping row whose elastic slip is stored in springs of stiffness c:
+     * its irreversible slip (|t_tr| - L) / c depends on the limit L, and L on that slip.
+     * @param trial Size of the trial force |t_tr|. */
+    FrictionLimit
+    cone_of_springs(double normal_force, double trial) const;
+
+    /** @brief Derivative of a limit with respect to the irreversible slip of the step, force per
+     * length. */
+    double
+    slip_derivative(const FrictionLimit &limit) const
+    {
+      return limit.slip_slope + (step > 0. ? limit.rate_slope / step : 0.);
+    }
 
     /** @brief The slip of the present step without its elastic part, the change of
      * the springs that regularised friction stores its force in.

@@ -16,8 +16,14 @@ namespace Touchstone
     double normal_force = 0.;
     /** Tributary area in the reference state, as far as it is covered at present. */
     double area = 0.;
-    /** Length of the path that the node has slipped up to the last step. */
+    /** Length of the path that the node has slipped since the start, that of the present
+     * step included; elastic slip does not count. */
     double slip_length = 0.;
+    /** Slip of the step divided by its length in time: length per time, >= 0; zero while the
+     * node sticks. In statics time is that of the loads. */
+    double slip_rate = 0.;
+    /** Time at the end of the step. */
+    double time = 0.;
     /** Whether the node slips at present or sticks. */
     bool sliding = false;
   };
@@ -31,6 +37,10 @@ namespace Touchstone
     double slope = 0.;
     /** Its derivative with respect to the area, force per area. */
     double area_slope = 0.;
+    /** Its derivative with respect to the length of the slip path, force per length. */
+    double slip_slope = 0.;
+    /** Its derivative with respect to the slip rate, force times time per length. */
+    double rate_slope = 0.;
   };
 
   /**
@@ -38,6 +48,9 @@ namespace Touchstone
    * stays below it while the node sticks, and is equal to it, against the
    * motion, when it slips. Registered by the name that the key "Behaviour" of a
    * contact pair takes; its parameters stand in the subsection "Friction".
+   *
+   * The law is evaluated at the end of the step (backward Euler): the result of a law that
+   * depends on the slip path does not depend on the number of steps that the path is made in.
    */
   class FrictionLaw
   {
