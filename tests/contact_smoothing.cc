@@ -27,7 +27,7 @@ namespace
       {
         const Tensor<1, dim> on = path(double(i) / n_steps);
         Tensor<1, dim>       up = on;
-        if (pair.scene.bodies[0].geometry_name == "tube")
+        if (pair.scene.bodies[0].geometry_type.name == "tube")
           up[0] = 0.;
         points.emplace_back(on + height * up);
       }

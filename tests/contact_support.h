@@ -78,13 +78,12 @@ namespace Touchstone
       slave = make(parameters, parameters.slave_body, parameters.slave_boundaries);
       if (!parameters.master_body.empty())
         master = make(parameters, parameters.master_body, parameters.master_boundaries);
-      pairing = PairingRegistry::make(parameters.obstacle.empty() ? parameters.pairing : "obstacle",
-                                      {&parameters,
-                                       scene.obstacles.empty() ? nullptr : &scene.obstacles[0],
-                                       &solid,
-                                       slave.get(),
-                                       master.get(),
-                                       parameters.search_distance});
+      pairing = make_pairing({&parameters,
+                              parameters.obstacle.empty() ? nullptr : &scene.obstacles[0],
+                              &solid,
+                              slave.get(),
+                              master.get(),
+                              parameters.search_distance});
       for (const SurfaceNode &node : slave->owned_nodes())
         {
           ContactRow row;

@@ -2,7 +2,7 @@
 // tangent that of the stress, the undeformed state is that of linear elasticity,
 // and a rotation turns the stress with it.
 
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/hyperelastic_law.h>
 
 #include <deal.II/physics/transformations.h>

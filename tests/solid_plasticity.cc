@@ -28,9 +28,9 @@ namespace
       : finite(material.finite_strain())
     {
       if (finite)
-        law = FiniteStrainRegistry::make(material.law, material);
+        law = material.law.make<FiniteStrainRegistry>(material);
       else
-        law = SmallStrainRegistry::make(material.law, material);
+        law = material.law.make<SmallStrainRegistry>(material);
       state.resize(law->n_state());
       law->start(state.data());
     }

@@ -26,6 +26,12 @@ namespace Touchstone
       {
       }
 
+      std::set<std::string>
+      used_options() const override
+      {
+        return {parameters.type, "MUMPS", parameters.preconditioner};
+      }
+
       bool
       wants_basis_change(const int n_unknowns) const override
       {
@@ -152,6 +158,8 @@ namespace Touchstone
 
     const LinearSolverRegistry::Entry<AutomaticSolver>
       automatic_entry("automatic",
-                      "Belos CG or GMRES for large systems without multipliers, else MUMPS");
+                      "from 10,000 dofs on and without multipliers, Belos CG for symmetric systems "
+                      "and Belos GMRES for others; MUMPS otherwise, or if these would take longer, "
+                      "which the log says.");
   } // namespace
 } // namespace Touchstone

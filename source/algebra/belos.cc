@@ -1,9 +1,6 @@
-#include <touchstone/algebra/condensation.h>
 #include <touchstone/algebra/convergence_watch.h>
 #include <touchstone/algebra/kept_factors.h>
 #include <touchstone/algebra/linear_solver.h>
-#include <touchstone/algebra/multigrid/block_diagonal.h>
-#include <touchstone/algebra/multigrid/multigrid.h>
 #include <touchstone/algebra/watched_iteration.h>
 #include <touchstone/base/non_convergence.h>
 
@@ -11,7 +8,6 @@
 #include <BelosBlockGmresSolMgr.hpp>
 #include <BelosEpetraAdapter.hpp>
 #include <BelosLinearProblem.hpp>
-#include <Ifpack_PointRelaxation.h>
 #include <Teuchos_ParameterList.hpp>
 #include <Teuchos_RCP.hpp>
 #include <Teuchos_oblackholestream.hpp>
@@ -29,37 +25,26 @@ namespace Touchstone
      * factors in systems of up to so many unknowns, of which they need some GB. */
     constexpr int factorisable = 200000;
 
-    /** One symmetric sweep, of each rank for itself. */
-    class GaussSeidel : public Ifpack_PointRelaxation
-    {
-    public:
-      explicit GaussSeidel(const std::shared_ptr<Epetra_CrsMatrix> &system)
-        : Ifpack_PointRelaxation(system.get())
-        , matrix(system)
-      {
-        Teuchos::ParameterList list;
-        list.set("relaxation: type", "symmetric Gauss-Seidel");
-        list.set("relaxation: sweeps", 1);
-        SetParameters(list);
-        Initialize();
-        Compute();
-      }
-
-    private:
-      const std::shared_ptr<Epetra_CrsMatrix> matrix;
-    };
-
-    /**
-     * A Krylov method from Belos with smoothed aggregation. The near-null space are the
-     * rigid-body modes of the bodies, set to zero at constrained unknowns.
-     * Vanek, Mandel and Brezina (1996), Computing 56.
-     */
+    /** A Krylov method from Belos with a preconditioner of the registry. */
     class BelosSolver : public LinearSolver
     {
     public:
       explicit BelosSolver(const LinearSolverParameters &parameters)
         : LinearSolver(parameters)
+        , preconditioner_maker(PreconditionerRegistry::make(parameters.preconditioner))
       {
+      }
+
+      bool
+      takes_multipliers() const override
+      {
+        return false;
+      }
+
+      bool
+      takes_preconditioner() const override
+      {
+        return true;
       }
 
       bool
@@ -83,7 +68,8 @@ namespace Touchstone
       }
 
     private:
-      std::unique_ptr<Epetra_Operator> preconditioner;
+      const std::shared_ptr<const Preconditioner> preconditioner_maker;
+      std::unique_ptr<Epetra_Operator>            preconditioner;
       /** Multigrid would take too many iterations, factors are kept instead. */
       bool    slow = false, told = false;
       Strikes strikes;
@@ -95,9 +81,10 @@ namespace Touchstone
       void
       set_up(const CondensedSystem &system, const RigidMotions &motions);
 
-      /** Multigrid, or what does without where inertia makes all else superfluous. */
+      /** Make the preconditioner that the scene asks for. @throws SlowConvergence where it should
+       * be replaced by factors. */
       std::unique_ptr<Epetra_Operator>
-      make_multigrid(const CondensedSystem &system, const RigidMotions &motions) const;
+      make_preconditioner(const CondensedSystem &system, const RigidMotions &motions) const;
 
       /** Whether the preconditioner still serves. Collective. */
       bool
@@ -198,57 +185,27 @@ namespace Touchstone
 
     const LinearSolverRegistry::Entry<BelosCg>
       cg("Belos CG",
-         "conjugate gradients with algebraic multigrid, for symmetric "
-         "positive definite systems");
+         "conjugate gradients with a preconditioner, for large models without multipliers; takes "
+         "symmetric systems only, so that some derivatives of contact are left out.");
 
     const LinearSolverRegistry::Entry<BelosGmres>
       gmres("Belos GMRES",
-            "restarted GMRES with algebraic multigrid, for unsymmetric systems "
-            "without multipliers");
-
-
-
-    /** Resistance to rigid motions over that of single unknowns, away from constrained
-     * ones: zero but for inertia. */
-    double
-    stiffness_of_motions(const CondensedSystem &system, const RigidMotions &motions)
-    {
-      const Epetra_Vector &translation = *motions.columns(0);
-      Epetra_Vector        force(system.rhs->Map());
-      system.product().Apply(translation, force);
-      double sums[2] = {0., 0.}, all[2];
-      for (int i = 0; i < force.MyLength(); ++i)
-        if (!system.constrained[i] && !system.changed[i])
-          {
-            sums[0] += force[i] * translation[i];
-            if (translation[i] != 0.)
-              sums[1] += system.stiffness_diagonal(i) * translation[i] * translation[i];
-          }
-      force.Comm().SumAll(sums, all, 2);
-      return all[1] > 0. ? all[0] / all[1] : 0.;
-    }
+            "restarted GMRES with a preconditioner, for large models without multipliers.");
 
 
 
     std::unique_ptr<Epetra_Operator>
-    BelosSolver::make_multigrid(const CondensedSystem &system, const RigidMotions &motions) const
+    BelosSolver::make_preconditioner(const CondensedSystem &system,
+                                     const RigidMotions    &motions) const
     {
-      // With much inertia it alone bounds the condition number: coarse spaces have nothing
-      // to do, and the aggregates that weak couplings leave would hardly be fewer.
-      if (stiffness_of_motions(system, motions) >= 0.15)
-        return std::make_unique<GaussSeidel>(system.matrix());
-      Epetra_MultiVector near_kernel(motions.columns);
-      for (int v = 0; v < near_kernel.NumVectors(); ++v)
-        for (int i = 0; i < near_kernel.MyLength(); ++i)
-          if (system.constrained[i] || system.changed[i])
-            near_kernel[v][i] = 0.;
       try
         {
-          return std::make_unique<Multigrid>(
-            system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
+          return preconditioner_maker->set_up(system, motions);
         }
       catch (const LinearSolverFailure &failure)
         {
+          if (!preconditioner_maker->multilevel())
+            throw;
           throw SlowConvergence(failure.what());
         }
     }
@@ -261,15 +218,13 @@ namespace Touchstone
       preconditioner.reset();
       constrained = system.constrained;
       changed     = system.changed;
-      if (parameters.preconditioner == "diagonal")
-        preconditioner = std::make_unique<BlockDiagonal>(system.rows(), *system.block_rows());
-      else if (slow)
+      if (slow)
         {
           preconditioner = std::make_unique<KeptFactors>(system);
           ++count.factorisations;
         }
       else
-        preconditioner = make_multigrid(system, motions);
+        preconditioner = make_preconditioner(system, motions);
       ++count.preconditioner_setups;
       fresh_iterations = 0;
     }
@@ -279,7 +234,7 @@ namespace Touchstone
     double
     BelosSolver::patience(const CondensedSystem &system) const
     {
-      if (parameters.preconditioner == "diagonal" || slow)
+      if (!preconditioner_maker->multilevel() || slow)
         return ConvergenceWatch::endless;
       if (parameters.patience > 0)
         return parameters.patience;

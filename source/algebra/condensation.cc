@@ -1,4 +1,5 @@
 #include <touchstone/algebra/condensation.h>
+#include <touchstone/base/exchange.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,7 +13,8 @@ namespace Touchstone
 
   namespace
   {
-    /** Visit the entries of unknown @p i of a node's row: local numbers and values. */
+    /** Visit the entries of unknown @p i of a node's row: local numbers and values.
+     */
     template <class Visit>
     void
     for_each_entry(const Matrix::Rows::Row &row, const int i, const Visit &visit)
@@ -21,75 +23,53 @@ namespace Touchstone
         for (unsigned int c = 0; c < dim; ++c)
           visit(static_cast<int>(dim * row.columns[k] + c), row.blocks[k][dim * c + i % dim]);
     }
+
+    /** A row of S^T A T for the rank that owns it: its right-hand side, and how
+     * many of the entries that are sent beside it belong to it. */
+    struct SentRow
+    {
+      Index       row;
+      double      value;
+      std::size_t n_entries;
+    };
+
+    struct SentEntry
+    {
+      Index  column;
+      double value;
+    };
   } // namespace
 
 
 
-  void
-  LinearSystem::expand(Vector &solution) const
+  const TransformationRows::Row *
+  TransformationRows::row(const int local)
   {
-    if (basis_change.get_local_lines().size() > 0)
+    if (static_cast<std::size_t>(local) >= number.size())
+      number.resize(indices.global().size(), unknown);
+    if (number[local] == unknown)
       {
-        const Vector deviation(solution);
-        basis_change.distribute(solution);
-        const IndexSet owned = solution.locally_owned_elements();
-        for (const auto &line : basis_change.get_lines())
-          if (owned.is_element(line.index))
-            solution(line.index) += deviation(line.index);
-        solution.compress(VectorOperation::add);
-      }
-    constraints.distribute(solution);
-  }
-
-
-
-  void
-  Expansion::append(const Index global, const double factor, Line &line)
-  {
-    if (basis_change.is_constrained(global))
-      for (const auto &[other, coefficient] : *basis_change.get_constraint_entries(global))
-        line.entries.emplace_back(numbers.local(other), factor * coefficient);
-    line.entries.emplace_back(numbers.local(global), factor);
-  }
-
-
-
-  const Expansion::Line *
-  Expansion::line(const int local)
-  {
-    if (static_cast<std::size_t>(local) >= which.size())
-      which.resize(numbers.global().size(), -2);
-    if (which[local] == -2)
-      {
-        const Index global   = numbers.global()[local];
-        which[local]         = -1;
-        const bool unknown   = global < n_displacements;
-        const bool dependent = unknown && constraints.is_constrained(global);
-        if (dependent || (unknown && basis_change.is_constrained(global)))
+        number[local] = identity;
+        if (const auto global = transformation.row(indices.global()[local]))
           {
-            Line line;
-            if (dependent)
-              {
-                for (const auto &[other, factor] : *constraints.get_constraint_entries(global))
-                  append(other, factor, line);
-                line.shift = constraints.get_inhomogeneity(global);
-              }
-            else
-              append(global, 1., line);
-            which[local] = static_cast<int>(lines.size());
-            lines.push_back(std::move(line));
+            Row result;
+            result.inhomogeneity = global->inhomogeneity;
+            for (const auto &[dof, factor] : global->entries)
+              result.entries.emplace_back(indices.local(dof), factor);
+            number[local] = static_cast<int>(rows.size());
+            rows.push_back(std::move(result));
           }
       }
-    return which[local] < 0 ? nullptr : &lines[which[local]];
+    return number[local] == identity ? nullptr : &rows[number[local]];
   }
 
 
 
   SparseRow
-  Accumulator::take()
+  SparseRowAccumulator::take()
   {
     for (const auto &entry : row)
-      place[entry.first] = -1;
+      position[entry.first] = -1;
     SparseRow result(row);
     row.clear();
     std::sort(result.begin(), result.end());
@@ -98,21 +78,16 @@ namespace Touchstone
 
 
 
-  Condensation::Condensation(const LinearSystem &system,
-                             const Epetra_Map   &rows,
-                             LocalNumbers       &columns)
-    : values(rows.NumMyElements())
-    , system(system)
-    , row_map(rows)
-    , row_numbers(rows)
+  Condensation::Condensation(const CondensationInput &input, LocalIndices &columns)
+    : values(input.dofs.NumMyElements())
+    , system(input.system)
+    , dofs(input.dofs)
+    , row_indices(input.dofs)
     , columns(columns)
-    , motion(system.constraints, system.basis_change, system.rhs.size(), columns)
-    , test(system.test_constraints ? *system.test_constraints : system.constraints,
-           system.test_basis_change ? *system.test_basis_change : system.basis_change,
-           system.rhs.size(),
-           row_numbers)
-    , places(rows.NumMyElements(), -1)
-    , replaced(rows.NumMyElements())
+    , trial(input.trial, columns)
+    , test(input.test, row_indices)
+    , number(input.dofs.NumMyElements(), -1)
+    , replaced(input.dofs.NumMyElements())
   {
     add_stiffness();
     add_terms();
@@ -123,18 +98,31 @@ namespace Touchstone
 
 
 
-  double
-  Condensation::expand(const int column, const double value)
+  SparseRow &
+  Condensation::new_row(const int i)
   {
-    const Expansion::Line *line = motion.line(column);
-    if (!line)
+    if (number[i] < 0)
+      {
+        number[i] = static_cast<int>(rows.size());
+        rows.emplace_back();
+      }
+    return rows[number[i]];
+  }
+
+
+
+  double
+  Condensation::add_transformed(const int column, const double value)
+  {
+    const TransformationRows::Row *row = trial.row(column);
+    if (!row)
       {
         accumulator.add(column, value);
         return 0.;
       }
-    for (const auto &[other, factor] : line->entries)
+    for (const auto &[other, factor] : row->entries)
       accumulator.add(other, value * factor);
-    return value * line->shift;
+    return value * row->inhomogeneity;
   }
 
 
@@ -145,8 +133,8 @@ namespace Touchstone
     const int source = static_cast<int>(sources.size());
     sources.push_back(accumulator.take());
     source_values.push_back(value);
-    if (const Expansion::Line *line = test.line(row))
-      for (const auto &[target, factor] : line->entries)
+    if (const TransformationRows::Row *of_test = test.row(row))
+      for (const auto &[target, factor] : of_test->entries)
         parts.push_back({target, source, factor});
     else
       parts.push_back({row, source, 1.});
@@ -155,24 +143,24 @@ namespace Touchstone
 
 
   std::vector<char>
-  Condensation::touched_nodes()
+  Condensation::affected_nodes()
   {
-    // Which columns are plain is asked 27 times for each: look it up once.
+    // Each column is asked for 27 times: look it up once.
     const BlockPattern &pattern = system.stiffness->couplings();
-    std::vector<char>   touched(pattern.n_nodes()), plain(pattern.n_local_nodes(), 1);
+    std::vector<char>   affected(pattern.n_nodes()), plain(pattern.n_local_nodes(), 1);
     for (unsigned int node = 0; node < plain.size(); ++node)
       for (unsigned int d = 0; d < dim; ++d)
-        if (motion.line(static_cast<int>(dim * node + d)))
+        if (trial.row(static_cast<int>(dim * node + d)))
           plain[node] = 0;
-    for (unsigned int node = 0; node < touched.size(); ++node)
+    for (unsigned int node = 0; node < affected.size(); ++node)
       {
         for (std::size_t k = pattern.start[node]; k < pattern.start[node + 1]; ++k)
-          touched[node] |= !plain[pattern.column[k]];
+          affected[node] |= !plain[pattern.column[k]];
         if (!plain[node])
           for (std::size_t k = pattern.start[node]; k < pattern.mirrored[node]; ++k)
-            touched[pattern.column[k]] = 1;
+            affected[pattern.column[k]] = 1;
       }
-    return touched;
+    return affected;
   }
 
 
@@ -183,16 +171,16 @@ namespace Touchstone
     const Matrix &stiffness = *system.stiffness;
     const double *shift =
       system.diagonal_shift.size() > 0 ? system.diagonal_shift.begin() : nullptr;
-    const std::vector<char> touched  = touched_nodes();
+    const std::vector<char> affected = affected_nodes();
     double                  diagonal = 0.;
-    std::vector<int>        supported;
+    std::vector<int>        constrained_rows;
     Matrix::Rows            matrix_rows(stiffness);
     for (int i = 0; i < static_cast<int>(dim * stiffness.n_nodes()); ++i)
       {
-        const bool constrained = system.constraints.is_constrained(row_map.GID(i));
+        const bool constrained = system.constraints.is_constrained(dofs.GID(i));
         if (constrained)
-          supported.push_back(i);
-        if (!touched[i / dim] && !constrained && !(shift && shift[i] != 0.))
+          constrained_rows.push_back(i);
+        if (!affected[i / dim] && !constrained && !(shift && shift[i] != 0.))
           {
             values[i] = system.rhs.begin()[i];
             continue;
@@ -200,22 +188,31 @@ namespace Touchstone
         values[i]   = 0.;
         replaced[i] = 1;
         diagonal    = std::max(diagonal, std::abs(stiffness.diagonal(i)));
-        if (const Expansion::Line *line = test.line(i); line && line->entries.empty())
-          continue; // a support: nothing stands for this row
+        if (const auto *of_test = test.row(i); of_test && of_test->entries.empty())
+          continue; // a support: its equation goes to no other dof
         double product = 0.;
         for_each_entry(matrix_rows.read(i / dim), i, [&](const int column, const double value) {
-          product += expand(column, value);
+          product += add_transformed(column, value);
         });
         if (shift)
-          product += expand(i, shift[i]);
+          product += add_transformed(i, shift[i]);
         add_source(i, system.rhs.begin()[i] - product);
       }
+    add_own_rows(constrained_rows, diagonal);
+  }
+
+
+
+  void
+  Condensation::add_own_rows(const std::vector<int> &constrained, double diagonal)
+  {
+    // Of the size of others, so that it changes no condition number.
     diagonal = Utilities::MPI::max(diagonal, system.rhs.get_mpi_communicator());
     if (diagonal == 0.)
       diagonal = 1.;
-    for (const int i : supported)
+    for (const int i : constrained)
       new_row(i) = {{i, diagonal}};
-    const int n = static_cast<int>(dim * stiffness.n_nodes());
+    const int n = static_cast<int>(dim * system.stiffness->n_nodes());
     for (Index k = 0; k < system.n_extra; ++k)
       {
         values[n + k]   = system.extra_rhs[k];
@@ -231,22 +228,22 @@ namespace Touchstone
   {
     for (const RankOneTerm &term : system.terms)
       {
-        double shift = 0.;
+        double inhomogeneity = 0.;
         for (const auto &[column, value] : term.right)
-          shift += expand(columns.local(column), value);
-        sources.push_back(take_what_is_left());
-        source_values.push_back(-shift);
-        for (const auto &[row, value] : term.left)
+          inhomogeneity += add_transformed(columns.local(column), value);
+        sources.push_back(take_without_round_off());
+        source_values.push_back(-inhomogeneity);
+        for (const auto &[dof, value] : term.left)
           {
-            const int here = row_numbers.local(row);
-            if (const Expansion::Line *line = test.line(here))
-              for (const auto &[target, factor] : line->entries)
+            const int here = row_indices.local(dof);
+            if (const TransformationRows::Row *row = test.row(here))
+              for (const auto &[target, factor] : row->entries)
                 accumulator.add(target, value * factor);
             else
               accumulator.add(here, value);
           }
         const int source = static_cast<int>(sources.size()) - 1;
-        for (const auto &[target, value] : take_what_is_left())
+        for (const auto &[target, value] : take_without_round_off())
           parts.push_back({target, source, value});
       }
   }
@@ -254,17 +251,18 @@ namespace Touchstone
 
 
   SparseRow
-  Condensation::take_what_is_left()
+  Condensation::take_without_round_off()
   {
-    SparseRow row     = accumulator.take();
-    double    largest = 0.;
+    constexpr double round_off = 1e-14;
+    SparseRow        row       = accumulator.take();
+    double           largest   = 0.;
     for (const auto &entry : row)
       largest = std::max(largest, std::abs(entry.second));
     row.erase(std::remove_if(row.begin(),
                              row.end(),
                              [&](const auto &entry) {
                                return std::isfinite(entry.second) &&
-                                      std::abs(entry.second) <= 1e-14 * largest;
+                                      std::abs(entry.second) <= round_off * largest;
                              }),
               row.end());
     return row;
@@ -288,11 +286,36 @@ namespace Touchstone
 
 
 
+  std::vector<unsigned int>
+  Condensation::owners(const std::vector<Index> &of_dofs) const
+  {
+    struct First
+    {
+      Index displacement, extra;
+    };
+    const Index n     = system.rhs.size();
+    const Index first = system.stiffness->n_nodes() > 0 ? static_cast<Index>(dofs.GID(0)) : n;
+    const auto  all   = gather_records(std::vector<First>{{first, system.first_extra}},
+                                    system.rhs.get_mpi_communicator());
+    std::vector<unsigned int> result;
+    for (const Index dof : of_dofs)
+      {
+        unsigned int owner = 0;
+        for (unsigned int rank = 0; rank < all.size(); ++rank)
+          if ((dof >= n ? all[rank][0].extra : all[rank][0].displacement) <= dof)
+            owner = rank;
+        result.push_back(owner);
+      }
+    return result;
+  }
+
+
+
   void
   Condensation::exchange()
   {
     const MPI_Comm communicator = system.rhs.get_mpi_communicator();
-    const int      n_owned      = row_map.NumMyElements();
+    const int      n_owned      = dofs.NumMyElements();
     const auto foreign = std::stable_partition(parts.begin(), parts.end(), [&](const Part &part) {
       return part.target < n_owned;
     });
@@ -303,64 +326,40 @@ namespace Touchstone
     });
     parts.swap(away);
 
-    // Ranks own displacements and extra unknowns in ascending order.
-    const Index first_owned = system.stiffness->n_nodes() > 0
-                                ? static_cast<Index>(row_map.GID(0))
-                                : static_cast<Index>(system.rhs.size());
-    const auto  first =
-      Utilities::MPI::all_gather(communicator, std::make_pair(first_owned, system.first_extra));
-    const auto owner = [&](const Index i) {
-      const bool   extra = i >= system.rhs.size();
-      unsigned int rank  = 0;
-      for (unsigned int r = 0; r < first.size(); ++r)
-        if ((extra ? first[r].second : first[r].first) <= i)
-          rank = r;
-      return rank;
-    };
-    // Row, its value, and the number of numbers to come: of columns that follow each other
-    // the first, how many, and entries.
-    std::map<unsigned int, std::vector<double>> packages;
+    std::vector<Index> targets;
+    for (const Part &part : parts)
+      targets.push_back(row_indices.global()[part.target]);
+    const std::vector<unsigned int>                owner = owners(targets);
+    std::map<unsigned int, std::vector<SentRow>>   sent_rows;
+    std::map<unsigned int, std::vector<SentEntry>> sent_entries;
     for (std::size_t begin = 0; begin < parts.size();)
       {
-        const Index target  = row_numbers.global()[parts[begin].target];
-        double      value   = 0.;
-        begin               = sum(begin, value);
-        const SparseRow row = accumulator.take();
-        auto           &to  = packages[owner(target)];
-        to.insert(to.end(), {static_cast<double>(target), value, 0.});
-        const std::size_t begin_of_row = to.size();
-        for (std::size_t k = 0, end = 0; k < row.size(); k = end)
-          {
-            const int first_column = columns.global()[row[k].first];
-            to.insert(to.end(), {static_cast<double>(first_column), 0.});
-            for (end = k; end < row.size() && columns.global()[row[end].first] ==
-                                                first_column + static_cast<int>(end - k);
-                 ++end)
-              to.push_back(row[end].second);
-            to[to.size() - (end - k) - 1] = static_cast<double>(end - k);
-          }
-        to[begin_of_row - 1] = static_cast<double>(to.size() - begin_of_row);
+        const Index        target = targets[begin];
+        const unsigned int rank   = owner[begin];
+        double             value  = 0.;
+        begin                     = sum(begin, value);
+        const SparseRow row       = accumulator.take();
+        sent_rows[rank].push_back({target, value, row.size()});
+        auto &entries = sent_entries[rank];
+        for (const auto &[column, entry] : row)
+          entries.push_back({static_cast<Index>(columns.global()[column]), entry});
       }
     parts.swap(away);
-    for (const auto &[rank, package] : Utilities::MPI::some_to_some(communicator, packages))
-      for (std::size_t k = 0; k < package.size();)
-        {
-          const Index  target = static_cast<Index>(package[k]);
-          const double value  = package[k + 1];
-          k += 3;
-          for (const std::size_t end = k + static_cast<std::size_t>(package[k - 1]); k < end;)
-            {
-              const Index       column = static_cast<Index>(package[k]);
-              const std::size_t n      = static_cast<std::size_t>(package[k + 1]);
-              k += 2;
-              for (std::size_t e = 0; e < n; ++e, ++k)
-                accumulator.add(columns.local(column + e), package[k]);
-            }
-          // Summed up for this row by the sender: not expanded again.
-          parts.push_back({row_numbers.local(target), static_cast<int>(sources.size()), 1.});
-          sources.push_back(accumulator.take());
-          source_values.push_back(value);
-        }
+    auto received_entries = exchange_records(sent_entries, communicator);
+    for (const auto &[rank, received_rows] : exchange_records(sent_rows, communicator))
+      {
+        auto entry = received_entries[rank].cbegin();
+        for (const SentRow &received : received_rows)
+          {
+            for (const auto end = entry + received.n_entries; entry != end; ++entry)
+              accumulator.add(columns.local(entry->column), entry->value);
+            // Summed up for this row by the sender: not transformed again.
+            parts.push_back(
+              {row_indices.local(received.row), static_cast<int>(sources.size()), 1.});
+            sources.push_back(accumulator.take());
+            source_values.push_back(received.value);
+          }
+      }
   }
 
 

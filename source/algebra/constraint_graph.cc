@@ -1,5 +1,5 @@
 #include <touchstone/algebra/constraint_graph.h>
-#include <touchstone/algebra/multigrid/neighbours.h>
+#include <touchstone/base/exchange.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
@@ -73,6 +73,21 @@ namespace Touchstone
       return result;
     }
 
+    /** A line x_index = inhomogeneity + sum of the next n_entries of those that are sent
+     * beside it. */
+    struct SentLine
+    {
+      Index       index;
+      double      inhomogeneity;
+      std::size_t n_entries;
+    };
+
+    struct SentCoefficient
+    {
+      Index  index;
+      double coefficient;
+    };
+
     /** Add the lines that the owners of @p needed unknowns have. (deal.II's
      * make_consistent_in_parallel() looks for each one among all that there are, which takes
      * the square of their number.) Collective. */
@@ -87,33 +102,31 @@ namespace Touchstone
       for (const auto &[begin, end] : partitioner.import_indices())
         for (unsigned int i = begin; i < end; ++i)
           asked.push_back(partitioner.local_to_global(i));
-      // Unknown, value, and number of entries to come: unknowns and coefficients.
-      std::map<unsigned int, std::vector<double>> packages;
-      auto                                        next = asked.begin();
+      std::map<unsigned int, std::vector<SentLine>>        sent_lines;
+      std::map<unsigned int, std::vector<SentCoefficient>> sent_coefficients;
+      auto                                                 next = asked.begin();
       for (const auto &[rank, n] : partitioner.import_targets())
         for (const auto end = next + n; next != end; ++next)
           if (constraints.is_constrained(*next))
             {
               const auto &entries = *constraints.get_constraint_entries(*next);
-              auto       &to      = packages[rank];
-              to.insert(to.end(),
-                        {static_cast<double>(*next),
-                         constraints.get_inhomogeneity(*next),
-                         static_cast<double>(entries.size())});
-              for (const auto &[unknown, coefficient] : entries)
-                to.insert(to.end(), {static_cast<double>(unknown), coefficient});
+              sent_lines[rank].push_back(
+                {*next, constraints.get_inhomogeneity(*next), entries.size()});
+              for (const auto &[index, coefficient] : entries)
+                sent_coefficients[rank].push_back({index, coefficient});
             }
-      for (const auto &[rank, package] : exchange_with_neighbours(
-             packages, partitioner.import_targets(), partitioner.ghost_targets(), communicator))
-        for (std::size_t k = 0; k < package.size();)
-          {
-            const Index index = static_cast<Index>(package[k]);
-            constraints.add_line(index);
-            constraints.set_inhomogeneity(index, package[k + 1]);
-            const std::size_t end = k + 3 + 2 * static_cast<std::size_t>(package[k + 2]);
-            for (k += 3; k < end; k += 2)
-              constraints.add_entry(index, static_cast<Index>(package[k]), package[k + 1]);
-          }
+      auto coefficients = exchange_records(sent_coefficients, communicator);
+      for (const auto &[rank, lines] : exchange_records(sent_lines, communicator))
+        {
+          auto entry = coefficients[rank].cbegin();
+          for (const SentLine &line : lines)
+            {
+              constraints.add_line(line.index);
+              constraints.set_inhomogeneity(line.index, line.inhomogeneity);
+              for (const auto end = entry + line.n_entries; entry != end; ++entry)
+                constraints.add_entry(line.index, entry->index, entry->coefficient);
+            }
+        }
     }
   } // namespace
 

@@ -110,7 +110,5 @@ namespace Touchstone
     if (!(residual <= std::max(10. * system.tolerance, 1e-6)))
       throw LinearSolverFailure("the linear solver " + parameters.type +
                                 " left a true relative residual of " + std::to_string(residual));
-    if (system.scale)
-      solution.Multiply(1., *system.scale, solution, 0.);
   }
 } // namespace Touchstone

@@ -5,13 +5,48 @@ namespace Touchstone
 {
   namespace
   {
+    /** Keys of MUMPS. */
+    class MumpsOptions : public LinearSolverOptions
+    {
+    public:
+      /** Relative size of what is left out of the blocks of the factors; 0 keeps all; no
+       * unit. */
+      double low_rank_tolerance = 0.;
+      /** The factors are kept in files. */
+      bool out_of_core = false;
+
+      void
+      declare(dealii::ParameterHandler &prm) override
+      {
+        prm.add_parameter(
+          "Low rank tolerance",
+          low_rank_tolerance,
+          "MUMPS compresses the blocks of its factors, up to this relative error: less "
+          "memory for large models, at about the same time; 0: not at all. 1e-8 costs no "
+          "Newton iteration. [no unit]",
+          dealii::Patterns::Double(0., 1e-2));
+        prm.add_parameter("Out of core",
+                          out_of_core,
+                          "MUMPS keeps its factors in files, in the folder that the environment "
+                          "variable MUMPS_OOC_TMPDIR names or in /tmp: for models that memory has "
+                          "no room for.",
+                          dealii::Patterns::Bool());
+      }
+    };
+
+    const LinearSolverOptionsRegistry::Entry<MumpsOptions> mumps_options_entry("MUMPS",
+                                                                               "keys of MUMPS");
+
+
+
     /** Direct solution: LDL^T for symmetric systems and LU otherwise. */
     class Mumps : public LinearSolver
     {
     public:
       explicit Mumps(const LinearSolverParameters &parameters)
         : LinearSolver(parameters)
-        , factors(parameters.low_rank_tolerance, parameters.out_of_core)
+        , factors(parameters.options_of<MumpsOptions>("MUMPS").low_rank_tolerance,
+                  parameters.options_of<MumpsOptions>("MUMPS").out_of_core)
       {
       }
 
@@ -43,7 +78,7 @@ namespace Touchstone
       }
     };
 
-    const LinearSolverRegistry::Entry<Mumps> mumps_entry("MUMPS",
-                                                         "sparse direct solver, for any system");
+    const LinearSolverRegistry::Entry<Mumps>
+      mumps_entry("MUMPS", "factorises any system, for small models and multipliers.");
   } // namespace
 } // namespace Touchstone

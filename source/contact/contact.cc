@@ -67,7 +67,7 @@ namespace Touchstone
         pair.parameters = &parameters;
         pair.slave_body = scene.body_index(parameters.slave_body);
         pair.modulus    = scene.bodies[pair.slave_body].material.young_modulus;
-        pair.tied       = (parameters.behaviour == "tied");
+        pair.tied       = parameters.tied();
         pair.slave = make(parameters.slave_body, parameters.slave_boundaries, "Slave boundaries");
         const ObstacleParameters *obstacle = nullptr;
         for (const ObstacleParameters &o : scene.obstacles)
@@ -92,13 +92,12 @@ namespace Touchstone
                                  "let different boundaries be slave and master");
           }
         pair.small   = pair.tied || (obstacle == nullptr && parameters.sliding == "small");
-        pair.pairing = PairingRegistry::make(obstacle ? "obstacle" : parameters.pairing,
-                                             {&parameters,
-                                              obstacle,
-                                              &solid,
-                                              pair.slave.get(),
-                                              pair.master.get(),
-                                              parameters.search_distance});
+        pair.pairing = make_pairing({&parameters,
+                                     obstacle,
+                                     &solid,
+                                     pair.slave.get(),
+                                     pair.master.get(),
+                                     parameters.search_distance});
 
         std::vector<ContactRow> pair_rows;
         for (const SurfaceNode &node : pair.slave->owned_nodes())
@@ -196,8 +195,7 @@ namespace Touchstone
     if (depth > face)
       {
         const double distance = std::max(depth + 2. * face, 4. * face);
-        pair.pairing          = PairingRegistry::make(
-          pair.parameters->pairing,
+        pair.pairing          = make_pairing(
           {pair.parameters, nullptr, &solid, pair.slave.get(), pair.master.get(), distance});
         pair.pairing->update(u, time, pair_rows);
         ++searches;

@@ -1,7 +1,9 @@
+#include <touchstone/base/exchange.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/edge_crossing.h>
 #include <touchstone/contact/geometry/surface_cone.h>
-#include <touchstone/contact/search/search.h>
+#include <touchstone/contact/search/face_exchange.h>
+#include <touchstone/contact/tolerances.h>
 #include <touchstone/contact/unresolved_contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 namespace Touchstone
 {
@@ -19,26 +22,19 @@ namespace Touchstone
   {
     using Box = BoundingBox<dim>;
 
-    /** How deep sharp edges and vertices may reach into the other body, as a fraction of the
-     * edge or the face: surfaces that are balanced with all their rows fit within less. */
-    constexpr double deep_edge = 0.02;
-    /** The same for a node of a smooth surface, which reaches into a coarser face by the
-     * height of the arc over it before the nodes of that meet anything. */
-    constexpr double deep_node = 0.1;
-    /** Distance of edges that come close, as a fraction of the shorter one. */
-    constexpr double near_edge = 0.1;
-    /** Cosine between the normals of a face and of all faces around a node where that is no
-     * node of a smooth surface. */
-    constexpr double sharp_node = 0.9;
-    /** Part of the force of the pair below which its direction does not matter. */
-    constexpr double small_part = 0.1;
-    /** Sine of the angle by which a force may lie outside the normals of the slave surface. */
-    constexpr double oblique = 0.35;
-
     Box
     box_of(const SharpEdge &edge)
     {
       return Box(std::vector<Point<dim>>{edge.a, edge.b});
+    }
+
+    Box
+    box_of(const Face &face)
+    {
+      std::vector<Point<dim>> positions;
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        positions.push_back(face.position(m));
+      return Box(positions);
     }
 
     Tensor<1, dim>
@@ -67,14 +63,14 @@ namespace Touchstone
       return face.position(0).distance(face.position(face.n_nodes() - 1)) / std::sqrt(2.);
     }
 
-    /** A place as a user reads it, without what is next to nothing. */
+    /** A position as a user reads it, with components that are round-off as zero. */
     std::string
     at(const Point<dim> &x)
     {
-      constexpr double nothing = 1e-4;
+      constexpr double shown = 1e-4; // of the distance from the origin
       double           r[dim];
       for (unsigned int d = 0; d < dim; ++d)
-        r[d] = std::abs(x[d]) > nothing * x.norm() ? x[d] : 0.;
+        r[d] = std::abs(x[d]) > shown * x.norm() ? x[d] : 0.;
       char text[80];
       std::snprintf(text, sizeof(text), "(%.3g, %.3g, %.3g)", r[0], r[1], r[2]);
       return text;
@@ -112,16 +108,16 @@ namespace Touchstone
 
 
 
-  Search
-  UnresolvedContact::search() const
+  std::vector<Face>
+  UnresolvedContact::nearby_master_faces() const
   {
     std::vector<Point<dim>> corners;
     for (const Face &face : slave.owned_faces())
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         corners.push_back(face.position(m));
-    Search result(master, slave.largest_face(), 0., MasterNormal::face, solid.communicator);
-    result.update(corners);
-    return result;
+    FaceExchange exchange(master, slave.largest_face(), MasterNormal::face, solid.communicator);
+    exchange.update(corners);
+    return exchange.faces();
   }
 
 
@@ -162,46 +158,48 @@ namespace Touchstone
   {
     std::vector<std::pair<Box, std::size_t>> boxes;
     for (std::size_t i = 0; i < master_faces.size(); ++i)
-      {
-        Box box({master_faces[i].position(0), master_faces[i].position(0)});
-        for (unsigned int m = 1; m < master_faces[i].n_nodes(); ++m)
-          box.merge_with(Box({master_faces[i].position(m), master_faces[i].position(m)}));
-        boxes.emplace_back(box, i);
-      }
+      boxes.emplace_back(box_of(master_faces[i]), i);
     const auto           tree = pack_rtree(boxes);
     std::vector<Overlap> result;
     for (const Face &face : slave.owned_faces())
       {
         if (!idle(slave, face, forces))
           continue;
-        const FaceGeometry   geometry(face, slave.exact_surface(face), MasterNormal::face);
-        const Tensor<1, dim> normal = geometry.normal({{0., 0.}});
-        const double         size   = size_of(face);
-        Box                  box({face.position(0), face.position(0)});
-        for (unsigned int m = 1; m < face.n_nodes(); ++m)
-          box.merge_with(Box({face.position(m), face.position(m)}));
-        box.extend(0.5 * size);
+        Box box = box_of(face);
+        box.extend(0.5 * size_of(face));
         namespace query = boost::geometry::index;
         for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
-          {
-            const Face &other = master_faces[entry.second];
-            for (unsigned int m = 0; m < other.n_nodes(); ++m)
-              {
-                const Point<dim> x     = other.position(m);
-                const bool       sharp = other.own_normals[m] * other.edge_normals[m] < sharp_node;
-                if (other.edge_normals[m] * normal >= 0. || !box.point_inside(x))
-                  continue;
-                const Projection foot = closest_point_projection(x, geometry);
-                if (foot.beyond_inner > 0. || foot.beyond_outer > 0.)
-                  continue;
-                const FacePoint point = geometry.evaluate(foot.xi);
-                const double    depth = (point.x - x) * point.normal();
-                if (depth > (sharp ? deep_edge : deep_node) * size)
-                  result.push_back({point.x, x, depth});
-              }
-          }
+          add_nodes_within(face, box, master_faces[entry.second], result);
       }
     return result;
+  }
+
+
+
+  void
+  UnresolvedContact::add_nodes_within(const Face           &face,
+                                      const Box            &box,
+                                      const Face           &other,
+                                      std::vector<Overlap> &found) const
+  {
+    const FaceGeometry   geometry(face, slave.exact_surface(face), MasterNormal::face);
+    const Tensor<1, dim> normal = geometry.normal({{0., 0.}});
+    for (unsigned int m = 0; m < other.n_nodes(); ++m)
+      {
+        const Point<dim> x = other.position(m);
+        if (other.edge_normals[m] * normal >= 0. || !box.point_inside(x))
+          continue;
+        const Projection foot = closest_point_projection(x, geometry);
+        if (foot.beyond_inner > 0. || foot.beyond_outer > 0.)
+          continue;
+        // A node of a smooth surface reaches into a coarser face by its sagitta, a vertex does not.
+        const bool sharp =
+          other.own_normals[m] * other.edge_normals[m] < Tolerances::sharp_node_cosine;
+        const FacePoint point = geometry.evaluate(foot.xi);
+        const double    depth = (point.x - x) * point.normal();
+        if (depth > (sharp ? Tolerances::deep_edge : Tolerances::deep_smooth_node) * size_of(face))
+          found.push_back({point.x, x, depth});
+      }
   }
 
 
@@ -212,38 +210,54 @@ namespace Touchstone
     Overlap result{Point<dim>(), Point<dim>(), 0.};
     if (Utilities::MPI::max(found.size(), solid.communicator) == 0)
       return result;
-    std::vector<std::array<double, 2 * dim + 1>> mine, all;
-    for (const Overlap &o : found)
-      mine.push_back(
-        {{o.depth, o.slave[0], o.slave[1], o.slave[2], o.master[0], o.master[1], o.master[2]}});
-    for (const auto &part : Utilities::MPI::all_gather(solid.communicator, mine))
+    // All ranks look at all of them: the other body may lie on any.
+    std::vector<Overlap> all;
+    for (const auto &part : gather_records(found, solid.communicator))
       all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end(), std::greater<>());
+    // An order that does not depend on the partition.
+    std::sort(all.begin(), all.end(), [](const Overlap &a, const Overlap &b) {
+      const auto key = [](const Overlap &o) {
+        return std::make_tuple(
+          o.depth, o.slave[0], o.slave[1], o.slave[2], o.master[0], o.master[1], o.master[2]);
+      };
+      return key(a) > key(b);
+    });
 
-    // Surfaces that see each other through a thin body overlap with nothing.
+    // The two sides of a thin body are near each other and overlap with nothing: what counts lies
+    // within the other body.
     const DeformedCells slave_cells(solid, slave_body, u), master_cells(solid, master_body, u);
-    std::vector<int>    inside(all.size());
-    for (std::size_t k = 0; k < all.size(); ++k)
+    std::vector<int>    master_point_inside, slave_point_inside;
+    for (const Overlap &o : all)
       {
-        const Point<dim> s(all[k][1], all[k][2], all[k][3]), m(all[k][4], all[k][5], all[k][6]);
-        inside[k] = (slave_cells.contain(m) ? 1 : 0) + (edges && master_cells.contain(s) ? 2 : 0);
+        master_point_inside.push_back(slave_cells.contain(o.master));
+        slave_point_inside.push_back(edges ? master_cells.contain(o.slave) : 1);
       }
-    for (const int bit : {1, 2})
-      {
-        std::vector<int> bits;
-        for (const int value : inside)
-          bits.push_back(value & bit);
-        Utilities::MPI::max(bits, solid.communicator, bits);
-        for (std::size_t k = 0; k < all.size(); ++k)
-          inside[k] |= bits[k];
-      }
+    Utilities::MPI::max(master_point_inside, solid.communicator, master_point_inside);
+    Utilities::MPI::max(slave_point_inside, solid.communicator, slave_point_inside);
     for (std::size_t k = 0; k < all.size(); ++k)
-      if (inside[k] == (edges ? 3 : 1))
-        return {Point<dim>(all[k][1], all[k][2], all[k][3]),
-                Point<dim>(all[k][4], all[k][5], all[k][6]),
-                all[k][0]};
+      if (master_point_inside[k] && slave_point_inside[k])
+        return all[k];
     return result;
   }
+
+
+
+  namespace
+  {
+    /** The size of a force or a depth, with the position where it is. */
+    struct Located
+    {
+      double     size = 0.;
+      Point<dim> x;
+
+      bool
+      operator<(const Located &other) const
+      {
+        return std::make_tuple(size, x[0], x[1], x[2]) <
+               std::make_tuple(other.size, other.x[0], other.x[1], other.x[2]);
+      }
+    };
+  } // namespace
 
 
 
@@ -254,13 +268,14 @@ namespace Touchstone
     for (const SurfaceNode &node : slave.owned_nodes())
       sum += force_on(node.node, forces).norm();
     sum = Utilities::MPI::sum(sum, solid.communicator);
-    // Part of the force, and place.
-    std::vector<double> worst;
+    std::vector<Located> oblique;
     for (const SurfaceNode &node : slave.owned_nodes())
       {
         const double size = force_on(node.node, forces).norm();
         if (size == 0.)
           continue;
+        // Forces of neighbours are summed: on both sides of a sharp edge of the master each
+        // of them is oblique and their sum is right (doc/theory.md 4, "What rows cannot describe").
         const SurfaceCone cone(slave, node.node);
         Tensor<1, dim>    around;
         bool              largest = true;
@@ -270,27 +285,23 @@ namespace Touchstone
             largest = largest && force_on(other, forces).norm() <= size;
           }
         // Beside a larger force the smaller one does not tell where the bodies touch.
-        if (!largest || around.norm() < small_part * sum ||
-            cone.distance(-1. * around / around.norm()) <= oblique)
-          continue;
-        const Point<dim> x = slave.position(node, u);
-        if (worst.empty() || around.norm() > worst[0])
-          worst = {around.norm(), x[0], x[1], x[2]};
+        if (largest && around.norm() >= Tolerances::small_force * sum &&
+            cone.distance(-1. * around / around.norm()) > Tolerances::oblique_sine)
+          oblique.push_back({around.norm(), slave.position(node, u)});
       }
-    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, worst))
-      if (worst.empty() || (!other.empty() && other > worst))
-        worst = other;
-    if (worst.empty())
+    Located worst;
+    for (const auto &part : gather_records(oblique, solid.communicator))
+      for (const Located &force : part)
+        worst = std::max(worst, force);
+    if (worst.size == 0.)
       return "";
-    const Point<dim> place(worst[1], worst[2], worst[3]);
     // Whether it is two edges that touch there.
-    int          touch = 0;
-    const Search found = search();
-    for (const Overlap &crossing : crossing_edges(found.known_faces(), -near_edge))
-      if (crossing.slave.distance(place) < slave.largest_face())
+    int touch = 0;
+    for (const Overlap &crossing : crossing_edges(nearby_master_faces(), -Tolerances::near_edge))
+      if (crossing.slave.distance(worst.x) < slave.largest_face())
         touch = 1;
     const bool edges = Utilities::MPI::max(touch, solid.communicator) == 1;
-    return "the contact force at " + at(place) + " is far from normal to the slave surface: an " +
+    return "the contact force at " + at(worst.x) + " is far from normal to the slave surface: an " +
            (edges ? "edge of '" : "edge or a vertex of '") + parameters.master_body + "' touches " +
            (edges ? "an edge of '" : "'") + parameters.slave_body + "' there";
   }
@@ -300,13 +311,13 @@ namespace Touchstone
   std::string
   UnresolvedContact::overlap() const
   {
-    const Search  found = search();
-    const Overlap edges = deepest(crossing_edges(found.known_faces(), deep_edge), true);
+    const std::vector<Face> others = nearby_master_faces();
+    const Overlap edges = deepest(crossing_edges(others, Tolerances::deep_edge), /*edges=*/true);
     if (edges.depth > 0.)
       return "an edge of '" + parameters.slave_body + "' and an edge of '" +
              parameters.master_body + "' have passed through each other at " + at(edges.slave) +
              ", by " + number(edges.depth);
-    const Overlap vertices = deepest(hidden_vertices(found.known_faces()), false);
+    const Overlap vertices = deepest(hidden_vertices(others), /*edges=*/false);
     if (vertices.depth > 0.)
       return "a node of '" + parameters.master_body + "' at " + at(vertices.master) + " lies " +
              number(vertices.depth) + " within '" + parameters.slave_body +
@@ -323,8 +334,7 @@ namespace Touchstone
                        const Vector                                    &forces,
                        const std::function<double(const Point<dim> &)> &gap)
   {
-    // Depth and place.
-    std::vector<double> worst{0., 0., 0., 0.};
+    std::vector<Located> found;
     for (const Face &face : slave.owned_faces())
       if (idle(slave, face, forces))
         for (const double a : {-0.5, 0., 0.5})
@@ -332,15 +342,17 @@ namespace Touchstone
             {
               const Point<dim> x     = evaluate(face, slave.exact_surface(face), {{a, b}}).x;
               const double     depth = -gap(x);
-              if (depth > deep_node * size_of(face) && depth > worst[0])
-                worst = {depth, x[0], x[1], x[2]};
+              if (depth > Tolerances::deep_smooth_node * size_of(face))
+                found.push_back({depth, x});
             }
-    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, worst))
-      worst = std::max(worst, other);
-    if (worst[0] == 0.)
+    Located worst;
+    for (const auto &part : gather_records(found, solid.communicator))
+      for (const Located &point : part)
+        worst = std::max(worst, point);
+    if (worst.size == 0.)
       return "";
-    return "the obstacle '" + parameters.obstacle + "' reaches " + number(worst[0]) + " into '" +
-           parameters.slave_body + "' at " + at(Point<dim>(worst[1], worst[2], worst[3])) +
+    return "the obstacle '" + parameters.obstacle + "' reaches " + number(worst.size) + " into '" +
+           parameters.slave_body + "' at " + at(worst.x) +
            ", between slave nodes that touch nothing";
   }
 } // namespace Touchstone

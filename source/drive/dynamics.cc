@@ -1,6 +1,6 @@
+#include <touchstone/base/formula.h>
 #include <touchstone/drive/dynamics.h>
 #include <touchstone/drive/impact.h>
-#include <touchstone/scene/formula.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/lac/full_matrix.h>

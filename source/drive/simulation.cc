@@ -389,7 +389,7 @@ namespace Touchstone
              summary.title);
     log.line(std::to_string(summary.cells) + " cells, " + std::to_string(summary.unknowns / dim) +
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
-             std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement + ", " +
+             std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement.name + ", " +
              scene.linear_solver.type);
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);

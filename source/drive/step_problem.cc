@@ -39,7 +39,7 @@ namespace Touchstone
     , timer(timer)
     , boundary_conditions(scene, forest, solid)
     , contact(scene, forest, solid, boundary_conditions.mirrors())
-    , enforcement(EnforcementRegistry::make(scene.contact.enforcement, scene.contact))
+    , enforcement(scene.contact.enforcement.make(scene.contact))
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
     , u(solid.owned, solid.communicator)
     , committed_u(u)

@@ -67,7 +67,7 @@ namespace Touchstone
           bodies.append(Json::object()
                           .set("name", body.name)
                           .set("element", body.element_name)
-                          .set("law", body.material.law)
+                          .set("law", body.material.law.name)
                           .set("young_modulus", body.material.young_modulus)
                           .set("poisson_ratio", body.material.poisson_ratio)
                           .set("cells", cells[b]));
@@ -118,7 +118,7 @@ namespace Touchstone
           pairs.append(
             Json::object()
               .set("name", pair.name)
-              .set("behaviour", pair.behaviour)
+              .set("behaviour", pair.behaviour.name)
               .set("friction_coefficient", pair.friction ? pair.friction->limit(input).slope : 0.)
               .set("slave", faces(pair.slave_body, pair.slave_boundaries, "Slave boundaries"))
               .set("master",

@@ -1,6 +1,5 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
-#include <touchstone/mesh/geometry.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/scene_entries.h>
 #include <touchstone/scene/scene_text.h>
@@ -130,9 +129,16 @@ namespace Touchstone
                       "Names of the contact pairs; each has a subsection "
                       "'Contact pair NAME'.");
 
-    const auto declare_in = [this](const std::string &section, auto &parameters) {
+    const auto look_up    = [&text](const auto &...arguments) { return text.value(arguments...); };
+    const auto declare_in = [&](const std::string &section, auto &parameters) {
       prm.enter_subsection(section);
       parameters.declare(prm);
+      prm.leave_subsection();
+    };
+    // Where classes are chosen, their names decide on further keys.
+    const auto declare_choices_in = [&](const std::string &section, auto &parameters) {
+      prm.enter_subsection(section);
+      parameters.declare(prm, EarlyValues(look_up, section));
       prm.leave_subsection();
     };
     for (BodyParameters &body : bodies)
@@ -143,37 +149,13 @@ namespace Touchstone
                            "",
                            "there is no subsection 'Geometry': the body has no shape",
                            "write one with the key 'Type' and the keys of that geometry");
-        const std::string section = body.section() + "/Geometry",
-                          type    = text.value(section, "Type", body.geometry_name);
-        if (GeometryRegistry::records().count(type) == 0)
-          {
-            std::vector<std::string> known;
-            for (const auto &[name, record] : GeometryRegistry::records())
-              known.push_back(name);
-            throw InputError(section,
-                             "Type",
-                             type,
-                             "there is no such geometry" + did_you_mean(type, known),
-                             "take one of " + quoted_list(known));
-          }
-        const std::string material = body.section() + "/Material";
-        body.material.law          = text.value(material, "Law", body.material.law);
-        body.material.hardening_name =
-          text.value(material + "/Plasticity", "Hardening", body.material.hardening_name);
-        prm.enter_subsection(body.section());
-        body.declare(prm, type);
-        prm.leave_subsection();
+        declare_choices_in(body.section(), body);
       }
     for (ObstacleParameters &obstacle : obstacles)
       declare_in(obstacle.section(), obstacle);
     for (ContactPairParameters &pair : pairs)
-      {
-        const std::string behaviour = text.value(pair.section(), "Behaviour", pair.behaviour);
-        prm.enter_subsection(pair.section());
-        pair.declare(prm, behaviour);
-        prm.leave_subsection();
-      }
-    declare_in("Contact", contact);
+      declare_choices_in(pair.section(), pair);
+    declare_choices_in("Contact", contact);
     declare_in("Discretisation", discretisation);
     declare_in("Refinement", refinement);
     declare_in("Load stepping", load_stepping);
@@ -195,7 +177,7 @@ namespace Touchstone
         body.element_name = body.automatic_element(discretisation.degree);
 
     for (ContactPairParameters &pair : pairs)
-      if (pair.behaviour == "tied" && !text.is_set(pair.section(), "Sliding"))
+      if (pair.tied() && !text.is_set(pair.section(), "Sliding"))
         {
           // Through the handler, so that the printed scene can be read back.
           prm.enter_subsection(pair.section());

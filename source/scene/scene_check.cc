@@ -1,6 +1,6 @@
+#include <touchstone/base/formula.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
-#include <touchstone/scene/formula.h>
 #include <touchstone/scene/scene.h>
 
 #include <algorithm>
@@ -66,19 +66,19 @@ namespace Touchstone
     linear_solver.check("Linear solver");
     output.check("Output");
 
-    if (contact.enforcement == "lagrange multipliers" && linear_solver.iterative())
+    if (contact.enforcement.name == "lagrange multipliers" && !linear_solver.takes_multipliers())
       throw InputError("Contact",
                        "Enforcement",
-                       contact.enforcement,
+                       contact.enforcement.name,
                        "multipliers make the system indefinite, which '" + linear_solver.type +
                          "' cannot solve",
                        "set 'Contact/Enforcement = elimination' or "
                        "'Linear solver/Type = MUMPS'");
-    if (contact.linearisation == "consistent" && linear_solver.type == "Belos CG")
+    if (contact.linearisation == "consistent" && linear_solver.symmetric_only())
       throw InputError("Contact",
                        "Linearisation",
                        contact.linearisation,
-                       "makes the system unsymmetric, which 'Belos CG' cannot solve",
+                       "makes the system unsymmetric, which '" + linear_solver.type + "' cannot solve",
                        "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
                        "'Belos GMRES'");
     check_reference();
@@ -198,13 +198,13 @@ namespace Touchstone
     if (!pair.obstacle.empty())
       check_name(section, "Obstacle", pair.obstacle, "Obstacles", names(obstacles));
     pair.check(section);
-    if (pair.behaviour == "tied" && pair.initial_overlap != "interference")
+    if (pair.tied() && pair.initial_overlap != "interference")
       throw InputError(section,
                        "Initial overlap",
                        pair.initial_overlap,
                        "a tied pair holds the bodies as they are placed",
                        "remove the key");
-    if (pair.behaviour == "tied" && pair.sliding == "finite")
+    if (pair.tied() && pair.sliding == "finite")
       throw InputError(section,
                        "Sliding",
                        pair.sliding,

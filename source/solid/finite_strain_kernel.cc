@@ -15,7 +15,7 @@ namespace Touchstone
     {
     public:
       explicit Hyperelastic(const MaterialParameters &material)
-        : law(HyperelasticRegistry::make(material.law, material))
+        : law(material.law.make<HyperelasticRegistry>(material))
       {
       }
 
@@ -41,8 +41,8 @@ namespace Touchstone
     std::shared_ptr<const MaterialLaw>
     make_law(const MaterialParameters &material)
     {
-      if (FiniteStrainRegistry::records().count(material.law) > 0)
-        return FiniteStrainRegistry::make(material.law, material);
+      if (FiniteStrainRegistry::knows(material.law.name))
+        return material.law.make<FiniteStrainRegistry>(material);
       return std::make_shared<Hyperelastic>(material);
     }
   } // namespace

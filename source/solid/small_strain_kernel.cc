@@ -10,7 +10,7 @@ namespace Touchstone
                                        const ElementType         type,
                                        const MaterialParameters &material)
     : CellKernel(degree,
-                 SmallStrainRegistry::make(material.law, material),
+                 material.law.make<SmallStrainRegistry>(material),
                  type == ElementType::b_bar)
   {
     Assert(type == ElementType::b_bar || type == ElementType::full, ExcNotImplemented());

@@ -1,4 +1,4 @@
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/hyperelastic_law.h>
 
 namespace Touchstone

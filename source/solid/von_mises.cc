@@ -1,4 +1,4 @@
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/von_mises.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/logarithmic_strain.h>
 #include <touchstone/solid/material_law.h>
 #include <touchstone/solid/von_mises.h>

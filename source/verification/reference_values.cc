@@ -1,5 +1,5 @@
 #include <touchstone/base/input_error.h>
-#include <touchstone/scene/solver_parameters.h>
+#include <touchstone/verification/reference_parameters.h>
 #include <touchstone/verification/reference_values.h>
 
 namespace Touchstone

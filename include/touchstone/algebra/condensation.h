@@ -1,210 +1,190 @@
 #ifndef touchstone_algebra_condensation_h
 #define touchstone_algebra_condensation_h
 
-#include <touchstone/algebra/linear_system.h>
+#include <touchstone/algebra/transformation.h>
 
-#include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 #include <deque>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief Entries of a sparse row, by local number. */
-  using SparseRow = std::vector<std::pair<int, double>>;
-
-  /** @brief Local numbers: those of a map, then those met later, in the order in
-   * which they are met. */
-  class LocalNumbers
+  /** @brief The rows of a Transformation, without units, by local index: each is
+   * looked up once. */
+  class TransformationRows
   {
   public:
-    explicit LocalNumbers(const Epetra_Map &map)
-      : map(map)
-      , all(map.MyGlobalElements(), map.MyGlobalElements() + map.NumMyElements())
-    {
-    }
-
-    int
-    local(const Index global)
-    {
-      const int known = map.LID(static_cast<int>(global));
-      if (known >= 0)
-        return known;
-      const auto [found, inserted] = others.emplace(global, all.size());
-      if (inserted)
-        all.push_back(static_cast<int>(global));
-      return found->second;
-    }
-
-    /** @brief Global numbers in the order of the local ones. */
-    const std::vector<int> &
-    global() const
-    {
-      return all;
-    }
-
-  private:
-    const Epetra_Map              &map;
-    std::vector<int>               all;
-    std::unordered_map<Index, int> others;
-  };
-
-  /**
-   * @brief The lines of x = T y + g that are not those of the identity, by local
-   * number.
-   *
-   * A constrained unknown is a combination of others. One whose basis is changed
-   * is a combination of others plus itself, which now counts its deviation from
-   * them.
-   */
-  class Expansion
-  {
-  public:
-    struct Line
+    struct Row
     {
       SparseRow entries;
-      double    shift = 0.;
+      double    inhomogeneity = 0.;
     };
 
-    Expansion(const dealii::AffineConstraints<double> &constraints,
-              const dealii::AffineConstraints<double> &basis_change,
-              const Index                              n_displacements,
-              LocalNumbers                            &numbers)
-      : constraints(constraints)
-      , basis_change(basis_change)
-      , n_displacements(n_displacements)
-      , numbers(numbers)
+    /** @param indices Extended by those that the rows refer to. */
+    TransformationRows(const Transformation &transformation, LocalIndices &indices)
+      : transformation(transformation)
+      , indices(indices)
     {
     }
 
-    /** @brief The line of an unknown; null if it is a plain one. */
-    const Line *
-    line(int local);
+    /** @brief Null if it is that of the identity. */
+    const Row *
+    row(int local);
 
   private:
-    const dealii::AffineConstraints<double> &constraints, &basis_change;
-    const Index                              n_displacements;
-    LocalNumbers                            &numbers;
-    /** Which line an unknown has: -2 not known yet, -1 none. */
-    std::vector<int> which;
-    std::deque<Line> lines;
-
-    void
-    append(Index global, double factor, Line &line);
+    const Transformation &transformation;
+    LocalIndices         &indices;
+    /** Number of the row of each dof; none, or not known yet. */
+    static constexpr int identity = -1, unknown = -2;
+    std::vector<int>     number;
+    std::deque<Row>      rows;
   };
 
-  /** @brief A sparse row under construction: entries of equal number add up. */
-  class Accumulator
+  /** @brief A sparse row under construction: entries of equal index are summed
+   * up. */
+  class SparseRowAccumulator
   {
   public:
     void
-    add(const int number, const double value)
+    add(const int index, const double value)
     {
-      if (static_cast<std::size_t>(number) >= place.size())
-        place.resize(2 * static_cast<std::size_t>(number) + 64, -1);
-      if (place[number] < 0)
+      if (static_cast<std::size_t>(index) >= position.size())
+        position.resize(2 * static_cast<std::size_t>(index) + 64, -1);
+      if (position[index] < 0)
         {
-          place[number] = static_cast<int>(row.size());
-          row.emplace_back(number, value);
+          position[index] = static_cast<int>(row.size());
+          row.emplace_back(index, value);
         }
       else
-        row[place[number]].second += value;
+        row[position[index]].second += value;
     }
 
-    /** @brief The row so far, in ascending order; begin a new one. */
+    /** @brief The row so far, in ascending order of the indices; the next one is
+     * empty. */
     SparseRow
     take();
 
   private:
-    std::vector<int> place;
+    /** Where an index stands in the row; -1: not there. */
+    std::vector<int> position;
     SparseRow        row;
+  };
+
+  /** @brief What a condensed system is made of: S^T A T and S^T (b - A g) of a
+   * linear system A x = b with x = T y + g. All must live as long as what is made
+   * from it. */
+  struct CondensationInput
+  {
+    const LinearSystem &system;
+    /** Dofs of this rank, multipliers last. */
+    const Epetra_Map &dofs;
+    /** T with g, and S, which may be the same object. */
+    const Transformation &trial, &test;
+    /** The units of T and S (Transformation); null: one. */
+    const Epetra_Vector *units;
+    /** Marks constrained dofs, by local index. */
+    const std::vector<char> &constrained;
   };
 
   /**
    * @brief The rows of S^T A T that differ from the stiffness's own, and the
-   * right-hand side S^T (b - A g).
+   * right-hand side S^T (b - A g), without units (doc/theory.md, section 7).
    *
    * A T is formed row by row, where a row of the stiffness meets a constrained
-   * column and for contact terms; then each row of S^T (A T) gathers the rows that
-   * it stands for. Nothing is summed up twice, and what goes to other ranks is
-   * summed up before.
+   * column and for contact terms; then each row of S^T (A T) gathers the rows
+   * that it stands for. Nothing is summed up twice, and what goes to other ranks
+   * is summed up before.
    */
   class Condensation
   {
   public:
-    /** @param rows    Numbers of the rows: those of this rank, extra unknowns
-     *                 included, come first.
-     *  @param columns Numbers of the columns: those of the stiffness come first. */
-    Condensation(const LinearSystem &system, const Epetra_Map &rows, LocalNumbers &columns);
+    /** @param columns Indices of the columns; those of the stiffness come first.
+     */
+    Condensation(const CondensationInput &input, LocalIndices &columns);
 
-    /** The row that replaces that of the stiffness, by local number, or null: the others are
-     * as they were. */
+    /** @brief The row that replaces that of the stiffness, by local index; null:
+     * it is as it was. */
     const SparseRow *
     row(const int i) const
     {
-      return places[i] < 0 ? nullptr : &rows[places[i]];
+      return number[i] < 0 ? nullptr : &rows[number[i]];
     }
 
-    /** Right-hand side of this rank's rows. */
+    /** @brief Right-hand side of this rank's rows. */
     std::vector<double> values;
 
   private:
-    /** Part of the product: row @p source times @p factor goes to row @p target. */
+    /** Part of the product: row @p source times @p factor goes to row @p target.
+     */
     struct Part
     {
       int    target, source;
       double factor;
     };
 
-    const LinearSystem &system;
-    const Epetra_Map   &row_map;
-    LocalNumbers        row_numbers;
-    LocalNumbers       &columns;
-    Expansion           motion, test;
-    Accumulator         accumulator;
+    const LinearSystem  &system;
+    const Epetra_Map    &dofs;
+    LocalIndices         row_indices;
+    LocalIndices        &columns;
+    TransformationRows   trial, test;
+    SparseRowAccumulator accumulator;
 
-    /** What row() gives: where, by local number, in which rows. */
-    std::vector<int>       places;
+    /** Which of the rows row() gives, by local index; -1: none. */
+    std::vector<int>       number;
     std::vector<SparseRow> rows;
 
+    /** The rows of A T and their values of b - A g. */
     std::vector<SparseRow> sources;
     std::vector<double>    source_values;
     std::vector<Part>      parts;
-    std::vector<char>      replaced;
+    /** Marks rows of the stiffness that do not stand as they are. */
+    std::vector<char> replaced;
 
     SparseRow &
-    new_row(const int i)
-    {
-      if (places[i] < 0)
-        {
-          places[i] = static_cast<int>(rows.size());
-          rows.emplace_back();
-        }
-      return rows[places[i]];
-    }
-    /** Which nodes' rows meet an unknown that is not a plain one. */
+    new_row(int i);
+
+    /** Which nodes' rows meet a dof whose row of T is not that of the identity.
+     */
     std::vector<char>
-    touched_nodes();
+    affected_nodes();
+
     void
     add_stiffness();
+
+    /** Rows of constrained dofs and of multipliers, which may be empty otherwise.
+     */
+    void
+    add_own_rows(const std::vector<int> &constrained, double diagonal);
+
     void
     add_terms();
-    /** Take the present row of the accumulator for one side of a term, without what has
-     * cancelled out: where the stretch of a spring is an unknown nothing else is left. */
+
+    /** Take the present row of the accumulator, for one side of a term, without
+     * entries of the size of round-off: where the elongation of a spring is a dof
+     * nothing else is left. */
     SparseRow
-    take_what_is_left();
+    take_without_round_off();
+
     /** Take the present row of the accumulator for row @p row of A T. */
     void
     add_source(int row, double value);
-    /** Right-multiply an entry by T; returns its part of A g. */
+
+    /** Multiply an entry by T from the right; returns its part of A g. */
     double
-    expand(int column, double value);
+    add_transformed(int column, double value);
+
+    /** Send the rows of other ranks to these, and receive those of this one. */
     void
     exchange();
+
+    /** The rank that owns a dof. Ranks own displacements and multipliers in
+     * ascending order. Collective. */
+    std::vector<unsigned int>
+    owners(const std::vector<Index> &of_dofs) const;
+
     void
     gather();
+
     /** Sum up the parts from @p begin to those of the next target. */
     std::size_t
     sum(std::size_t begin, double &value);

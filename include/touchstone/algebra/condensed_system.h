@@ -1,7 +1,7 @@
 #ifndef touchstone_algebra_condensed_system_h
 #define touchstone_algebra_condensed_system_h
 
-#include <touchstone/algebra/linear_system.h>
+#include <touchstone/algebra/condensed_operator.h>
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
@@ -10,8 +10,6 @@
 
 namespace Touchstone
 {
-  class AppliedOperator;
-
   /**
    * @brief A linear system with its constraints condensed out, S^T A T y = S^T
    * (b - A g) for x = T y + g and test functions S z, as plain distributed rows
@@ -19,39 +17,52 @@ namespace Touchstone
    * constraints.
    *
    * Rows that no constraint and no contact term touches are those of the
-   * stiffness. Constrained unknowns keep a diagonal entry and a zero right-hand side.
+   * stiffness. Constrained unknowns keep a diagonal entry and a zero right-hand
+   * side.
    */
   class CondensedSystem
   {
   public:
     /**
      * @param system  Must live as long.
-     * @param applied Products are made factor by factor (AppliedOperator), and matrix() is
-     *                assembled for those who ask for it. Otherwise both are the same
-     *                matrix.
+     * @param applied Products are made factor by factor (AppliedOperator);
+     * otherwise with the assembled matrix (AssembledOperator). Collective.
      */
     explicit CondensedSystem(const LinearSystem &system, bool applied = false);
 
-    /** @brief Unknowns of this rank, extra ones last. */
+    CondensedSystem(const CondensedSystem &) = delete;
+    CondensedSystem &
+    operator=(const CondensedSystem &) = delete;
+
+    /** @brief Dofs of this rank, multipliers last. */
     const Epetra_Map &
     rows() const
     {
-      return row_map;
+      return dofs;
     }
 
     /** @brief What multiplies a solution. */
     Epetra_Operator &
-    product() const;
+    product() const
+    {
+      return condensed->product();
+    }
 
-    /** @brief The matrix, assembled anew in each call if products are applied: keep it no
-     * longer than needed. Collective. */
+    /** @brief The matrix; if products are applied it is assembled in each call:
+     * keep it no longer than needed. Collective. */
     std::shared_ptr<Epetra_CrsMatrix>
-    matrix() const;
+    matrix() const
+    {
+      return condensed->matrix();
+    }
 
-    /** @brief The same to be read node by node, without the making of a matrix where products
-     * are applied; of displacements only. Collective. */
+    /** @brief The same to be read node by node; of displacements only.
+     * Collective. */
     std::unique_ptr<BlockRows>
-    block_rows() const;
+    block_rows() const
+    {
+      return condensed->block_rows();
+    }
 
     /** @brief Entry of the diagonal of the stiffness itself, by local number. */
     double
@@ -60,36 +71,32 @@ namespace Touchstone
       return system.stiffness->diagonal(i);
     }
 
-    /** @brief The displacement part of x = T y + g. Collective.
-     * @param solution y, of unknowns that are not divided by scale. */
+    /** @brief The displacement part of x = T y + g for a solution y. Collective.
+     */
     void
     expand(const Epetra_Vector &solution, Vector &displacement) const;
 
     std::unique_ptr<Epetra_Vector> rhs;
-    /** Marks rows of constrained unknowns, in the order of the local rows. */
+    /** Marks rows of constrained dofs, in the order of the local rows. */
     std::vector<char> constrained;
-    /** Marks rows of unknowns that count the deviation from a combination of
-     * others. */
+    /** Marks rows of dofs that are the elongation of a spring
+     * (LinearSystem::basis_change). */
     std::vector<char> changed;
-    /** The matrix is for unknowns divided by this; null: by one. Stiff
-     * springs have their stretch in units that make an error of it count as much
-     * as one of a displacement. */
-    std::unique_ptr<Epetra_Vector> scale;
-    const bool                     symmetric, definite;
-    const double                   tolerance;
+    const bool        symmetric, definite;
+    const double      tolerance;
 
   private:
-    const LinearSystem               &system;
-    const Epetra_Map                  row_map;
-    std::shared_ptr<Epetra_CrsMatrix> assembled;
-    std::shared_ptr<AppliedOperator>  factors; // unless assembled
+    const LinearSystem &system;
+    const Epetra_Map    dofs;
+    /** Units of dofs and equations, other than one for elongations: an error of
+     * these counts as much then as one of a displacement. Null: all are one. */
+    std::unique_ptr<Epetra_Vector> units;
+    /** T and g; and S, null if it is T. */
+    std::unique_ptr<Transformation>    trial, test;
+    std::unique_ptr<CondensedOperator> condensed;
 
     void
-    make_scale();
-
-    /** @param values Right-hand side, not scaled, if not null. */
-    std::shared_ptr<Epetra_CrsMatrix>
-    assemble(std::vector<double> *values) const;
+    make_units();
   };
 } // namespace Touchstone
 

@@ -2,10 +2,10 @@
 #define touchstone_algebra_linear_solver_h
 
 #include <touchstone/algebra/condensed_system.h>
+#include <touchstone/algebra/preconditioner.h>
+#include <touchstone/algebra/solver_parameters.h>
 #include <touchstone/base/registry.h>
-#include <touchstone/scene/solver_parameters.h>
 
-#include <Epetra_MultiVector.h>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,16 +19,6 @@ namespace Touchstone
     unsigned int iterations            = 0;
     unsigned int factorisations        = 0;
     unsigned int preconditioner_setups = 0;
-  };
-
-  /** @brief The rigid motions of the bodies over the displacements, for multigrid. */
-  struct RigidMotions
-  {
-    /** Three translations and three rotations, over the rows of the stiffness. Bodies
-     * share the columns: one restricted to a body is a motion of that body. */
-    Epetra_MultiVector columns;
-    /** Body of each row of this rank. */
-    std::vector<unsigned int> body;
   };
 
   /**
@@ -49,14 +39,35 @@ namespace Touchstone
      * @brief Solve and check the true residual.
      * @param system   The condensed system.
      * @param motions  Of the bodies.
-     * @param solution Result, over the rows of the matrix; CondensedSystem::scale is
-     *                 taken out of it.
+     * @param solution Result, over the rows of the matrix, for CondensedSystem::expand().
      * @throws LinearSolverFailure if the residual stays above the tolerance, the system is not
      *         finite, or a library fails in any way;
      *         SingularSystem if the matrix turns out singular; on all ranks.
      */
     void
     solve(const CondensedSystem &system, const RigidMotions &motions, Epetra_Vector &solution);
+
+    /** @brief Registered names of those whose keys it heeds: its own, and those of the solvers and
+     * preconditioners that it uses. Other keys are refused where a scene sets them. */
+    virtual std::set<std::string>
+    used_options() const
+    {
+      return {parameters.type, parameters.preconditioner};
+    }
+
+    /** @brief Whether it takes systems with multipliers, which are indefinite. */
+    virtual bool
+    takes_multipliers() const
+    {
+      return true;
+    }
+
+    /** @brief Whether it heeds the key `Preconditioner`. */
+    virtual bool
+    takes_preconditioner() const
+    {
+      return false;
+    }
 
     /** @brief Whether it takes symmetric positive definite systems only. */
     virtual bool

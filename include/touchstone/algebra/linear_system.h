@@ -84,11 +84,6 @@ namespace Touchstone
      * @param extra        Extra unknowns of this rank. */
     Vector
     residual(const Vector &displacement, const std::vector<double> &extra) const;
-
-    /** @brief x = T y + g for the displacement part of a solution y of the condensed
-     * system, in place. Collective. */
-    void
-    expand(Vector &solution) const;
   };
 } // namespace Touchstone
 

@@ -1,9 +1,9 @@
 #ifndef touchstone_contact_start_check_h
 #define touchstone_contact_start_check_h
 
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/row.h>
-#include <touchstone/scene/contact_parameters.h>
 
 #include <vector>
 

@@ -1,9 +1,10 @@
 #ifndef touchstone_contact_unresolved_contact_h
 #define touchstone_contact_unresolved_contact_h
 
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
-#include <touchstone/contact/search/search.h>
-#include <touchstone/scene/contact_parameters.h>
+
+#include <deal.II/base/bounding_box.h>
 
 #include <functional>
 #include <string>
@@ -50,28 +51,34 @@ namespace Touchstone
     const unsigned int           slave_body, master_body;
     const Vector                &u, &forces;
 
-    /** A place where a body reaches into another. */
+    /** A point of each body that has come to lie in the other. */
     struct Overlap
     {
-      /** Of the slave and of the master. */
+      /** On the slave and on the master. */
       dealii::Point<dim> slave, master;
       double             depth;
     };
     /** The master faces around this rank's slave faces. Collective. */
-    Search
-    search() const;
+    std::vector<Face>
+    nearby_master_faces() const;
     /** Edges that cross. @param least_depth As a fraction of the shorter one; negative for
      * edges that only come close. */
     std::vector<Overlap>
     crossing_edges(const std::vector<Face> &master_faces, double least_depth) const;
+    /** Nodes of the master within slave faces none of whose nodes carries a force. */
     std::vector<Overlap>
     hidden_vertices(const std::vector<Face> &master_faces) const;
+    /** Add those of one master face @p other within one slave face. @param box Around the latter.
+     */
+    void
+    add_nodes_within(const Face                     &face,
+                     const dealii::BoundingBox<dim> &box,
+                     const Face                     &other,
+                     std::vector<Overlap>           &found) const;
     /** The deepest of those that lie in the other body, from all ranks; depth zero if there
      * is none. */
     Overlap
     deepest(const std::vector<Overlap> &found, bool edges) const;
-    dealii::Tensor<1, dim>
-    force(Index node) const;
   };
 
   /** @brief The same for an obstacle that reaches into a slave face whose nodes touch nothing;

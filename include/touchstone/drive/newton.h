@@ -1,7 +1,7 @@
 #ifndef touchstone_drive_newton_h
 #define touchstone_drive_newton_h
 
-#include <touchstone/scene/solver_parameters.h>
+#include <touchstone/drive/newton_parameters.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -1,9 +1,9 @@
 #ifndef touchstone_drive_refinement_h
 #define touchstone_drive_refinement_h
 
+#include <touchstone/base/formula.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/mesh/forest.h>
-#include <touchstone/scene/formula.h>
 
 #include <deal.II/lac/vector.h>
 

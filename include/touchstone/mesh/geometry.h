@@ -40,18 +40,9 @@ namespace Touchstone
    * @brief How a body is shaped and meshed. Registered by name; its parameters
    * stand in the subsection "Body NAME/Geometry".
    */
-  class Geometry
+  class Geometry : public PluginParameters
   {
   public:
-    virtual ~Geometry() = default;
-
-    virtual void
-    declare(dealii::ParameterHandler &prm) = 0;
-
-    /** @throws InputError */
-    virtual void
-    check(const std::string &section) const = 0;
-
     /**
      * @brief Make the coarse mesh.
      * @param factor  Multiplies the cells of each direction, 0.5 < factor < 2;

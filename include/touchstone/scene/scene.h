@@ -1,10 +1,18 @@
 #ifndef touchstone_scene_scene_h
 #define touchstone_scene_scene_h
 
-#include <touchstone/scene/body_parameters.h>
-#include <touchstone/scene/contact_parameters.h>
-#include <touchstone/scene/solver_parameters.h>
-#include <touchstone/scene/time_parameters.h>
+#include <touchstone/algebra/solver_parameters.h>
+#include <touchstone/archive/checkpoint_parameters.h>
+#include <touchstone/contact/contact_parameters.h>
+#include <touchstone/drive/load_stepping_parameters.h>
+#include <touchstone/drive/newton_parameters.h>
+#include <touchstone/drive/refinement_parameters.h>
+#include <touchstone/drive/time_parameters.h>
+#include <touchstone/mesh/discretisation_parameters.h>
+#include <touchstone/mesh/obstacle_parameters.h>
+#include <touchstone/output/output_parameters.h>
+#include <touchstone/solid/body_parameters.h>
+#include <touchstone/verification/reference_parameters.h>
 
 #include <iosfwd>
 #include <map>

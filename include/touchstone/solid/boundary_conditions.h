@@ -2,7 +2,7 @@
 #define touchstone_solid_boundary_conditions_h
 
 #include <touchstone/algebra/constraint_graph.h>
-#include <touchstone/scene/formula.h>
+#include <touchstone/base/formula.h>
 #include <touchstone/solid/follower_pressure.h>
 
 #include <map>

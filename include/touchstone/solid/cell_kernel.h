@@ -1,7 +1,7 @@
 #ifndef touchstone_solid_cell_kernel_h
 #define touchstone_solid_cell_kernel_h
 
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/material_law.h>
 
 #include <deal.II/base/symmetric_tensor.h>

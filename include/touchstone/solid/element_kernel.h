@@ -2,7 +2,7 @@
 #define touchstone_solid_element_kernel_h
 
 #include <touchstone/base/types.h>
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/element_stiffness.h>
 
 #include <deal.II/base/quadrature_lib.h>

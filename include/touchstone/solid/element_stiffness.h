@@ -2,7 +2,7 @@
 #define touchstone_solid_element_stiffness_h
 
 #include <touchstone/base/types.h>
-#include <touchstone/scene/body_parameters.h>
+#include <touchstone/solid/body_parameters.h>
 
 #include <vector>
 

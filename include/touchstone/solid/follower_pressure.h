@@ -2,7 +2,7 @@
 #define touchstone_solid_follower_pressure_h
 
 #include <touchstone/algebra/linear_system.h>
-#include <touchstone/scene/formula.h>
+#include <touchstone/base/formula.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/fe/fe_values.h>

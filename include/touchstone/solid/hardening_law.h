@@ -25,18 +25,9 @@ namespace Touchstone
    * strain. Registered by the name that the key "Hardening" takes; its parameters stand
    * beside that, in the subsection "Plasticity" of a material.
    */
-  class HardeningLaw
+  class HardeningLaw : public PluginParameters
   {
   public:
-    virtual ~HardeningLaw() = default;
-
-    virtual void
-    declare(dealii::ParameterHandler &prm) = 0;
-
-    /** @throws InputError */
-    virtual void
-    check(const std::string &section) const = 0;
-
     /** @param plastic_strain >= 0, no unit. */
     virtual YieldStress
     at(double plastic_strain) const = 0;

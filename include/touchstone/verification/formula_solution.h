@@ -1,7 +1,7 @@
 #ifndef touchstone_verification_formula_solution_h
 #define touchstone_verification_formula_solution_h
 
-#include <touchstone/scene/formula.h>
+#include <touchstone/base/formula.h>
 #include <touchstone/verification/reference_solution.h>
 
 #include <array>

@@ -1,4 +1,5 @@
 #include <touchstone/algebra/multigrid/block_diagonal.h>
+#include <touchstone/algebra/preconditioner.h>
 #include <touchstone/base/non_convergence.h>
 
 #include <deal.II/base/tensor.h>
@@ -8,6 +9,32 @@
 
 namespace Touchstone
 {
+  namespace
+  {
+    class BlockDiagonalScaling : public Preconditioner
+    {
+    public:
+      std::unique_ptr<Epetra_Operator>
+      set_up(const CondensedSystem &system, const RigidMotions &) const override
+      {
+        return std::make_unique<BlockDiagonal>(system.rows(), *system.block_rows());
+      }
+
+      bool
+      multilevel() const override
+      {
+        return false;
+      }
+    };
+
+    const PreconditionerRegistry::Entry<BlockDiagonalScaling>
+      block_diagonal_entry("diagonal",
+                           "the inverse 3 x 3 diagonal blocks of the nodes, many times as slow, "
+                           "to compare with published work.");
+  } // namespace
+
+
+
   BlockDiagonal::BlockDiagonal(const Epetra_Map &map, BlockRows &rows)
     : SquareOperator(map, "block diagonal")
     , inverse(rows.n_nodes())

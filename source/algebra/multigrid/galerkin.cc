@@ -1,8 +1,10 @@
-#include <touchstone/algebra/multigrid/neighbours.h>
 #include <touchstone/algebra/multigrid/prolongation.h>
 #include <touchstone/algebra/multigrid/row_of_blocks.h>
+#include <touchstone/base/exchange.h>
 #include <touchstone/base/vectorised.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 namespace Touchstone
@@ -12,6 +14,20 @@ namespace Touchstone
   namespace
   {
     constexpr unsigned int n_modes = Prolongation::n_modes;
+
+    /** A block of P for ranks that refer to its node. */
+    struct SentBlockOfP
+    {
+      Index                            node, aggregate; // global numbers
+      std::array<float, dim * n_modes> entries;
+    };
+
+    /** A block of P^T A P for the rank that owns its row. */
+    struct SentCoarseBlock
+    {
+      Index                                 row, column; // aggregates, global numbers
+      std::array<double, n_modes * n_modes> entries;
+    };
 
     /** Rows of P over nodes, by local numbers of nodes: where their blocks and the columns
      * of these begin, and how many there are. */
@@ -128,9 +144,8 @@ namespace Touchstone
   std::vector<Prolongation::FarRow>
   Prolongation::far_rows() const
   {
-    // Node, number of blocks, then aggregate and entries of each.
-    std::map<unsigned int, std::vector<double>> packages;
-    std::vector<unsigned int>                   wanted;
+    std::map<unsigned int, std::vector<SentBlockOfP>> messages;
+    std::vector<unsigned int>                         wanted;
     for (const auto &[begin, end] : fine->import_indices())
       for (unsigned int i = begin; i < end; ++i)
         wanted.push_back(i);
@@ -140,47 +155,40 @@ namespace Touchstone
         if (*next % dim == 0)
           {
             const unsigned int node = *next / dim;
-            auto              &to   = packages[rank];
-            to.push_back(static_cast<double>(fine->local_to_global(*next)));
-            to.push_back(static_cast<double>(start[node + 1] - start[node]));
             for (std::size_t b = start[node]; b < start[node + 1]; ++b)
               {
-                to.push_back(
-                  static_cast<double>(coarse->local_to_global(n_modes * column[b]) / n_modes));
-                to.insert(to.end(), entries.begin() + block * b, entries.begin() + block * (b + 1));
+                SentBlockOfP sent{fine->local_to_global(*next) / dim,
+                                  coarse->local_to_global(n_modes * column[b]) / n_modes,
+                                  {}};
+                std::copy_n(entries.begin() + block * b, block, sent.entries.begin());
+                messages[rank].push_back(sent);
               }
           }
     std::vector<FarRow> result(fine->n_ghost_indices() / dim);
-    for (const auto &[rank, package] : exchange_with_neighbours(
-           packages, fine->import_targets(), fine->ghost_targets(), fine->get_mpi_communicator()))
-      for (std::size_t k = 0; k < package.size();)
+    for (const auto &[rank, blocks] : exchange_records(messages, fine->get_mpi_communicator()))
+      for (const SentBlockOfP &received : blocks)
         {
-          const unsigned int local = fine->global_to_local(static_cast<Index>(package[k]));
+          const unsigned int local = fine->global_to_local(dim * received.node);
           FarRow            &row   = result[(local - fine->locally_owned_size()) / dim];
-          const std::size_t  n     = static_cast<std::size_t>(package[k + 1]);
-          k += 2;
-          for (std::size_t b = 0; b < n; ++b, k += block + 1)
-            {
-              row.aggregates.push_back(static_cast<Index>(package[k]));
-              for (unsigned int e = 0; e < block; ++e)
-                row.entries.push_back(static_cast<float>(package[k + 1 + e]));
-            }
-          row.entries.resize(row.entries.size() + 2);
+          row.aggregates.push_back(received.aggregate);
+          row.entries.insert(row.entries.end(), received.entries.begin(), received.entries.end());
         }
+    for (FarRow &row : result)
+      row.entries.resize(row.entries.size() + 2); // read beyond the end
     return result;
   }
 
 
 
   std::vector<Prolongation::AggregateRow>
-  Prolongation::part_of_galerkin(BlockRows &matrix, LocalNumbers &numbers) const
+  Prolongation::part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const
   {
     const unsigned int                     n_nodes = start.size() - 1;
     const std::vector<FarRow>              far     = far_rows();
     std::vector<std::vector<unsigned int>> far_columns(far.size());
     for (unsigned int i = 0; i < far.size(); ++i)
       for (const Index aggregate : far[i].aggregates)
-        far_columns[i].push_back(numbers.local(aggregate));
+        far_columns[i].push_back(indices.local(aggregate));
     std::vector<RowOfP> p;
     for (unsigned int node = 0; node < n_nodes; ++node)
       p.push_back({entries.data() + block * start[node],
@@ -218,51 +226,32 @@ namespace Touchstone
         std::sort(part.places.begin(), part.places.end());
       }
 
-    // What belongs to other ranks goes there: row, number of blocks, then column and
-    // entries of each.
-    std::map<unsigned int, std::vector<double>> packages;
-    const unsigned int                          n_mine = coarse->locally_owned_size() / n_modes;
-    unsigned int                                row    = n_mine;
+    // What belongs to other ranks goes there.
+    std::map<unsigned int, std::vector<SentCoarseBlock>> messages;
+    const unsigned int n_mine = coarse->locally_owned_size() / n_modes;
+    unsigned int       row    = n_mine;
     for (const auto &[rank, n] : coarse->ghost_targets())
       {
-        auto              &to   = packages[rank];
-        const unsigned int end  = row + n / n_modes;
-        std::size_t        size = 0;
-        for (unsigned int r = row; r < end; ++r)
-          size += 2 + (1 + n_modes * n_modes) * parts[r].places.size();
-        to.reserve(size);
-        for (; row < end; ++row)
-          {
-            to.push_back(global[row]);
-            to.push_back(static_cast<double>(parts[row].places.size()));
-            for (const auto &[aggregate, place] : parts[row].places)
-              {
-                const AggregateBlock &entry = parts[row].blocks[place];
-                to.push_back(aggregate);
-                for (unsigned int i = 0; i < n_modes; ++i)
-                  for (unsigned int m = 0; m < n_modes; ++m)
-                    to.push_back(entry[i][m]);
-              }
-          }
-      }
-    parts.resize(n_mine);
-    for (const auto &[rank, package] : exchange_with_neighbours(packages,
-                                                                coarse->ghost_targets(),
-                                                                coarse->import_targets(),
-                                                                coarse->get_mpi_communicator()))
-      for (std::size_t k = 0; k < package.size();)
-        {
-          AggregateRow &to =
-            parts[coarse->global_to_local(n_modes * static_cast<Index>(package[k])) / n_modes];
-          const std::size_t n = static_cast<std::size_t>(package[k + 1]);
-          k += 2;
-          for (std::size_t b = 0; b < n; ++b, k += n_modes * n_modes + 1)
+        auto &to = messages[rank];
+        for (const unsigned int end = row + n / n_modes; row < end; ++row)
+          for (const auto &[aggregate, place] : parts[row].places)
             {
-              AggregateBlock &sum = to.at(static_cast<int>(package[k]));
+              to.push_back({static_cast<Index>(global[row]), static_cast<Index>(aggregate), {}});
+              const AggregateBlock &from = parts[row].blocks[place];
               for (unsigned int i = 0; i < n_modes; ++i)
                 for (unsigned int m = 0; m < n_modes; ++m)
-                  sum[i][m] += package[k + 1 + n_modes * i + m];
+                  to.back().entries[n_modes * i + m] = from[i][m];
             }
+      }
+    parts.resize(n_mine);
+    for (const auto &[rank, blocks] : exchange_records(messages, coarse->get_mpi_communicator()))
+      for (const SentCoarseBlock &received : blocks)
+        {
+          AggregateRow   &to  = parts[coarse->global_to_local(n_modes * received.row) / n_modes];
+          AggregateBlock &sum = to.at(static_cast<int>(received.column));
+          for (unsigned int i = 0; i < n_modes; ++i)
+            for (unsigned int m = 0; m < n_modes; ++m)
+              sum[i][m] += received.entries[n_modes * i + m];
         }
   }
 
@@ -278,9 +267,9 @@ namespace Touchstone
          i += n_modes)
       known.push_back(static_cast<int>(coarse->local_to_global(i) / n_modes));
     const Epetra_Map known_map(-1, known.size(), known.data(), 0, coarse_kernel->Comm());
-    LocalNumbers     numbers(known_map);
-    auto             rows = part_of_galerkin(matrix, numbers);
-    sum_up(rows, numbers.global());
+    LocalIndices     indices(known_map);
+    auto             rows = part_of_galerkin(matrix, indices);
+    sum_up(rows, indices.global());
     return std::make_unique<AggregateRows>(std::move(rows), *coarse);
   }
 } // namespace Touchstone

@@ -1,4 +1,5 @@
 #include <touchstone/contact/geometry/crossing.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
@@ -49,9 +50,9 @@ namespace Touchstone
           return {};
         if (std::abs(dtime) + std::abs(dxi[0]) + std::abs(dxi[1]) > 1e-10)
           continue;
-        const double touching = 1e-6 * area * size / std::abs(rate);
-        if (std::abs(xi[0]) > 1. + 1e-9 || std::abs(xi[1]) > 1. + 1e-9 || time < -touching ||
-            time > 1.)
+        const double touching = Tolerances::starts_on_face * area * size / std::abs(rate);
+        if (std::max(std::abs(xi[0]), std::abs(xi[1])) > 1. + Tolerances::face_coordinate ||
+            time < -touching || time > 1.)
           return {};
         return Crossing{time, rate < 0.};
       }

@@ -1,4 +1,5 @@
 #include <touchstone/contact/geometry/edge_crossing.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +11,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Cosine of the angle between the normals of faces that meet in a sharp edge. */
-    constexpr double sharp = 0.866;
-    /** Cosine of the angle within which a perpendicular counts as the normal of a face. */
-    constexpr double along_normal = 0.966;
-    /** Sine of the angle below which edges count as parallel. */
-    constexpr double parallel = 0.2;
-
     /** An edge of a face with what is needed of the face. */
     struct Side
     {
@@ -29,9 +23,9 @@ namespace Touchstone
     Tensor<1, dim>
     outward(const Side &side)
     {
-      Tensor<1, dim> way = cross_product_3d(side.b - side.a, side.normal);
-      way /= way.norm();
-      return way * (side.a - side.centre) > 0. ? way : -1. * way;
+      Tensor<1, dim> direction = cross_product_3d(side.b - side.a, side.normal);
+      direction /= direction.norm();
+      return direction * (side.a - side.centre) > 0. ? direction : -1. * direction;
     }
 
     /** Whether @p n, perpendicular to the edge, lies between the normals of its sides. */
@@ -41,10 +35,10 @@ namespace Touchstone
       const auto angle = [](const Tensor<1, dim> &x, const Tensor<1, dim> &y) {
         return std::acos(std::clamp(x * y, -1., 1.));
       };
-      constexpr double out_of_plane = 0.1;
-      const auto      &m            = edge.normals;
-      return n * m[0] < along_normal && n * m[1] < along_normal &&
-             angle(n, m[0]) + angle(n, m[1]) < angle(m[0], m[1]) + out_of_plane;
+      const auto &m = edge.normals;
+      return n * m[0] < Tolerances::along_normal_cosine &&
+             n * m[1] < Tolerances::along_normal_cosine &&
+             angle(n, m[0]) + angle(n, m[1]) < angle(m[0], m[1]) + Tolerances::out_of_plane;
     }
   } // namespace
 
@@ -85,7 +79,7 @@ namespace Touchstone
           {
             const Side &two    = list.back();
             const bool  convex = (two.centre - one.a) * one.normal < 0.;
-            if (convex && one.normal * two.normal < sharp)
+            if (convex && one.normal * two.normal < Tolerances::touching_edge_cosine)
               result.push_back({one.a, one.b, {{one.normal, two.normal}}});
           }
       }
@@ -97,16 +91,18 @@ namespace Touchstone
   std::optional<EdgeCrossing>
   edge_crossing(const SharpEdge &first, const SharpEdge &second)
   {
-    const Tensor<1, dim> d = first.b - first.a, e = second.b - second.a, way = second.a - first.a;
-    Tensor<1, dim>       n      = cross_product_3d(d, e);
-    const double         square = n.norm_square();
-    if (square <= parallel * parallel * d.norm_square() * e.norm_square())
+    const Tensor<1, dim> d = first.b - first.a, e = second.b - second.a,
+                         offset = second.a - first.a;
+    Tensor<1, dim> n            = cross_product_3d(d, e);
+    const double   square       = n.norm_square();
+    if (square <=
+        Tolerances::parallel_sine * Tolerances::parallel_sine * d.norm_square() * e.norm_square())
       return {};
     // Feet of the common perpendicular of two lines.
-    const double s = cross_product_3d(way, e) * n / square,
-                 t = cross_product_3d(way, d) * n / square;
+    const double s = cross_product_3d(offset, e) * n / square,
+                 t = cross_product_3d(offset, d) * n / square;
     // Where edges end in each other no perpendicular is to be lost by round-off.
-    constexpr double slack = 1e-6;
+    constexpr double slack = Tolerances::edge_end;
     if (std::min(s, t) < -slack || std::max(s, t) > 1. + slack)
       return {};
     n /= n.norm();

@@ -1,4 +1,5 @@
 #include <touchstone/contact/geometry/face_geometry.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <cmath>
 #include <map>
@@ -173,6 +174,7 @@ namespace Touchstone
     mean = Tensor<1, dim>();
     for (unsigned int m = 0; m < data.n_nodes(); ++m)
       mean += shapes.value[m] * data.edge_normals[m];
-    return interpolated_normal(shapes, evaluate(xi)) * mean < 0.999 * mean.norm();
+    return interpolated_normal(shapes, evaluate(xi)) * mean <
+           Tolerances::same_normal_cosine * mean.norm();
   }
 } // namespace Touchstone

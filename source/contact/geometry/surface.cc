@@ -1,12 +1,13 @@
+#include <touchstone/base/exchange.h>
+#include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/surface.h>
-
-#include <deal.II/base/quadrature_lib.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace Touchstone
 {
@@ -30,8 +31,8 @@ namespace Touchstone
       return (key * 16 + path.size()) * 8 + face;
     }
 
-    /** A node of a face of a cell: its first unknown there, its number on the face, and its
-     * place in the unit cell. */
+    /** A node of a face of a cell: its first degree of freedom there, its number on the face, and
+     * its position in the unit cell. */
     struct NodeOnFace
     {
       unsigned int dof, m;
@@ -45,7 +46,7 @@ namespace Touchstone
       for (unsigned int f = 0; f < result.size(); ++f)
         {
           // Axes of the face such that their cross product points outward: the
-          // position of a node on the unit cell tells where it stands.
+          // position of a node on the unit cell tells its number on the face.
           const unsigned int normal_axis = f / 2;
           const unsigned int axes[2]     = {(normal_axis + (f % 2 == 1 ? 1 : 2)) % 3,
                                             (normal_axis + (f % 2 == 1 ? 2 : 1)) % 3};
@@ -62,48 +63,27 @@ namespace Touchstone
       return result;
     }
 
-    /** Area of the face's shape functions, by Gauss quadrature on the facet. */
-    std::array<double, Face::max_nodes>
-    nodal_areas(const Face &face)
-    {
-      static const QGauss<2>              quadrature(3);
-      std::array<double, Face::max_nodes> areas{};
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          const std::array<double, 2> xi{
-            {2. * quadrature.point(q)[0] - 1., 2. * quadrature.point(q)[1] - 1.}};
-          const FaceShapes shapes(face.degree, xi);
-          const FacePoint  point = evaluate(face, nullptr, xi);
-          const double     jxw   = 4. * quadrature.weight(q) *
-                             cross_product_3d(point.tangents[0], point.tangents[1]).norm();
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            areas[m] += shapes.value[m] * jxw;
-        }
-      return areas;
-    }
-
     /** A face takes its share of the average only from faces that it meets in
-     * less than a sharp edge: those that meet at more than 50 degrees meet in an
-     * edge of the body. */
+     * less than a sharp edge. */
     bool
     averaged_with(const Tensor<1, dim> &unit_normal, const Tensor<1, dim> &own)
     {
-      constexpr double cosine_of_sharp_edge = 0.64;
-      return unit_normal * own > cosine_of_sharp_edge;
+      return unit_normal * own > Tolerances::sharp_edge_cosine;
     }
   } // namespace
 
 
 
-  std::vector<Surface::Place>::const_iterator
-  Surface::place(const Index node) const
+  const Surface::NodeOfFaces &
+  Surface::node_of_faces(const Index node) const
   {
     const auto found =
-      std::lower_bound(places.begin(), places.end(), node, [](const Place &a, const Index b) {
-        return a.node < b;
-      });
-    AssertThrow(found != places.end() && found->node == node, ExcInternalError());
-    return found;
+      std::lower_bound(surface_nodes.begin(),
+                       surface_nodes.end(),
+                       node,
+                       [](const NodeOfFaces &a, const Index b) { return a.node < b; });
+    AssertThrow(found != surface_nodes.end() && found->node == node, ExcInternalError());
+    return *found;
   }
 
 
@@ -134,22 +114,35 @@ namespace Touchstone
     , ids(boundaries)
     , exact(exact)
   {
-    const unsigned int                                p = solid.fe.degree;
-    std::vector<Index>                                dofs(solid.fe.n_dofs_per_cell());
-    const auto                                        nodes_of_faces = nodes_on_faces(solid.fe);
-    std::vector<std::pair<Edge, std::array<Edge, 2>>> halves;
+    mark_outer_edges(collect_faces(solid, body));
+    if (solid.has_hanging_nodes())
+      exchange_far_faces(solid);
+    // No face is added from here on: what refers to them stays valid.
+    collect_nodes_of_faces();
+    collect_owned_nodes(solid);
+    measure_faces(solid.communicator);
+  }
+
+
+
+  std::vector<Surface::SplitEdge>
+  Surface::collect_faces(const Solid &solid, const unsigned int body)
+  {
+    std::vector<Index>     dofs(solid.fe.n_dofs_per_cell());
+    const auto             nodes_of_faces = nodes_on_faces(solid.fe);
+    std::vector<SplitEdge> split_edges;
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       {
         if (cell->is_artificial() || cell->material_id() != body)
           continue;
         for (const unsigned int f : cell->face_indices())
           {
-            if (!cell->at_boundary(f) || boundaries.count(cell->face(f)->boundary_id()) == 0)
+            if (!cell->at_boundary(f) || ids.count(cell->face(f)->boundary_id()) == 0)
               continue;
             cell->get_dof_indices(dofs);
             Face face;
             face.key      = face_key(cell->id(), f);
-            face.degree   = p;
+            face.degree   = solid.fe.degree;
             face.boundary = cell->face(f)->boundary_id();
             face.body     = body;
             for (const NodeOnFace &on_face : nodes_of_faces[f])
@@ -171,37 +164,48 @@ namespace Touchstone
                   return line->vertex_dof_index(v, 0) / dim;
                 };
                 const Index a = node(line, 0), b = node(line, 1), m = node(line->child(0), 1);
-                halves.push_back(
+                split_edges.push_back(
                   {{std::min(a, b), std::max(a, b)},
                    {{{std::min(a, m), std::max(a, m)}, {std::min(m, b), std::max(m, b)}}}});
               }
           }
       }
-    mark_outer_edges(halves);
-    if (solid.has_hanging_nodes())
-      exchange_far_faces(solid);
+    return split_edges;
+  }
 
+
+
+  void
+  Surface::collect_nodes_of_faces()
+  {
+    // The order in which normals are summed is that of the faces, so that a run repeats itself
+    // bit by bit.
     std::map<Index, std::vector<std::pair<Face *, unsigned int>>> around;
     for (auto *list : {&faces, &ghost_faces})
       for (Face &face : *list)
         for (unsigned int m = 0; m < face.n_nodes(); ++m)
           {
             around[face.nodes[m]].emplace_back(&face, m);
+            // Tangents are linear in displacements, on exact surfaces, too: move() adds to these.
             reference_tangents.push_back(
               evaluate(face, exact_surface(face), node_coordinates(face, m)).tangents);
           }
     for (auto &[node, list] : around)
-      places.push_back({node, {}, std::move(list)});
+      surface_nodes.push_back({node, {}, std::move(list)});
+  }
 
+
+
+  void
+  Surface::collect_owned_nodes(const Solid &solid)
+  {
     std::map<Index, SurfaceNode> found;
-    shortest = std::numeric_limits<double>::max();
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
         {
-          auto   areas = nodal_areas(face);
-          double area  = 0.;
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            area += areas[m];
+          auto         areas = whole_areas(face, nullptr, /*reference=*/true);
+          const double area  = std::accumulate(areas.begin(), areas.begin() + face.n_nodes(), 0.);
+          // The area of a hanging node belongs to those that it follows (doc/theory.md 11).
           const TraceBasis *basis = trace(face);
           if (basis)
             areas = basis->apply(areas);
@@ -214,28 +218,40 @@ namespace Touchstone
               node.node         = index;
               node.area += areas[m];
               if (index != face.nodes[m])
-                continue; // the place of a node that this face does not have
+                continue; // the face does not have the node itself
               node.reference = face.reference[m];
-              node.size      = std::max(node.size, std::sqrt(area) / p);
+              node.size      = std::max(node.size, std::sqrt(area) / face.degree);
             }
-          const unsigned int last = face.n_nodes() - 1;
-          diagonal                = std::max({diagonal,
-                                              face.reference[0].distance(face.reference[last]),
-                                              face.reference[p].distance(face.reference[last - p])});
-          for (const unsigned int corner : {p, last - p})
-            for (const unsigned int end : {0u, last})
-              shortest = std::min(shortest, face.reference[corner].distance(face.reference[end]));
         }
     for (const auto &entry : found)
       nodes.push_back(entry.second);
-    diagonal = Utilities::MPI::max(diagonal, solid.communicator);
-    shortest = Utilities::MPI::min(shortest, solid.communicator);
   }
 
 
 
   void
-  Surface::mark_outer_edges(const std::vector<std::pair<Edge, std::array<Edge, 2>>> &halves)
+  Surface::measure_faces(const MPI_Comm communicator)
+  {
+    shortest = std::numeric_limits<double>::max();
+    for (const auto *list : {&faces, &ghost_faces})
+      for (const Face &face : *list)
+        {
+          const unsigned int last = face.n_nodes() - 1, p = face.degree;
+          diagonal = std::max({diagonal,
+                               face.reference[0].distance(face.reference[last]),
+                               face.reference[p].distance(face.reference[last - p])});
+          for (const unsigned int corner : {p, last - p})
+            for (const unsigned int end : {0u, last})
+              shortest = std::min(shortest, face.reference[corner].distance(face.reference[end]));
+        }
+    diagonal = Utilities::MPI::max(diagonal, communicator);
+    shortest = Utilities::MPI::min(shortest, communicator);
+  }
+
+
+
+  void
+  Surface::mark_outer_edges(const std::vector<SplitEdge> &split_edges)
   {
     std::map<Edge, unsigned int> count;
     for (const auto *list : {&faces, &ghost_faces})
@@ -244,8 +260,8 @@ namespace Touchstone
           ++count[edge];
     // A larger face and its two neighbours on one side of it meet without sharing
     // an edge.
-    for (const auto &[whole, parts] : halves)
-      for (const Edge &part : parts)
+    for (const auto &[whole, halves] : split_edges)
+      for (const Edge &part : halves)
         {
           const auto found = count.find(part);
           if (found == count.end())
@@ -264,6 +280,17 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    struct FaceWithTrace
+    {
+      Face       face;
+      TraceBasis basis;
+    };
+  } // namespace
+
+
+
   void
   Surface::exchange_far_faces(const Solid &solid)
   {
@@ -279,44 +306,32 @@ namespace Touchstone
     };
     IndexSet foreign(solid.owned.size());
     for_each_foreign(
-      [&](const Face &, const TraceBasis &, const Index unknown) { foreign.add_index(unknown); });
+      [&](const Face &, const TraceBasis &, const Index dof) { foreign.add_index(dof); });
     const std::vector<unsigned int> owners =
       Utilities::MPI::compute_index_owner(solid.owned, foreign, solid.communicator);
 
-    struct Package
-    {
-      Face       face;
-      TraceBasis basis;
-    };
-    std::map<unsigned int, std::vector<char>>        packages;
-    std::set<std::pair<unsigned int, std::uint64_t>> sent;
-    for_each_foreign([&](const Face &face, const TraceBasis &basis, const Index unknown) {
-      const unsigned int rank = owners[foreign.index_within_set(unknown)];
-      if (!sent.emplace(rank, face.key).second)
-        return;
-      const Package     package{face, basis};
-      auto             &to   = packages[rank];
-      const std::size_t size = to.size();
-      to.resize(size + sizeof(Package));
-      std::memcpy(to.data() + size, static_cast<const void *>(&package), sizeof(Package));
+    std::map<unsigned int, std::vector<FaceWithTrace>> messages;
+    std::set<std::pair<unsigned int, std::uint64_t>>   sent;
+    for_each_foreign([&](const Face &face, const TraceBasis &basis, const Index dof) {
+      const unsigned int rank = owners[foreign.index_within_set(dof)];
+      if (sent.emplace(rank, face.key).second)
+        messages[rank].push_back({face, basis});
     });
 
     std::set<std::uint64_t> known;
     for (const Face &face : ghost_faces)
       known.insert(face.key);
-    for (const auto &[rank, data] : Utilities::MPI::some_to_some(solid.communicator, packages))
-      for (std::size_t at = 0; at < data.size(); at += sizeof(Package))
+    for (const auto &[rank, received] : exchange_records(messages, solid.communicator))
+      for (const FaceWithTrace &record : received)
         {
-          Package package;
-          std::memcpy(static_cast<void *>(&package), data.data() + at, sizeof(Package));
           // This rank may see the face, but not all that its nodes follow.
-          traces[package.face.key] = package.basis;
-          if (!known.insert(package.face.key).second)
+          traces[record.face.key] = record.basis;
+          if (!known.insert(record.face.key).second)
             continue;
-          ghost_faces.push_back(package.face);
-          for (unsigned int m = 0; m < package.face.n_nodes(); ++m)
+          ghost_faces.push_back(record.face);
+          for (unsigned int m = 0; m < record.face.n_nodes(); ++m)
             for (unsigned int d = 0; d < dim; ++d)
-              far.push_back(dim * package.face.nodes[m] + d);
+              far.push_back(dim * record.face.nodes[m] + d);
         }
   }
 
@@ -425,12 +440,12 @@ namespace Touchstone
   void
   Surface::move(const Vector &u)
   {
-    for (const Place &place : places)
+    for (const NodeOfFaces &node : surface_nodes)
       {
         Tensor<1, dim> displacement;
         for (unsigned int d = 0; d < dim; ++d)
-          displacement[d] = u(dim * place.node + d);
-        for (const auto &[face, m] : place.faces)
+          displacement[d] = u(dim * node.node + d);
+        for (const auto &[face, m] : node.faces)
           face->displacement[m] = displacement;
       }
     // Normals of the faces at their nodes, in length weighted by the area that
@@ -453,7 +468,7 @@ namespace Touchstone
             face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
           }
     std::vector<Tensor<1, dim>> parts, units;
-    for (auto &[node, all, list] : places)
+    for (auto &[node, all, list] : surface_nodes)
       {
         parts.clear();
         units.clear();
@@ -498,7 +513,7 @@ namespace Touchstone
       {
         const std::size_t first = result.size();
         Tensor<1, dim>    sum;
-        for (const auto &[f, k] : place(face.nodes[m])->faces)
+        for (const auto &[f, k] : node_of_faces(face.nodes[m]).faces)
           {
             const auto           t    = tangents(*f, k);
             const Tensor<1, dim> part = cross_product_3d(t[0], t[1]);

@@ -1,13 +1,14 @@
 #include <touchstone/contact/pairing/averaged_derivative.h>
+#include <touchstone/contact/pairing/facing_part.h>
 #include <touchstone/contact/pairing/pairing.h>
-#include <touchstone/contact/pairing/partial_cover.h>
+#include <touchstone/contact/pairing/row_sums.h>
 #include <touchstone/contact/search/facing_faces.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 
@@ -17,10 +18,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Of the shortest edge: nodes that move by less do not change which faces face each
-     * other, but for those beside them. */
-    constexpr double negligible_motion = 0.02;
-
     /**
      * Rows that pass the patch test: the stencil of a slave node are averages of
      * the master shapes, weighted with the dual basis of its slave faces. With
@@ -46,14 +43,14 @@ namespace Touchstone
                  master_normal(input.parameters->master_normal),
                  input.solid->communicator)
         , facing(search,
-                 negligible_motion *
+                 Tolerances::negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
         , kind(master_normal(input.parameters->master_normal))
-        , tied(input.parameters->behaviour == "tied")
+        , tied(input.parameters->behaviour.name == "tied")
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
-          places.emplace(node.node, static_cast<int>(places.size()));
-        sums.resize(places.size());
+          row_of_node.emplace(node.node, static_cast<int>(row_of_node.size()));
+        sums.resize(row_of_node.size());
         // Of owned and of ghost cells: with all faces around an owned node its sums are
         // complete here without another rank.
         for (const auto *list : {&input.slave->owned_faces(), &input.slave->neighbour_faces()})
@@ -65,9 +62,9 @@ namespace Touchstone
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
                 {
                   const auto found =
-                    places.find(slave.basis ? slave.basis->nodes[m] : face.nodes[m]);
-                  slave.places[m] = found != places.end() ? found->second : -1;
-                  any             = any || found != places.end();
+                    row_of_node.find(slave.basis ? slave.basis->nodes[m] : face.nodes[m]);
+                  slave.row[m] = found != row_of_node.end() ? found->second : -1;
+                  any          = any || found != row_of_node.end();
                 }
               if (any)
                 faces.push_back(slave);
@@ -83,8 +80,10 @@ namespace Touchstone
         // facets that stray from their surface to one that does not. The normals of
         // faces of ghost cells are known to their owners only.
         if (kind == MasterNormal::smoothed)
-          slave_search = std::make_unique<Search>(
-            *input.slave, input.slave->largest_face(), 0., kind, input.solid->communicator);
+          slave_exchange = std::make_unique<FaceExchange>(*input.slave,
+                                                          input.slave->largest_face(),
+                                                          kind,
+                                                          input.solid->communicator);
       }
 
       void
@@ -120,89 +119,43 @@ namespace Touchstone
       search_work() const override
       {
         SearchWork work = search.work();
-        if (slave_search)
-          work += slave_search->work();
+        if (slave_exchange)
+          work += slave_exchange->work();
         return work;
       }
 
     private:
-      /** Of a shape function over the covered part, times 1, the gap and the normal. */
-      struct Integrals
-      {
-        double         area = 0.;
-        Tensor<1, dim> gap, normal;
-      };
-
-      /** Sums over the slave faces around a node. */
-      struct Sums : CoverSums
-      {
-        /** The area that is kept, in the reference state. */
-        double reference = 0.;
-        /** Integral of the slave position less that of the node. */
-        Tensor<1, dim> lever;
-        /** Integrals of master shapes: a dozen nodes or two, in the order in which they
-         * came; areas that other slave nodes have left to this one, and it to them. */
-        Stencil stencil, taken, left;
-
-        /** Zero, with room for as many nodes. */
-        void
-        clear()
-        {
-          static_cast<CoverSums &>(*this) = CoverSums();
-          reference                       = 0.;
-          least = own = std::numeric_limits<double>::max();
-          lever       = Tensor<1, dim>();
-          for (Stencil *list : {&stencil, &taken, &left})
-            list->clear();
-        }
-
-        static void
-        add(Stencil &list, const Index node, const double value)
-        {
-          const auto found = std::find_if(list.begin(), list.end(), [node](const auto &entry) {
-            return entry.node == node;
-          });
-          if (found != list.end())
-            found->weight += value;
-          else
-            list.push_back({node, value});
-        }
-      };
-
       Search       search;
       FacingFaces  facing;
       MasterNormal kind;
       /** Rows of tied pairs act once and for all: there is nothing to be smooth. */
       const bool tied;
-      /** Only for its exchange of faces, and only if they are smoothed. */
-      std::unique_ptr<Search> slave_search;
+      /** The slave faces, only if they are smoothed. */
+      std::unique_ptr<FaceExchange> slave_exchange;
 
       /** Of the last update: sums in the order of the owned nodes, and the slave faces
        * around them, in the order of `faces`. */
-      std::vector<Sums>        sums;
+      std::vector<RowSums>     sums;
       std::vector<CoveredFace> slave_faces;
 
       /** A face with nodes of this rank: its continuous basis, if it has hanging nodes, and
-       * the places of the nodes to which its rows belong; negative: of another rank. */
+       * the indices of the rows of its nodes; negative: of another rank. */
       struct SlaveFace
       {
         const Face                      *face;
         const TraceBasis                *basis;
-        std::array<int, Face::max_nodes> places;
+        std::array<int, Face::max_nodes> row;
         /** whole_areas() in the reference state. */
         std::array<double, Face::max_nodes> whole;
       };
 
-      /** Places of the owned nodes, and the slave faces around them in the order of their
-       * keys. */
-      std::unordered_map<Index, int> places;
+      /** Indices of the rows of the owned nodes, and the slave faces around these in the order
+       * of their keys. */
+      std::unordered_map<Index, int> row_of_node;
       std::vector<SlaveFace>         faces;
 
       /** Of the faces that the search knows, made when one is first asked for. */
       std::vector<std::optional<FaceGeometry>> geometries;
-
-      /** Of the face at hand. */
-      FullMatrix<double> to_basis, scratch, matrix;
 
       /** Displacements of the faces of this rank, slaves and then masters: of the last
        * update, if any, and when all facing faces were looked for last. */
@@ -220,14 +173,16 @@ namespace Touchstone
       has_moved();
       void
       integrate();
+      /** @tparam n Nodes of the face. */
+      template <unsigned int n>
       void
       add_face(const SlaveFace &face, CoveredFace &covered);
       /** Add what nodes leave to others. @param shares Of the face. */
       void
       add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares);
-      /** The stencil of a row, and the sums as they belong to it. */
-      static void
-      finish_sums(Sums &sum);
+      /** Present positions of the nodes to which the rows of a slave face belong. */
+      static std::vector<Point<dim>>
+      carrier_positions(const SlaveFace &face, const Face &slave);
     };
 
     const PairingRegistry::Entry<AveragedPairing> averaged_pairing_entry(
@@ -253,7 +208,7 @@ namespace Touchstone
     const FaceGeometry &
     AveragedPairing::geometry(const Face &master)
     {
-      auto &result = geometries[search.place(master)];
+      auto &result = geometries[search.exchange().index(master)];
       if (!result)
         result.emplace(search.geometry(master));
       return *result;
@@ -270,7 +225,7 @@ namespace Touchstone
         close = (present[i] - searched[i]).norm_square() <= square;
       if (Utilities::MPI::min(close ? 1 : 0, input.solid->communicator) == 1)
         return;
-      facing.look_anew();
+      facing.invalidate();
       searched = present;
     }
 
@@ -292,6 +247,7 @@ namespace Touchstone
 
 
 
+    template <unsigned int n>
     void
     AveragedPairing::add_face(const SlaveFace &face, CoveredFace &covered)
     {
@@ -299,125 +255,68 @@ namespace Touchstone
       const std::vector<FacingFace> &masters = covered.masters = facing.find(slave);
       if (masters.empty())
         return;
-      const unsigned int n = slave.n_nodes();
-      const FaceGeometry on_slave(slave, input.slave->exact_surface(slave), kind);
+      const FaceGeometry   on_slave(slave, input.slave->exact_surface(slave), kind);
+      const Tensor<1, dim> plane = plane_normal(slave);
 
-      // Integrals of the slave shapes times themselves, 1, gap, normal, and master shapes.
-      using Values = std::array<double, Face::max_nodes>;
-      std::array<Values, Face::max_nodes>              mass{};
-      std::array<Integrals, Face::max_nodes>           integrals{};
-      std::vector<std::array<Values, Face::max_nodes>> mixed(masters.size());
-      double                                           least = std::numeric_limits<double>::max();
-      Values                                           own;
-      double                                           total = 0.;
-      const Tensor<1, dim>                             plane = plane_normal(slave);
-      own.fill(least);
+      std::vector<OverlapIntegrals<n, double>> parts(masters.size());
+      OverlapSample<n, double>                 sample;
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
-          const Face         &master    = *masters[f].master;
-          const FaceGeometry &on_master = geometry(master);
+          const FaceGeometry &on_master = geometry(*masters[f].master);
           for (const OverlapPoint &point : masters[f].points)
-            {
-              const FaceShapes shapes(slave.degree, point.slave);
-              const FaceShapes master_shapes(master.degree, point.master);
-              const auto [x, normal] = on_master.position_and_normal(point.master, master_shapes);
-              const double part =
-                FacingPart(
-                  facing_cosine(plane, normal, master, on_master.exact_surface(), point.master))
-                  .value;
-              if (part == 0.)
-                continue;
-              const Tensor<1, dim> gap = on_slave.position(point.slave, shapes) - x;
-              least                    = std::min(least, gap * normal);
-              if (point.weight == 0.)
-                {
-                  for (unsigned int j = 0; j < n; ++j)
-                    if (is_node(shapes.value[j]))
-                      own[j] = std::min(own[j], gap * normal);
-                  continue;
-                }
-              const double weight = part * point.weight;
-              total += weight;
-              for (unsigned int j = 0; j < n; ++j)
-                {
-                  const double value = weight * shapes.value[j];
-                  for (unsigned int k = 0; k < n; ++k)
-                    mass[j][k] += value * shapes.value[k];
-                  for (unsigned int m = 0; m < master.n_nodes(); ++m)
-                    mixed[f][j][m] += value * master_shapes.value[m];
-                  integrals[j].area += value;
-                  integrals[j].gap += value * gap;
-                  integrals[j].normal += value * normal;
-                }
-            }
+            if (evaluate<n>(point, on_slave, on_master, plane, sample))
+              parts[f].add(sample);
         }
-
-      if (total <= 0.)
+      const auto areas = total_areas<n>(parts);
+      if (std::accumulate(areas.begin(), areas.end(), 0.) <= 0.)
         return;
-      // The basis N~ of the continuous displacements is C^T N, and the dual one of the
-      // covered part psi = D M~^-1 N~: the integrals with psi are these weights times
-      // those with N.
-      const TraceBasis *basis = face.basis;
-      matrix.reinit(n, n, /*omit_default_initialization=*/true);
-      Values areas{};
-      for (unsigned int j = 0; j < n; ++j)
-        {
-          areas[j] = integrals[j].area;
-          for (unsigned int k = 0; k < n; ++k)
-            matrix(j, k) = mass[j][k];
-        }
-      if (basis)
-        {
-          areas = basis->apply(areas);
-          to_basis.reinit(n, n);
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int p = 0; p < n; ++p)
-              to_basis(p, i) = basis->weights[i][p];
-          scratch.reinit(n, n);
-          scratch.triple_product(matrix, to_basis, to_basis, false, true);
-          matrix = scratch;
-        }
-      const CoverShares  shares(n, areas, face.whole, /*gradual=*/!tied, /*with_derivative=*/false);
-      FullMatrix<double> weights = shares.weights(matrix);
-      if (basis)
-        {
-          scratch = weights;
-          scratch.mmult(weights, to_basis);
-        }
-      const Values present = whole_areas(slave, basis, /*reference=*/false);
+      const DualBasis dual(total_mass<n>(parts),
+                           areas,
+                           face.basis,
+                           face.whole,
+                           /*gradual=*/!tied,
+                           /*with_derivative=*/false);
+      const auto      present = whole_areas(slave, face.basis, /*reference=*/false);
 
       for (unsigned int k = 0; k < n; ++k)
         {
           // Nodes of other ranks get their shares there.
-          if (face.places[k] < 0)
+          if (face.row[k] < 0)
             continue;
-          Sums  &sum = sums[face.places[k]];
-          Values psi{};
-          for (unsigned int j = 0; j < n; ++j)
-            psi[j] = weights(k, j);
-          for (unsigned int j = 0; j < n; ++j)
-            {
-              sum.area += psi[j] * integrals[j].area;
-              sum.gap += psi[j] * integrals[j].gap;
-              sum.normal += psi[j] * integrals[j].normal;
-            }
+          RowSums &sum = sums[face.row[k]];
           for (std::size_t f = 0; f < masters.size(); ++f)
-            for (unsigned int m = 0; m < masters[f].master->n_nodes(); ++m)
-              {
-                double value = 0.;
-                for (unsigned int j = 0; j < n; ++j)
-                  value += psi[j] * mixed[f][j][m];
-                Sums::add(sum.stencil, masters[f].master->nodes[m], value);
-              }
-          const double kept = shares.share[k][k];
+            sum.add<n>(k, dual, *masters[f].master, parts[f]);
+          const double kept = dual.shares.share[k][k];
           sum.kept += kept;
-          sum.given += areas[k] - kept;
+          sum.given += dual.areas[k] - kept;
           sum.reference += kept * face.whole[k] / present[k];
-          sum.least = std::min(sum.least, least);
-          sum.own   = std::min(sum.own, own[k]);
         }
-      if (shares.partial)
-        add_shares(face, slave, shares);
+      if (dual.shares.partial)
+        add_shares(face, slave, dual.shares);
+    }
+
+
+
+    std::vector<Point<dim>>
+    AveragedPairing::carrier_positions(const SlaveFace &face, const Face &slave)
+    {
+      const unsigned int      n = slave.n_nodes();
+      std::vector<Point<dim>> x;
+      for (unsigned int i = 0; i < n; ++i)
+        x.push_back(slave.position(i));
+      if (!face.basis)
+        return x;
+      // The nodes that those of the face follow: x_i = sum C_ip x_p.
+      FullMatrix<double> inverse(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int p = 0; p < n; ++p)
+          inverse(i, p) = face.basis->weights[i][p];
+      inverse.gauss_jordan();
+      std::vector<Point<dim>> result(n);
+      for (unsigned int p = 0; p < n; ++p)
+        for (unsigned int i = 0; i < n; ++i)
+          result[p] += inverse(p, i) * x[i];
+      return result;
     }
 
 
@@ -425,68 +324,24 @@ namespace Touchstone
     void
     AveragedPairing::add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares)
     {
-      const unsigned int       n = slave.n_nodes();
-      const std::vector<Index> nodes =
-        face.basis ? std::vector<Index>(face.basis->nodes.begin(), face.basis->nodes.begin() + n)
-                   : std::vector<Index>(slave.nodes.begin(), slave.nodes.begin() + n);
-      std::array<Tensor<1, dim>, Face::max_nodes> x;
-      for (unsigned int i = 0; i < n; ++i)
-        x[i] = slave.reference[i] + slave.displacement[i];
-      if (face.basis)
-        {
-          // The nodes that the face follows: x_i = sum C_ip x_p.
-          FullMatrix<double> inverse(n, n);
-          for (unsigned int i = 0; i < n; ++i)
-            for (unsigned int p = 0; p < n; ++p)
-              inverse(i, p) = face.basis->weights[i][p];
-          inverse.gauss_jordan();
-          const auto on_face = x;
-          for (unsigned int p = 0; p < n; ++p)
-            {
-              x[p] = Tensor<1, dim>();
-              for (unsigned int i = 0; i < n; ++i)
-                x[p] += inverse(p, i) * on_face[i];
-            }
-        }
+      const unsigned int            n     = slave.n_nodes();
+      const auto                   &nodes = face.basis ? face.basis->nodes : slave.nodes;
+      const std::vector<Point<dim>> x     = carrier_positions(face, slave);
       for (unsigned int k = 0; k < n; ++k)
-        if (face.places[k] >= 0)
+        if (face.row[k] >= 0)
           for (unsigned int i = 0; i < n; ++i)
             {
               if (i == k)
                 continue;
-              Sums &sum = sums[face.places[k]];
+              RowSums &sum = sums[face.row[k]];
               if (const double area = shares.share[k][i]; area != 0.)
                 {
-                  Sums::add(sum.taken, nodes[i], area);
+                  RowSums::add(sum.taken, nodes[i], area);
                   sum.lever += area * (x[i] - x[k]);
                 }
               if (const double area = shares.share[i][k]; area != 0.)
-                Sums::add(sum.left, nodes[i], area);
+                RowSums::add(sum.left, nodes[i], area);
             }
-    }
-
-
-
-    void
-    AveragedPairing::finish_sums(Sums &sum)
-    {
-      // Of two nodes that each leave something to the other on different faces, only the one
-      // that takes more refers to the other: conditions must not depend on each other in a
-      // cycle. It is rare: both must lie at the edge of the cover, on different sides.
-      for (const StencilEntry &taken : sum.taken)
-        {
-          const auto back =
-            std::find_if(sum.left.begin(), sum.left.end(), [&](const StencilEntry &entry) {
-              return entry.node == taken.node;
-            });
-          if (back != sum.left.end() && std::abs(taken.weight) <= std::abs(back->weight))
-            sum.kept += taken.weight;
-          else
-            Sums::add(sum.stencil, taken.node, -taken.weight);
-        }
-      std::sort(sum.stencil.begin(),
-                sum.stencil.end(),
-                [](const StencilEntry &a, const StencilEntry &b) { return a.node < b.node; });
     }
 
 
@@ -494,7 +349,7 @@ namespace Touchstone
     void
     AveragedPairing::integrate()
     {
-      for (Sums &sum : sums)
+      for (RowSums &sum : sums)
         sum.clear();
 
       std::vector<Point<dim>> positions;
@@ -513,12 +368,12 @@ namespace Touchstone
             }
         }
       search.update(positions);
-      if (slave_search)
+      if (slave_exchange)
         {
-          slave_search->update(positions);
+          slave_exchange->update(positions);
           for (CoveredFace &covered : slave_faces)
             {
-              const Face &complete       = *slave_search->face(covered.slave.key);
+              const Face &complete       = *slave_exchange->face(covered.slave.key);
               covered.slave.normals      = complete.normals;
               covered.slave.edge_normals = complete.edge_normals;
               covered.slave.own_normals  = complete.own_normals;
@@ -529,9 +384,12 @@ namespace Touchstone
       geometries.resize(search.known_faces().size());
       watch_motion();
       for (std::size_t f = 0; f < faces.size(); ++f)
-        add_face(faces[f], slave_faces[f]);
-      for (Sums &sum : sums)
-        finish_sums(sum);
+        if (slave_faces[f].slave.degree == 1)
+          add_face<4>(faces[f], slave_faces[f]);
+        else
+          add_face<9>(faces[f], slave_faces[f]);
+      for (RowSums &sum : sums)
+        sum.finish();
     }
 
 
@@ -544,8 +402,8 @@ namespace Touchstone
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
-          ContactRow &row = rows[k];
-          const Sums &sum = sums[k];
+          ContactRow    &row = rows[k];
+          const RowSums &sum = sums[k];
           row.stencil.clear();
           if (!sum.suffices(nodes[k].area))
             {
@@ -558,15 +416,14 @@ namespace Touchstone
           if (row.status == ContactStatus::no_partner)
             row.status = ContactStatus::open;
           for (const StencilEntry &entry : sum.stencil)
-            if (std::abs(entry.weight) > 1e-14 * sum.area)
+            if (std::abs(entry.weight) > Tolerances::negligible_weight * sum.area)
               row.stencil.push_back({entry.node, entry.weight / sum.kept});
-          row.share                 = sum.area / sum.kept;
-          row.lever                 = sum.lever / sum.area;
-          row.normal                = sum.normal / sum.normal.norm();
-          const Tensor<1, dim> mean = sum.gap / sum.area;
-          const GapCorrection  correction(sum, mean * row.normal, nodes[k].size);
-          row.gap_vector = row.share * (mean + correction.value * row.normal);
+          const AveragedRow means(sum, nodes[k].size);
+          row.share      = means.share;
+          row.normal     = means.normal;
+          row.gap_vector = means.gap_vector;
           row.gap        = row.gap_vector * row.normal;
+          row.lever      = sum.lever / sum.area;
           row.area       = std::min(sum.reference, nodes[k].area);
         }
     }
@@ -576,18 +433,22 @@ namespace Touchstone
     void
     AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
-      AveragedDerivative derivative(search, slave_search.get(), /*gradual=*/!tied);
+      AveragedDerivative derivative(search.exchange(), slave_exchange.get(), /*gradual=*/!tied);
       for (const ContactRow &row : rows)
         if (row.active())
-          derivative.add_row(row, sums[places.at(row.slave)]);
+          derivative.add_row(row.slave,
+                             row.stencil,
+                             sums[row_of_node.at(row.slave)],
+                             row.size,
+                             row.friction.has_value());
       for (const auto &[slave, masters] : slave_faces)
         if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
           derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
                               basis,
                               masters_of(masters));
-      derivative.finish();
+      const auto derivatives = derivative.finish();
       for (ContactRow &row : rows)
-        row.derivative = row.active() ? derivative.result(row.slave) : nullptr;
+        row.derivative = row.active() ? derivatives.at(row.slave) : nullptr;
     }
   } // namespace
 } // namespace Touchstone

@@ -1,6 +1,6 @@
+#include <touchstone/base/formula.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/row_derivative.h>
-#include <touchstone/scene/formula.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -107,9 +107,13 @@ namespace Touchstone
       Formulas                                        formulas;
       std::array<std::shared_ptr<const Formula>, dim> motion;
     };
-
-    const PairingRegistry::Entry<ObstaclePairing>
-      obstacle_pairing_entry("obstacle",
-                             "rigid surface given by a formula; chosen by the key 'Obstacle'");
   } // namespace
+
+
+
+  std::shared_ptr<Pairing>
+  make_obstacle_pairing(const PairingInput &input)
+  {
+    return std::make_shared<ObstaclePairing>(input);
+  }
 } // namespace Touchstone

@@ -1,5 +1,6 @@
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/row_derivative.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -112,7 +113,7 @@ namespace Touchstone
             row.status = ContactStatus::open;
           const FaceShapes shapes(partner->face->degree, partner->xi);
           for (unsigned int m = 0; m < partner->face->n_nodes(); ++m)
-            if (std::abs(shapes.value[m]) > 1e-14)
+            if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
               row.stencil.push_back({partner->face->nodes[m], shapes.value[m]});
           row.normal     = partner->normal;
           row.gap_vector = positions[k] - partner->x;
@@ -205,7 +206,7 @@ namespace Touchstone
           // A weight that is zero on the edge of the face can still change.
           const auto on_edge = closest(tangents[0], tangents[1]);
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            if (std::abs(master.shapes.value[m]) <= 1e-14 &&
+            if (std::abs(master.shapes.value[m]) <= Tolerances::negligible_weight &&
                 (master.shapes.gradient[m][0] * on_edge[0] +
                  master.shapes.gradient[m][1] * on_edge[1])
                     .norm() > 0.)

@@ -1,11 +1,12 @@
+#include <touchstone/contact/geometry/face_area.h>
+#include <touchstone/contact/search/connected_components.h>
 #include <touchstone/contact/search/facing_faces.h>
-
-#include <deal.II/base/quadrature_lib.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 
 namespace Touchstone
 {
@@ -24,13 +25,6 @@ namespace Touchstone
 
   namespace
   {
-    /** What moves less than this part of a face against another does not pass
-     * through a body, and what is closer touches. */
-    constexpr double small_motion = 0.1, touching = 1e-3;
-
-    /** A face lies behind another if that covers this part of it, and not beside it. */
-    constexpr double behind = 0.1;
-
     BoundingBox<dim>
     box(const Face &face)
     {
@@ -38,20 +32,6 @@ namespace Touchstone
       for (unsigned int m = 1; m < face.n_nodes(); ++m)
         result.merge_with(BoundingBox<dim>({face.position(m), face.position(m)}));
       return result;
-    }
-
-    double
-    area(const Face &face)
-    {
-      static const QGauss<2> quadrature(3);
-      double                 sum = 0.;
-      for (unsigned int q = 0; q < quadrature.size(); ++q)
-        {
-          const Point<2>  p = quadrature.point(q);
-          const FacePoint x = evaluate(face, nullptr, {{2. * p[0] - 1., 2. * p[1] - 1.}});
-          sum += 4. * quadrature.weight(q) * cross_product_3d(x.tangents[0], x.tangents[1]).norm();
-        }
-      return sum;
     }
 
     double
@@ -63,6 +43,14 @@ namespace Touchstone
                              [](const double sum, const OverlapPoint &p) {
                                return sum + p.weight;
                              });
+    }
+
+    /** Of the tangent plane in the middle of a face: an edge length. */
+    double
+    centre_size(const Face &face)
+    {
+      const FacePoint centre = evaluate(face, nullptr, {{0., 0.}});
+      return std::sqrt(4. * cross_product_3d(centre.tangents[0], centre.tangents[1]).norm());
     }
 
     Tensor<1, dim>
@@ -98,20 +86,20 @@ namespace Touchstone
       return result;
     }
 
-    /** Search::layers() by face. */
+    /** connected_components() by face. */
     std::map<const Face *, unsigned int>
-    layers(const Search &search, const std::vector<const Face *> &faces)
+    components_by_face(const std::vector<const Face *> &faces)
     {
-      const std::vector<unsigned int>      numbers = search.layers(faces);
+      const std::vector<unsigned int>      numbers = connected_components(faces);
       std::map<const Face *, unsigned int> result;
       for (std::size_t i = 0; i < faces.size(); ++i)
         result[faces[i]] = numbers[i];
       return result;
     }
 
-    /** The box around the way that @p slave has come, seen from what covers it. */
+    /** The box around the path of @p slave in this step, relative to what covers it. */
     BoundingBox<dim>
-    way(const Face &slave, const std::vector<FacingFace> &covering)
+    path(const Face &slave, const std::vector<FacingFace> &covering)
     {
       Tensor<1, dim> motion = mean_motion(slave);
       for (const FacingFace &facing : covering)
@@ -122,27 +110,63 @@ namespace Touchstone
       return result;
     }
 
-    /** Whether @p faces hang together. */
+    /** Whether the faces that cover a slave face are connected over the nodes of all that are
+     * near. */
     bool
-    one_layer(const Search &search, const std::vector<const Face *> &faces)
+    covering_is_connected(const std::vector<FacingFace>   &covering,
+                          const std::vector<const Face *> &near)
     {
-      const std::vector<unsigned int> numbers = search.layers(faces);
-      return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) ==
-             numbers.end();
+      // Mostly they are without the help of others.
+      if (covering.size() < 2 || is_connected(masters_of(covering)))
+        return true;
+      const std::map<const Face *, unsigned int> number = components_by_face(near);
+      return std::all_of(covering.begin(), covering.end(), [&](const FacingFace &face) {
+        return number.at(face.master) == number.at(covering[0].master);
+      });
     }
 
-    /** Whether @p facing hang together over the nodes of @p faces. */
-    bool
-    one_layer(const Search                    &search,
-              const std::vector<FacingFace>   &facing,
-              const std::vector<const Face *> &faces)
+    /** A connected component of the master faces that cover a slave face. */
+    struct Component
     {
-      if (facing.size() < 2)
-        return true;
-      const std::map<const Face *, unsigned int> number = layers(search, faces);
-      return std::all_of(facing.begin(), facing.end(), [&](const FacingFace &face) {
-        return number.at(face.master) == number.at(facing[0].master);
+      std::vector<FacingFace> faces;
+      /** Covered area, and the integral of the gap over it. */
+      double area = 0., gap = 0.;
+      /** The slave face has entered its body in this step, or touched it at its start. */
+      bool entered = false;
+    };
+
+    /** Whether @p a takes precedence. */
+    bool
+    comes_first(const Component &a, const Component &b)
+    {
+      if (a.entered != b.entered)
+        return a.entered;
+      const double of_a = std::abs(a.gap / a.area), of_b = std::abs(b.gap / b.area);
+      return of_a != of_b ? of_a < of_b : a.faces[0].master->key < b.faces[0].master->key;
+    }
+
+    /** Of components in the order of precedence all faces that do not lie behind those of
+     * earlier ones. */
+    std::vector<FacingFace>
+    remove_hidden_faces(std::vector<Component> &&order)
+    {
+      std::vector<FacingFace> result;
+      for (Component &component : order)
+        {
+          const std::size_t before = result.size();
+          for (FacingFace &facing : component.faces)
+            {
+              double hidden = 0.;
+              for (std::size_t i = 0; i < before; ++i)
+                hidden += area(overlap(*result[i].master, *facing.master));
+              if (hidden < Tolerances::behind * face_area(*facing.master))
+                result.push_back(std::move(facing));
+            }
+        }
+      std::sort(result.begin(), result.end(), [](const FacingFace &a, const FacingFace &b) {
+        return a.master->key < b.master->key;
       });
+      return result;
     }
   } // namespace
 
@@ -151,24 +175,25 @@ namespace Touchstone
   FacingFaces::Entries
   FacingFaces::entries(const Face &slave, const Tensor<1, dim> &normal) const
   {
-    Entries    result;
-    SlavePoint centre{{}, {}, normal, false, {}};
+    const SweptSearch swept = search.swept();
+    Entries           result;
+    SlavePoint        centre{{}, {}, normal, false, {}};
     for (unsigned int m = 0; m < slave.n_nodes(); ++m)
       {
         const SlavePoint corner{
           slave.position(m), slave.reference[m] + slave.committed[m], normal, false, {}};
         centre.x += corner.x / slave.n_nodes();
         centre.start += corner.start / slave.n_nodes();
-        if (const Face *face = search.entry(corner))
+        if (const Face *face = swept.entry(corner))
           result.faces.push_back(face);
       }
-    if (const Face *face = search.entry(centre))
+    if (const Face *face = swept.entry(centre))
       result.faces.push_back(face);
     const auto  known = touched.find(slave.key);
-    const Face *face  = known == touched.end() ? nullptr : search.face(known->second);
+    const Face *face  = known == touched.end() ? nullptr : search.exchange().face(known->second);
     if (face != nullptr)
       {
-        result.faces.push_back(search.follow(centre, *face));
+        result.faces.push_back(swept.follow(centre, *face).face);
         result.last_touched = true;
       }
     return result;
@@ -176,43 +201,53 @@ namespace Touchstone
 
 
 
+  bool
+  FacingFaces::is_ambiguous(const Face                    &slave,
+                            const Tensor<1, dim>          &normal,
+                            const std::vector<FacingFace> &covering,
+                            const bool                     connected) const
+  {
+    if (!connected || covering.empty())
+      return true;
+    const double limit_of_motion = Tolerances::small_motion * centre_size(slave);
+    const bool moved = std::any_of(covering.begin(), covering.end(), [&](const FacingFace &facing) {
+      return (mean_motion(slave) - mean_motion(*facing.master)).norm() > limit_of_motion;
+    });
+    // Where there is but one component on its path it cannot have come to another.
+    return moved && !is_connected(search.near(path(slave, covering), normal));
+  }
+
+
+
   std::vector<FacingFace>
   FacingFaces::find(const Face &slave)
   {
+    const FaceExchange       &exchange = search.exchange();
     std::vector<const Face *> near;
     if (const auto known = candidates.find(slave.key); known != candidates.end())
       {
-        for (const auto &[key, place] : known->second)
-          if (const Face *face = search.face(key, place))
+        for (const auto &[key, index] : known->second)
+          if (const Face *face = exchange.face(key, index))
             near.push_back(face);
         return cover(slave, near);
       }
-    const FacePoint      centre = evaluate(slave, nullptr, {{0., 0.}});
-    const Tensor<1, dim> normal = centre.normal();
-    near                        = search.near(box(slave), normal);
-    std::vector<FacingFace> all = cover(slave, near);
-    // Those that cover the face mostly hang together without the help of others.
-    const bool   layered = !one_layer(search, masters_of(all)) && !one_layer(search, all, near);
-    const double size    = cross_product_3d(centre.tangents[0], centre.tangents[1]).norm();
-    const double far     = small_motion * std::sqrt(4. * size);
-    bool         moved   = false;
-    for (const FacingFace &facing : all)
-      moved = moved || (mean_motion(slave) - mean_motion(*facing.master)).norm() > far;
-    // Where there is but one layer on its way it cannot have come to another.
-    if (layered || all.empty() ||
-        (moved && !one_layer(search, search.near(way(slave, all), normal))))
+    const Tensor<1, dim> normal             = evaluate(slave, nullptr, {{0., 0.}}).normal();
+    near                                    = search.near(box(slave), normal);
+    const std::vector<FacingFace> all       = cover(slave, near);
+    const bool                    connected = covering_is_connected(all, near);
+    if (is_ambiguous(slave, normal, all, connected))
       {
         const Entries in    = entries(slave, normal);
         const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {
           return std::find(near.begin(), near.end(), face) != near.end();
         });
-        if (!known || layered)
+        if (!known || !connected)
           return resolve(slave, normal, in);
       }
     Candidates &those = candidates[slave.key];
     for (const Face *face : near)
       if (may_overlap(slave, *face, limit))
-        those.emplace_back(face->key, search.place(*face));
+        those.emplace_back(face->key, exchange.index(*face));
     return all;
   }
 
@@ -221,64 +256,38 @@ namespace Touchstone
   std::vector<FacingFace>
   FacingFaces::resolve(const Face &slave, const Tensor<1, dim> &normal, const Entries &in) const
   {
-    // What lies around the places of entry is within reach, too.
+    // What lies around the faces that it has entered is within reach, too.
     BoundingBox<dim> around = box(slave);
     for (const Face *face : in.faces)
       around.merge_with(box(*face));
     const std::vector<const Face *> masters = search.near(around, normal);
 
-    struct Layer
-    {
-      std::vector<FacingFace> faces;
-      double                  area = 0., gap = 0.;
-      bool                    entered = false;
-    };
-    const std::map<const Face *, unsigned int> number = layers(search, masters);
-    std::map<unsigned int, Layer>              by_number;
+    const std::map<const Face *, unsigned int> number = components_by_face(masters);
+    std::map<unsigned int, Component>          by_number;
     for (FacingFace &facing : cover(slave, masters))
       {
-        Layer &layer = by_number[number.at(facing.master)];
-        layer.area += area(facing.points);
-        layer.gap += gap(slave, normal, facing);
-        layer.faces.push_back(std::move(facing));
+        Component &component = by_number[number.at(facing.master)];
+        component.area += area(facing.points);
+        component.gap += gap(slave, normal, facing);
+        component.faces.push_back(std::move(facing));
       }
     for (std::size_t i = 0; i < in.faces.size(); ++i)
       {
         const auto found = number.find(in.faces[i]);
-        const auto layer = found == number.end() ? by_number.end() : by_number.find(found->second);
+        if (found == number.end())
+          continue;
+        const auto component = by_number.find(found->second);
         // From what it touched it may just have gone away.
         const bool only_touched = in.last_touched && i + 1 == in.faces.size();
-        if (layer != by_number.end() && (!only_touched || layer->second.gap < 0.))
-          layer->second.entered = true;
+        if (component != by_number.end() && (!only_touched || component->second.gap < 0.))
+          component->second.entered = true;
       }
 
-    std::vector<Layer> order;
-    for (auto &[id, layer] : by_number)
-      order.push_back(std::move(layer));
-    std::sort(order.begin(), order.end(), [](const Layer &a, const Layer &b) {
-      if (a.entered != b.entered)
-        return a.entered;
-      const double of_a = std::abs(a.gap / a.area), of_b = std::abs(b.gap / b.area);
-      return of_a != of_b ? of_a < of_b : a.faces[0].master->key < b.faces[0].master->key;
-    });
-
-    std::vector<FacingFace> result;
-    for (Layer &layer : order)
-      {
-        const std::size_t before = result.size();
-        for (FacingFace &facing : layer.faces)
-          {
-            double hidden = 0.;
-            for (std::size_t i = 0; i < before; ++i)
-              hidden += area(overlap(*result[i].master, *facing.master));
-            if (hidden < behind * area(*facing.master))
-              result.push_back(std::move(facing));
-          }
-      }
-    std::sort(result.begin(), result.end(), [](const FacingFace &a, const FacingFace &b) {
-      return a.master->key < b.master->key;
-    });
-    return result;
+    std::vector<Component> order;
+    for (auto &[id, component] : by_number)
+      order.push_back(std::move(component));
+    std::sort(order.begin(), order.end(), comes_first);
+    return remove_hidden_faces(std::move(order));
   }
 
 
@@ -297,13 +306,13 @@ namespace Touchstone
             const double covered = area(f.points);
             sum += gap(slave, normal, f);
             whole += covered;
-            if (covered > (1. + 1e-9) * largest)
+            if (covered > (1. + Tolerances::equal_areas) * largest)
               {
                 largest = covered;
                 master  = f.master;
               }
           }
-        if (master && sum < touching * std::sqrt(whole) * whole)
+        if (master && sum < Tolerances::touching * std::sqrt(whole) * whole)
           now[slave.key] = master->key;
       }
     touched.swap(now);

@@ -2,8 +2,8 @@
 #define touchstone_algebra_multigrid_prolongation_h
 
 #include <touchstone/algebra/block_matrix.h>
-#include <touchstone/algebra/condensation.h>
 #include <touchstone/algebra/multigrid/octet.h>
+#include <touchstone/algebra/transformation.h>
 
 #include <Epetra_MultiVector.h>
 #include <algorithm>
@@ -135,9 +135,9 @@ namespace Touchstone
     far_rows() const;
 
     /** @brief This rank's part of P^T A P, rows by local numbers of aggregates, columns by
-     * @p numbers. */
+     * @p indices. */
     std::vector<AggregateRow>
-    part_of_galerkin(BlockRows &matrix, LocalNumbers &numbers) const;
+    part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const;
 
     /** @brief Make of @p parts the rows of this rank's aggregates, with the parts of all
      * ranks, by the global numbers of aggregates. */

@@ -52,18 +52,9 @@ namespace Touchstone
    * The law is evaluated at the end of the step (backward Euler): the result of a law that
    * depends on the slip path does not depend on the number of steps that the path is made in.
    */
-  class FrictionLaw
+  class FrictionLaw : public PluginParameters
   {
   public:
-    virtual ~FrictionLaw() = default;
-
-    virtual void
-    declare(dealii::ParameterHandler &prm) = 0;
-
-    /** @throws InputError */
-    virtual void
-    check(const std::string &section) const = 0;
-
     virtual FrictionLimit
     limit(const FrictionInput &input) const = 0;
   };

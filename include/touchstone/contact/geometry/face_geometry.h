@@ -92,8 +92,8 @@ namespace Touchstone
     dealii::Tensor<1, dim>
     normal(const std::array<double, 2> &xi) const;
 
-    /** @brief The edges of the face at @p xi that hold a closest point there are
-     * sharp. @param mean Mean of the normals of all faces around, if they are. */
+    /** @brief Whether @p xi lies on an edge or a corner of the face at which faces meet in a sharp
+     * edge. @param mean Set to the mean of the normals of all faces around, not a unit vector. */
     bool
     sharp(const std::array<double, 2> &xi, dealii::Tensor<1, dim> &mean) const;
 

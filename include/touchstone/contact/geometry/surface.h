@@ -92,7 +92,7 @@ namespace Touchstone
     const dealii::Tensor<1, dim> &
     normal(Index node) const
     {
-      return place(node)->normal;
+      return node_of_faces(node).normal;
     }
 
     /** @brief The faces of the surface around an owned node, each with its number of the node
@@ -100,7 +100,7 @@ namespace Touchstone
     std::vector<std::pair<const Face *, unsigned int>>
     faces_around(Index node) const
     {
-      const auto &faces = place(node)->faces;
+      const auto &faces = node_of_faces(node).faces;
       return {faces.begin(), faces.end()};
     }
 
@@ -162,7 +162,7 @@ namespace Touchstone
     using Edge = std::pair<Index, Index>;
 
     /** A node of the faces that this rank knows. */
-    struct Place
+    struct NodeOfFaces
     {
       Index node;
       /** Averaged over all faces. */
@@ -172,22 +172,38 @@ namespace Touchstone
       std::vector<std::pair<Face *, unsigned int>> faces;
     };
     /** In ascending order of the nodes. */
-    std::vector<Place> places;
+    std::vector<NodeOfFaces> surface_nodes;
 
     /** Of all nodes of all faces in the reference state. */
     std::vector<std::array<dealii::Tensor<1, dim>, 2>> reference_tangents;
 
+    /** An edge of a face that has a node in the middle, which smaller neighbours share, with its
+     * two halves. */
+    using SplitEdge = std::pair<Edge, std::array<Edge, 2>>;
+
     /** @throws ExcInternalError if no face of this rank has the node. */
-    std::vector<Place>::const_iterator
-    place(Index node) const;
+    const NodeOfFaces &
+    node_of_faces(Index node) const;
     static std::array<Edge, 4>
     edges(const Face &face);
-    /** @param halves Edges of faces that have a node in the middle, which smaller
-     *               neighbours share, with the two halves. */
+    /** Faces of owned and ghost cells with their TraceBasis. */
+    std::vector<SplitEdge>
+    collect_faces(const Solid &solid, unsigned int body);
+    /** Set Face::outer_edges: edges that belong to one face only. */
     void
-    mark_outer_edges(const std::vector<std::pair<Edge, std::array<Edge, 2>>> &halves);
+    mark_outer_edges(const std::vector<SplitEdge> &split_edges);
+    /** Send owners of nodes the faces whose hanging nodes follow these. */
     void
     exchange_far_faces(const Solid &solid);
+    /** Fill surface_nodes and reference_tangents. */
+    void
+    collect_nodes_of_faces();
+    /** Fill nodes, with areas and sizes. */
+    void
+    collect_owned_nodes(const Solid &solid);
+    /** Set the longest diagonal and the shortest side. Collective. */
+    void
+    measure_faces(MPI_Comm communicator);
   };
 } // namespace Touchstone
 

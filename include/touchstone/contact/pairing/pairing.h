@@ -2,14 +2,16 @@
 #define touchstone_contact_pairing_pairing_h
 
 #include <touchstone/base/registry.h>
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/search/search.h>
-#include <touchstone/scene/contact_parameters.h>
+#include <touchstone/mesh/obstacle_parameters.h>
 
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -120,7 +122,19 @@ namespace Touchstone
     const PairingInput input;
   };
 
+  /** @brief The pairings that the key "Pairing" of a contact pair names. */
   using PairingRegistry = Registry<Pairing, const PairingInput &>;
+
+  /** @brief The pairing with an obstacle. */
+  std::shared_ptr<Pairing>
+  make_obstacle_pairing(const PairingInput &input);
+
+  /** @brief The pairing that the parameters choose, or that with the obstacle. */
+  inline std::shared_ptr<Pairing>
+  make_pairing(const PairingInput &input)
+  {
+    return input.obstacle ? make_obstacle_pairing(input) : input.parameters->pairing.make(input);
+  }
 } // namespace Touchstone
 
 #endif

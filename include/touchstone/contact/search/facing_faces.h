@@ -28,35 +28,38 @@ namespace Touchstone
   };
 
   /**
-   * @brief Which master faces cover a slave face in averaged rows.
+   * @brief Which master faces cover a slave face in averaged rows (doc/theory.md 4, "Passing
+   * through").
    *
-   * All that look at it within reach do, if they hang together over common nodes: a
-   * layer. Of several layers, or where the slave face has passed through a body since the
-   * start of the step, one comes first: that which the face touched, or that its nodes
-   * and its centre went in through first; otherwise the closest. Faces of other
-   * layers that lie behind it are left out.
+   * All master faces within reach whose normals oppose that of the slave face, if they are one
+   * connected component over common nodes. Of several components, or where the slave face has
+   * passed through a body since the start of the step, one takes precedence: that which the
+   * face touched, or that its nodes and its centre have entered first; otherwise the closest.
+   * Faces of other components that lie behind it are left out.
    */
   class FacingFaces
   {
   public:
     /** @param search Must live as long.
-     *  @param motion How far nodes may move until look_anew() must be called; length. */
+     *  @param motion How far nodes may move until invalidate() must be called; length. */
     FacingFaces(const Search &search, const double motion)
       : search(search)
       , limit(motion)
     {
     }
 
-    /** @brief The faces that cover @p slave now. Those that can are looked for only the
-     * first time after look_anew(), but for faces in doubt between several layers.
+    /** @brief The faces that cover @p slave now. Those that may are determined only the
+     * first time after invalidate(), except for slave faces that have several components to
+     * choose from.
      * @param slave In its present position, with `committed` of the start of the
      * step. */
     std::vector<FacingFace>
     find(const Face &slave);
 
-    /** @brief Nodes have moved by more than motion(), or a step begins or ends. */
+    /** @brief Nodes have moved by more than motion(), or a step begins or ends: the next find()
+     * searches. */
     void
-    look_anew()
+    invalidate()
     {
       candidates.clear();
     }
@@ -68,8 +71,8 @@ namespace Touchstone
       return limit;
     }
 
-    /** @brief A step ends in the present positions: each face remembers what it
-     * touches. @param faces All slave faces of this rank, with what find() has found. */
+    /** @brief A step ends in the present positions: remember what each face touches.
+     * @param faces All slave faces of this rank, with what find() has found. */
     void
     commit(const std::vector<CoveredFace> &faces);
 
@@ -95,12 +98,12 @@ namespace Touchstone
     const double  limit;
     Touched       touched;
 
-    /** Keys of master faces and their places in the search. */
+    /** Keys of master faces and their indices in the search. */
     using Candidates = std::vector<std::pair<std::uint64_t, std::size_t>>;
     /** By the keys of slave faces those that cover them or may soon. */
     std::unordered_map<std::uint64_t, Candidates> candidates;
 
-    /** Master faces where @p slave has gone in since the start of the step; the last
+    /** Master faces that @p slave has entered since the start of the step; the last
      * one, if @p last_touched, is that which it touched then. */
     struct Entries
     {
@@ -111,6 +114,15 @@ namespace Touchstone
     Entries
     entries(const Face &slave, const dealii::Tensor<1, dim> &normal) const;
 
+    /** Whether more than one component may cover @p slave, now or since the start of the step.
+     * @param covering Those that do. @param near All that are within reach. */
+    bool
+    is_ambiguous(const Face                    &slave,
+                 const dealii::Tensor<1, dim>  &normal,
+                 const std::vector<FacingFace> &covering,
+                 const bool                     connected) const;
+
+    /** What covers @p slave, if one component takes precedence. */
     std::vector<FacingFace>
     resolve(const Face &slave, const dealii::Tensor<1, dim> &normal, const Entries &entries) const;
   };

@@ -1,0 +1,83 @@
+#ifndef touchstone_algebra_solver_parameters_h
+#define touchstone_algebra_solver_parameters_h
+
+#include <touchstone/base/registry.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace Touchstone
+{
+  /**
+   * @brief Keys of a linear solver or preconditioner of its own, in the section "Linear solver";
+   * registered under the name of that solver or preconditioner.
+   */
+  class LinearSolverOptions
+  {
+  public:
+    virtual ~LinearSolverOptions() = default;
+
+    /** @brief Declare the keys, whose defaults are the present values. Their names are unlike
+     * those of all others of the section. */
+    virtual void
+    declare(dealii::ParameterHandler &prm) = 0;
+
+    /** @brief Called if the scene uses them. @throws InputError */
+    virtual void
+    check(const std::string & /*section*/) const
+    {
+    }
+  };
+
+  using LinearSolverOptionsRegistry = Registry<LinearSolverOptions>;
+
+  /** @brief Section "Linear solver". */
+  struct LinearSolverParameters
+  {
+    /** A name of LinearSolverRegistry. */
+    std::string type = "automatic";
+    /** Relative residual to which an iterative solver takes the system of a
+     * Newton iteration (inexact Newton); no unit. */
+    double       tolerance          = 1e-4;
+    unsigned int maximum_iterations = 2000;
+    /** Iterations of GMRES after which it starts anew, to save memory. */
+    unsigned int restart = 100;
+    /** Of the Krylov solvers of Belos: a name of PreconditionerRegistry. */
+    std::string preconditioner = "multigrid";
+    /** No key: an iterative solver fails at once if it would take more iterations than these;
+     * 0: it goes on. */
+    unsigned int patience = 0;
+    /** Of iterative solvers: "applied" or "assembled". */
+    std::string contact_operator = "applied";
+    /** Keys of the registered solvers and preconditioners, by their names. */
+    std::map<std::string, std::shared_ptr<LinearSolverOptions>> options = all_options();
+
+    /** @brief The keys of the class that is registered as @p name. */
+    template <class Options>
+    const Options &
+    options_of(const std::string &name) const
+    {
+      return dynamic_cast<const Options &>(*options.at(name));
+    }
+
+    /** @brief What the solver of this type can do (LinearSolver). */
+    bool
+    takes_multipliers() const;
+    bool
+    symmetric_only() const;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+
+  private:
+    static std::map<std::string, std::shared_ptr<LinearSolverOptions>>
+    all_options();
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,88 @@
+#ifndef touchstone_base_formula_h
+#define touchstone_base_formula_h
+
+#include <touchstone/base/types.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief A formula of the scene in x, y, z, t and pi (muParser's language), which
+   * knows the entry that it comes from. */
+  class Formula
+  {
+  public:
+    /** @param section, key The entry of the scene file, for messages.
+     * @param text The formula. */
+    Formula(const std::string &section, const std::string &key, const std::string &text);
+
+    /** @brief Value at the point @p x (length) and time @p t. A value that is not finite
+     * is returned as it is, and remembered for Formulas::check(). */
+    double
+    value(const dealii::Point<dim> &x, double t) const;
+
+  private:
+    friend class Formulas;
+
+    const std::string                            section, key, text;
+    std::unique_ptr<dealii::FunctionParser<dim>> function;
+
+    /** Where the first value was that is not finite. */
+    struct Failure
+    {
+      double             value;
+      dealii::Point<dim> x;
+      double             t;
+    };
+    mutable std::optional<Failure> failure;
+
+    /** What has failed, as a sentence. */
+    std::string
+    problem() const;
+  };
+
+  /**
+   * @brief The formulas of one part of the program, whose values must be finite.
+   *
+   * Values are computed at places of this rank only, so that a single rank cannot
+   * throw: the others would wait for it. Failures are collected and reported by all
+   * ranks together.
+   */
+  class Formulas
+  {
+  public:
+    /** @return null for an empty @p text. */
+    std::shared_ptr<const Formula>
+    add(const std::string &section, const std::string &key, const std::string &text);
+
+    /** @brief Call after values have been computed. Collective.
+     * @throws InputError on all ranks if one of them was not finite on any rank; names
+     * formula, entry, place and time. */
+    void
+    check(MPI_Comm communicator) const;
+
+  private:
+    std::vector<std::shared_ptr<const Formula>> all;
+  };
+
+  /** @brief Evaluate a formula that depends on nothing but the time at the ends of all
+   * steps, before the run starts; formulas that depend on the place are left alone.
+   * @param section, key, text As of Formula; an empty text is left alone.
+   * @param end_time, steps The equal steps from 0 to the end time.
+   * @throws InputError if a value is not finite. */
+  void
+  check_at_all_steps(const std::string &section,
+                     const std::string &key,
+                     const std::string &text,
+                     double             end_time,
+                     unsigned int       steps);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,111 @@
+#ifndef touchstone_contact_pairing_averaged_row_h
+#define touchstone_contact_pairing_averaged_row_h
+
+#include <touchstone/base/types.h>
+
+#include <deal.II/base/tensor.h>
+
+namespace Touchstone
+{
+  /** @brief Sums over the slave faces around a node, from which its row is made. */
+  struct CoverSums
+  {
+    /** The integral of psi'_k, and the parts of it and of the area a_k of its own node
+     * that are kept and given away; area. */
+    double area = 0., kept = 0., given = 0.;
+    /** The kept area in the reference state. */
+    double reference = 0.;
+    /** Integrals of gap and normal with psi'_k. */
+    dealii::Tensor<1, dim> gap, normal;
+    /** The smallest gap at any quadrature point or corner of what is covered, along the normal
+     * there, and that at the node itself, infinite if the node is not covered; length. */
+    double least = 0., own = 0.;
+
+    /** @brief Whether enough of the node is covered for a row.
+     * @param whole Tributary area. */
+    bool
+    suffices(double whole) const;
+  };
+
+  /** @brief Derivatives of CoverSums with respect to the position of one node. */
+  struct CoverSumsDerivative
+  {
+    dealii::Tensor<1, dim> area, kept, given, reference, least, own;
+    /** [i][e]: of component i with respect to component e of the position. */
+    dealii::Tensor<2, dim> gap, normal;
+  };
+
+  /**
+   * @brief What is added to the mean gap of a row, with its derivatives (doc/theory.md 3, "Two
+   * corrections go to the mean gap").
+   *
+   * A weight function that changes its sign can give a mean below all gaps that there are:
+   * on a curved face by a part of its sagitta, on a part of a face by extrapolation. While
+   * surfaces are apart a row is no closer than the closest of its points: at once if that is
+   * the node, with which the gap moves, otherwise where it is well open, as the force of the row
+   * hardly moves other points. As the node goes in the mean takes over. And the gap of a node that
+   * gives away its area grows with the part given, so that its row opens before it vanishes and
+   * forces change smoothly.
+   */
+  struct GapCorrection
+  {
+    double value, by_mean, by_least, by_own, by_kept, by_given;
+
+    /** @param mean Mean gap along the mean normal. @param size Size of the faces. */
+    GapCorrection(const CoverSums &sums, double mean, double size);
+  };
+
+  /**
+   * @brief Normal and gap of an averaged row, from the sums over its slave faces, and their
+   * derivatives (doc/theory.md 3).
+   *
+   * With the integrals D of psi'_k, G of the gap and N of the normal, and the kept area D_kk:
+   *
+   *   n = N / |N| ,   gap vector = D/D_kk (G/D + c n) ,
+   *
+   * c the GapCorrection. The weights of the stencil are integrals over D_kk, too.
+   */
+  class AveragedRow
+  {
+  public:
+    /** @param sums Must suffice for a row. @param size Size of the faces, length. */
+    AveragedRow(const CoverSums &sums, double size);
+
+    /** Area on all slave nodes of the row by that on its own one, D / D_kk. */
+    double                 share;
+    dealii::Tensor<1, dim> normal, gap_vector;
+
+    /** @brief Whether the smallest gaps matter, of all points and at the node: otherwise their
+     * derivatives are not used. */
+    bool
+    needs_least() const
+    {
+      return correction.by_least != 0.;
+    }
+    bool
+    needs_own() const
+    {
+      return correction.by_own != 0.;
+    }
+
+    /** @brief d normal, d gap_vector for the derivatives of the sums. */
+    void
+    differentiate(const CoverSumsDerivative &d,
+                  dealii::Tensor<2, dim>    &d_normal,
+                  dealii::Tensor<2, dim>    &d_gap_vector) const;
+
+    /** @brief The derivative of a weight of the stencil, w = W / D_kk.
+     * @param d_integral Of W. */
+    dealii::Tensor<1, dim>
+    weight_derivative(double                        weight,
+                      const dealii::Tensor<1, dim> &d_integral,
+                      const CoverSumsDerivative    &d) const;
+
+  private:
+    double                 area, kept;
+    dealii::Tensor<1, dim> mean, normal_sum;
+    GapCorrection          correction;
+  };
+} // namespace Touchstone
+
+#endif

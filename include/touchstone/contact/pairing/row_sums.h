@@ -1,0 +1,44 @@
+#ifndef touchstone_contact_pairing_row_sums_h
+#define touchstone_contact_pairing_row_sums_h
+
+#include <touchstone/algebra/stencil.h>
+#include <touchstone/contact/pairing/averaged_row.h>
+#include <touchstone/contact/pairing/dual_basis.h>
+#include <touchstone/contact/pairing/overlap_integrals.h>
+
+namespace Touchstone
+{
+  /** @brief The sums over the slave faces around a node with all that its row is made of. */
+  struct RowSums : CoverSums
+  {
+    /** Integral of the slave position less that of the node, area times length. */
+    dealii::Tensor<1, dim> lever;
+    /** W: integrals of master shapes with psi'_k, less what other nodes have left to this one.
+     * A dozen nodes or two; in ascending order after finish(). */
+    Stencil stencil;
+    /** Areas that other slave nodes have left to this one, and it to them. */
+    Stencil taken, left;
+
+    /** @brief Zero, with room for as many nodes. */
+    void
+    clear();
+
+    /** @brief Add what row @p k takes of what one master face covers. */
+    template <unsigned int n>
+    void
+    add(unsigned int                       k,
+        const DualBasis                   &dual,
+        const Face                        &master,
+        const OverlapIntegrals<n, double> &part);
+
+    /** @brief All faces have been added: the stencil gets what is taken from other nodes. */
+    void
+    finish();
+
+    /** @brief Add to the weight of a node. */
+    static void
+    add(Stencil &list, Index node, double value);
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,171 @@
+#ifndef touchstone_contact_search_face_exchange_h
+#define touchstone_contact_search_face_exchange_h
+
+#include <touchstone/contact/geometry/surface.h>
+
+#include <deal.II/base/bounding_box.h>
+
+#include <cstdint>
+#include <map>
+#include <unordered_map>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What searches came to so far, on this rank. */
+  struct SearchWork
+  {
+    /** Faces that a point was projected on or a path crossed with, or that stood near a
+     * slave face. */
+    std::uint64_t candidates = 0;
+    /** Other ranks that master faces were sent to, and those faces. */
+    std::uint64_t messages = 0, faces_sent = 0;
+
+    SearchWork &
+    operator+=(const SearchWork &other)
+    {
+      candidates += other.candidates;
+      messages += other.messages;
+      faces_sent += other.faces_sent;
+      return *this;
+    }
+  };
+
+  /**
+   * @brief Brings the master faces to the ranks whose slave nodes they are near.
+   *
+   * Each rank receives the faces that meet the bounding box of its slave nodes, widened by the
+   * reach (doc/theory.md 4, "Search").
+   */
+  class FaceExchange
+  {
+  public:
+    using Box = dealii::BoundingBox<dim>;
+
+    /**
+     * @param reach Farthest distance from a slave node at which faces are wanted, length.
+     * @param kind  What gaps are measured to.
+     */
+    FaceExchange(const Surface &surface, double reach, MasterNormal kind, MPI_Comm communicator);
+
+    /** @brief A step ends with the displacement @p u (with ghosts), null for the reference
+     * state. Without any call faces do not know where they were at the start of the step. */
+    void
+    commit(const Vector *u);
+
+    /** @brief Exchange the faces in their present position. Collective.
+     * @param positions Of this rank's slave nodes, present ones and, if steps are
+     *                  committed, those at the start of the step. */
+    void
+    update(const std::vector<dealii::Point<dim>> &positions);
+
+    /** @brief Faces of the last update: of this rank, and near its slave nodes. */
+    const std::vector<Face> &
+    faces() const
+    {
+      return known;
+    }
+
+    /** @brief Whether steps are committed. */
+    bool
+    swept() const
+    {
+      return has_committed;
+    }
+
+    /** @brief The face with this key, null if this rank has not received it. */
+    const Face *
+    face(std::uint64_t key) const;
+
+    /** @brief The same with the index that the face had in faces() at an earlier update, which it
+     * still has if nothing else was received. */
+    const Face *
+    face(const std::uint64_t key, const std::size_t index_before) const
+    {
+      return index_before < known.size() && known[index_before].key == key ? &known[index_before]
+                                                                           : face(key);
+    }
+
+    /** @brief The index of a face in faces(). */
+    std::size_t
+    index(const Face &face) const
+    {
+      return &face - known.data();
+    }
+
+    /** @brief What gaps to a face are measured to. */
+    FaceGeometry
+    geometry(const Face &face) const
+    {
+      return FaceGeometry(face, surface.exact_surface(face), kind);
+    }
+
+    /** @brief The exact surface of a face, or null: facets. */
+    const AnalyticSurface *
+    exact_surface(const Face &face) const
+    {
+      return surface.exact_surface(face);
+    }
+
+    /** @brief The box around a face, in its present position and, for the second, also where it
+     * was at the start of the step and between. */
+    Box
+    box(const Face &face) const;
+    Box
+    swept_box(const Face &face) const;
+    /** @brief The box around a face at the start of the step. */
+    Box
+    committed_box(const Face &face) const;
+
+    /** @brief Derivatives of the averaged normals of faces(), from the ranks that own them. Empty
+     * if normals come from the faces alone. Collective. */
+    std::unordered_map<const Face *, std::vector<NormalDerivative>>
+    normal_derivatives(const std::vector<const Face *> &needed) const;
+
+    /** @brief Messages and faces sent since this was made. */
+    const SearchWork &
+    work() const
+    {
+      return counted;
+    }
+
+  private:
+    /** Of the nodes of a face. */
+    using Displacements = std::array<dealii::Tensor<1, dim>, Face::max_nodes>;
+
+    const Surface     &surface;
+    const double       reach;
+    const MasterNormal kind;
+    const MPI_Comm     communicator;
+    std::vector<Face>  known;
+    SearchWork         counted;
+
+    /** Displacements of this rank's faces at the start of the step. */
+    std::vector<Displacements> committed;
+    bool                       has_committed = false;
+
+    /** Indices of this rank's faces that each rank has received, and where its own
+     * copies of those of another rank begin. */
+    std::map<unsigned int, std::vector<std::size_t>> sent;
+    std::map<unsigned int, std::size_t>              received;
+
+    /** Indices in `known` by key, filled when a face is first asked for: most updates need none. */
+    mutable std::unordered_map<std::uint64_t, std::size_t> by_key;
+
+    Box
+    box(const Face &face, const Displacements &displacement) const;
+    /** The box in which a rank wants faces: around some positions, widened by the reach; without
+     * any, lower corners are above the upper ones. */
+    struct Capture
+    {
+      dealii::Point<dim> lower, upper;
+    };
+    Capture
+    capture(const std::vector<dealii::Point<dim>> &positions) const;
+    /** A face of this rank with its displacement at the start of the step. */
+    Face
+    own_face(std::size_t f) const;
+  };
+} // namespace Touchstone
+
+#endif

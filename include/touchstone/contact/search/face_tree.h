@@ -1,0 +1,103 @@
+#ifndef touchstone_contact_search_face_tree_h
+#define touchstone_contact_search_face_tree_h
+
+#include <touchstone/contact/search/face_exchange.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief A face with the point of it that is closest to a node. */
+  struct FaceProjection
+  {
+    const Face *face = nullptr;
+    Projection  projection;
+  };
+
+  /**
+   * @brief The faces of a FaceExchange in R-trees of their boxes: which are near a point, a box,
+   * or the path of a node.
+   */
+  class FaceTree
+  {
+  public:
+    using Box = FaceExchange::Box;
+
+    /** @param exchange Must live as long, without another update. */
+    explicit FaceTree(const FaceExchange &exchange);
+
+    /** @brief Faces whose boxes are closest to a point: squares of the distances of the boxes with
+     * indices of the faces, in ascending order. */
+    std::vector<std::pair<double, std::size_t>>
+    nearest(const dealii::Point<dim> &x, unsigned int n) const;
+
+    /** @brief Indices of the faces whose boxes meet a box. */
+    std::vector<std::size_t>
+    meeting(const Box &box) const;
+
+    /** @brief Indices of the faces whose boxes meet a box at any time of this step. Empty if steps
+     * are not committed. */
+    std::vector<std::size_t>
+    meeting_in_step(const Box &box) const;
+
+    /** @brief The faces within @p reach of a box whose normals oppose @p slave_normal, in the
+     * order of their keys. Not those that are seen edge-on: their projections on the slave
+     * surface are slivers. */
+    std::vector<const Face *>
+    facing(const Box &box, const dealii::Tensor<1, dim> &slave_normal, double reach) const;
+
+    /** @brief Whether the normal of a face is about that of the slave surface: the face is on the
+     * far side of its body. */
+    bool
+    is_back_face(const std::size_t index, const dealii::Tensor<1, dim> &slave_normal) const
+    {
+      return outlines[index].normal * slave_normal > Tolerances::back_face_cosine;
+    }
+
+    /** @brief Project a node on a face. */
+    FaceProjection
+    project(const dealii::Point<dim> &x, const Face &face) const
+    {
+      ++n_candidates;
+      return {&face, closest_point_projection(x, exchange.geometry(face))};
+    }
+
+    /** @brief Note that a face has been looked at without project(). */
+    void
+    count_candidate() const
+    {
+      ++n_candidates;
+    }
+
+    /** @brief Faces looked at so far. */
+    std::uint64_t
+    candidates() const
+    {
+      return n_candidates;
+    }
+
+    const FaceExchange &exchange;
+
+  private:
+    using Tree = dealii::RTree<std::pair<Box, std::size_t>>;
+
+    /** What is asked of many faces to leave most of them out. */
+    struct Outline
+    {
+      dealii::Tensor<1, dim> normal; // in the middle
+      dealii::Point<dim>     centre; // of a sphere around the face
+      double                 radius;
+    };
+    std::vector<Outline> outlines;
+    /** Of the faces where they are, and of all positions that they had in this step. */
+    Tree tree, swept_tree;
+
+    mutable std::uint64_t n_candidates = 0;
+  };
+} // namespace Touchstone
+
+#endif

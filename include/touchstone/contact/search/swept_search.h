@@ -1,0 +1,67 @@
+#ifndef touchstone_contact_search_swept_search_h
+#define touchstone_contact_search_swept_search_h
+
+#include <touchstone/contact/search/face_tree.h>
+
+#include <optional>
+
+namespace Touchstone
+{
+  /** @brief A slave node that looks for a partner. */
+  struct SlavePoint
+  {
+    /** Present position, and at the start of the step. */
+    dealii::Point<dim> x, start;
+    /** Outward normal of the slave surface there: faces whose normals are about the same
+     * are on the far side of a body. */
+    dealii::Tensor<1, dim> normal;
+    /** A node in contact slides off an edge only at a multiple of the distance beyond it at which
+     * one that is not comes on. */
+    bool in_contact = false;
+    /** Key of the face that a node in contact had last. */
+    std::optional<std::uint64_t> present_face;
+  };
+
+  /**
+   * @brief Finds where nodes have passed through faces since the start of the step (doc/theory.md
+   * 4, "Passing through").
+   *
+   * Nodes and faces move on straight lines from their committed to their present positions.
+   */
+  class SweptSearch
+  {
+  public:
+    /** @param tree Must live as long.
+     * @param reach Of the search, length: a scale for distances that are equal. */
+    SweptSearch(const FaceTree &tree, const double reach)
+      : tree(tree)
+      , reach(reach)
+    {
+    }
+
+    /** @brief Where a node has passed into a body since the start of the step, unless it
+     * came out again: the point closest to its present position around the face that it passed
+     * first. Nothing if steps are not committed.
+     * @param penetrates It is known to be in one body, which does not count. */
+    std::optional<FaceProjection>
+    passed(const SlavePoint &point, bool penetrates) const;
+
+    /** @brief The face of passed(), for a point that is not known to be in a body; or null. */
+    const Face *
+    entry(const SlavePoint &point) const;
+
+    /** @brief The point closest to a node that is reached from a face over its neighbours. */
+    FaceProjection
+    follow(const SlavePoint &point, const Face &from) const;
+
+  private:
+    const FaceTree &tree;
+    const double    reach;
+
+    /** Whether the node may meet the face on its path, both moving. */
+    bool
+    may_cross(const SlavePoint &point, const Face &face) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,193 @@
+#ifndef touchstone_contact_tolerances_h
+#define touchstone_contact_tolerances_h
+
+namespace Touchstone
+{
+  /**
+   * @brief The geometric tolerances of contact, each once.
+   *
+   * All are without unit. Lengths are fractions of the size of a face, areas of its area, so
+   * nothing depends on the system of units.
+   */
+  namespace Tolerances
+  {
+    // ---------------------------------------------------------------- angles between surfaces
+
+    /** Cosine of the angle between the normals of two faces that meet in a sharp edge of the body
+     * (50 degrees). Across it normals are not averaged, and a node in contact keeps its face as
+     * long as `keeps_face` allows. A coarse arc has up to 45 degrees per face. */
+    constexpr double sharp_edge_cosine = 0.64;
+
+    /** Cosine of the angle between the normals of faces that meet in an edge which can touch
+     * another edge (30 degrees): less than sharp_edge_cosine, because between flatter faces rows of
+     * nodes describe the contact well enough. */
+    constexpr double touching_edge_cosine = 0.866;
+
+    /** Cosine of the angle between the normal of a face and the mean of all around a node, at which
+     * the node lies on a sharp edge: two faces at sharp_edge_cosine have 0.905. */
+    constexpr double sharp_node_cosine = 0.9;
+
+    /** Cosine between the averaged normals of a face at a point of its edge and the mean over all
+     * faces there, below which faces beyond a sharp edge have been left out of the former. */
+    constexpr double same_normal_cosine = 0.999;
+
+    /** Cosine of the angle between slave and master normal above which a master face is on the far
+     * side of its body: a node that looks for a partner must not find it. Clearly above zero,
+     * so that faces around an edge of the slave body find their partners on both sides. */
+    constexpr double back_face_cosine = 0.3;
+
+    /** The same for a master face that may cover a slave face: those that are seen edge-on are
+     * projected onto slivers. */
+    constexpr double facing_cosine = -0.1;
+
+    /** Cosines of the angle between a slave face and the master surface: from the first on (45
+     * degrees) less than all of the area counts in averaged rows, from the second on (72 degrees)
+     * nothing (doc/theory.md 3). */
+    constexpr double inclined_cosine = 0.7, steep_cosine = 0.3;
+
+    /** The same by averaged normals, at which it is clear that all of it counts. */
+    constexpr double hardly_inclined_cosine = 0.85;
+
+    // ---------------------------------------------------------------- positions on a face
+
+    /** Shape function at a node, less this: the point is the node, up to round-off. */
+    constexpr double node_shape = 1e-9;
+
+    /** @brief Whether a point of a face is one of its nodes. @param shape Value of its shape
+     * function there. */
+    constexpr bool
+    is_node(const double shape)
+    {
+      return shape > 1. - node_shape;
+    }
+
+    /** Face coordinates by which a point may lie outside of [-1, 1] by round-off. */
+    constexpr double face_coordinate = 1e-9;
+
+    /** Shape functions and stencil weights below it are zero but for round-off. */
+    constexpr double negligible_weight = 1e-14;
+
+    // ---------------------------------------------------------------- lengths by the size of a
+    // face
+
+    /** Closer to an edge of a face than this a node lies on it: which of the faces there is its
+     * partner must not be decided by round-off or by the jump of normals. */
+    constexpr double on_edge = 1e-7;
+
+    /** A node that starts so close to a face, on either side, starts on it: it has not passed
+     * through it. */
+    constexpr double starts_on_face = 1e-6;
+
+    /** Beyond an edge by more than this a point lies in the wedge over it. */
+    constexpr double in_wedge = 1e-6;
+
+    /** By the reach of a search: a point lies on the line of an edge, and the direction from there
+     * says nothing. */
+    constexpr double on_the_edge_line = 1e-8;
+
+    /** Squares of distances, relative to each other, that are equal up to round-off. */
+    constexpr double equal_squares = 1e-12;
+
+    /** By the length of the step: faces that meet in an edge are passed at the same time. */
+    constexpr double same_time = 1e-8;
+
+    /** Closer than this surfaces touch, inside or outside: there are states in balance with gaps of
+     * this size, by Newton's tolerance and the geometry of facets. */
+    constexpr double touching = 1e-3;
+
+    /** A node in contact keeps its face across a sharp edge unless another is closer by this. */
+    constexpr double keeps_face = 1e-3;
+
+    /** What moves less than this against a face within a step does not pass through a body. */
+    constexpr double small_motion = 0.1;
+
+    /** By the shortest edge: nodes that move by less do not change which faces may cover each
+     * other, if those beside them are kept as well. */
+    constexpr double negligible_motion = 0.02;
+
+    /** A node in contact leaves the master surface this times as far beyond its edge as one that is
+     * not comes onto it: with the same distance it would come and go for ever. */
+    constexpr double edge_hysteresis = 5.;
+
+    // ---------------------------------------------------------------- partial cover
+
+    /** By the mean cover of a face: a node with less than the first leaves its row to others, one
+     * with more than the second keeps it. With two thirds of a face covered nodes beyond the edge
+     * of the cover have 0.6. Where it is decided at once, the mean of both decides. */
+    constexpr double gives_all = 0.2, keeps_all = 0.6, keeps_if_at_once = 0.5 * (0.2 + 0.6);
+
+    /** What a node may give away per area that it keeps until it has no row, and by which part of
+     * a face its gap grows where it gives as much as it keeps. It grows with the fourth power
+     * of the ratio of both: gaps of 1e-5 and 0.1 of a face alike then open the row while the
+     * edge goes a good part of a face. */
+    constexpr double most_given = 3., gap_growth = 0.01;
+
+    /** Kept area by the tributary area below which a node has no row. */
+    constexpr double least_cover = 1e-6;
+
+    /** Part of a nodal area that may be missing by round-off where all is covered. */
+    constexpr double fully_covered = 1e-10;
+
+    /** How deep a node must be, if it is the closest point, as a multiple of what the mean gap is
+     * deeper, for the mean to count alone; and by how much of the same length another point must
+     * be closer to count as another point. */
+    constexpr double deep_node = 2., elsewhere = 0.5;
+
+    /** By the size of a face: from the first to the second the gap of another point than the node
+     * comes to bound the gap of the row. */
+    constexpr double hardly_open = 1e-4, well_open = 1e-2;
+
+    /** By the size of a face: gaps are equal up to round-off, as mean and closest one are on flat
+     * faces. */
+    constexpr double equal_gaps = 1e-10;
+
+    /** Added to the diagonal of the mass matrix of a covered part, by its trace: on slivers it is
+     * singular to working precision. The weights are refined until it has no effect. */
+    constexpr double mass_regularisation = 1e-14;
+
+    /** Common parts of projected faces that are smaller by area are round-off, and so are corners
+     * that cut off less than the second. */
+    constexpr double sliver = 1e-12, flat_corner = 1e-9;
+
+    /** Areas, relative to each other, that are equal up to round-off. */
+    constexpr double equal_areas = 1e-9;
+
+    /** A master face lies behind another if that covers this part of it; otherwise beside it. */
+    constexpr double behind = 0.1;
+
+    // ---------------------------------------------------------------- what rows cannot describe
+
+    /** How deep sharp edges and vertices may reach into the other body, by the edge or the face:
+     * surfaces that are balanced with all their rows fit within less. */
+    constexpr double deep_edge = 0.02;
+
+    /** The same for a node of a smooth surface, which reaches into a coarser face by the
+     * height of the arc over it before the nodes of that meet anything. */
+    constexpr double deep_smooth_node = 0.1;
+
+    /** Distance of edges that come close, by the shorter one. */
+    constexpr double near_edge = 0.1;
+
+    /** Part of the force of a pair below which its direction does not matter. */
+    constexpr double small_force = 0.1;
+
+    /** Sine of the angle by which a force may lie outside the normals of the slave surface: about
+     * 20 degrees, more than the normals of coarse facets stray. */
+    constexpr double oblique_sine = 0.35;
+
+    /** Cosine of the angle within which the perpendicular of two edges counts as the normal of a
+     * face (15 degrees): a face touches there, which rows describe. */
+    constexpr double along_normal_cosine = 0.966;
+
+    /** Sine of the angle below which edges count as parallel. */
+    constexpr double parallel_sine = 0.2;
+
+    /** Angle, in radian, by which a perpendicular may lie outside the plane of two normals. */
+    constexpr double out_of_plane = 0.1;
+
+    /** By the length of an edge: feet of perpendiculars that lie beyond its end by round-off. */
+    constexpr double edge_end = 1e-6;
+  } // namespace Tolerances
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,44 @@
+#ifndef touchstone_drive_refinement_parameters_h
+#define touchstone_drive_refinement_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace Touchstone
+{
+  /** @brief Section "Refinement": a mesh that follows the solution. */
+  struct RefinementParameters
+  {
+    /** "none", "region", "Kelly" or "recovered stress". */
+    std::string estimator = "none";
+    /** Of solving and refining in the first step, and in each later one. */
+    unsigned int cycles = 3, cycles_per_step = 1;
+    /** Share of the estimated squared error in the cells that are refined, and in
+     * those that may be coarsened. */
+    double refine_fraction = 0.3, coarsen_fraction = 0.02;
+    /** Share of the squared variation of the contact pressure in the slave faces
+     * that are refined. */
+    double contact_fraction = 0.7;
+    /** Times that a cell is halved at most. */
+    unsigned int maximum_level = 4;
+    unsigned int maximum_cells = 1000000;
+    /** Relative estimated error at which refinement ends; no unit. */
+    double tolerance = 0.;
+    /** Formula of x, y, z, t; refined where it is positive. */
+    std::string region;
+
+    bool
+    active() const
+    {
+      return estimator != "none";
+    }
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,81 @@
+#ifndef touchstone_drive_time_parameters_h
+#define touchstone_drive_time_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace Touchstone
+{
+  /** @brief Section "Time integration": whether the bodies have inertia, and how their
+   * motion is integrated. */
+  struct TimeIntegrationParameters
+  {
+    /** "static", "newmark", "hht", "generalized_alpha" or "contact_stabilized". */
+    std::string scheme = "static";
+    /** "consistent", "lumped" or "dispersion corrected". */
+    std::string mass = "consistent";
+    /** gamma of newmark; no unit. */
+    double newmark_gamma = 0.5;
+    /** beta of newmark, a number or "automatic": (gamma + 1/2)^2 / 4. */
+    std::string newmark_beta = "automatic";
+    /** alpha of hht, 0 to 1/3; no unit. */
+    double hht_alpha = 0.05;
+    /** Spectral radius at infinite frequency of generalized_alpha and
+     * contact_stabilized, 0 to 1, a number or "automatic": 0.8 and 1. */
+    std::string spectral_radius = "automatic";
+    /** "elastic", "plastic" or "automatic": what becomes of the velocity of nodes that
+     * meet. */
+    std::string impact = "automatic";
+    /** "none", "impacts": steps are shortened so that they end where bodies meet, or
+     * "automatic". */
+    std::string adapt = "automatic";
+    /** Energy that contact may take or give in a step without the step being
+     * shortened, relative to the energy in the bodies; no unit. */
+    double impact_tolerance = 1e-4;
+    /** Shortest step of an adaptation, relative to the steps asked for; no unit. */
+    double smallest_step = 1e-3;
+    /** Unexplained gain of energy that ends the run, relative to the largest energy so
+     * far; no unit. */
+    double gain_tolerance = 0.01;
+
+    bool
+    dynamic() const
+    {
+      return scheme != "static";
+    }
+
+    /** @brief Nodes that meet do not rebound: "automatic" says so where the scheme does not
+     * conserve energy anyway. */
+    bool
+    plastic_impacts() const;
+
+    /** @brief Steps are to end where bodies meet: "automatic" says so where rebound is. */
+    bool
+    adapts_to_impacts() const
+    {
+      return adapt == "impacts" || (adapt == "automatic" && !plastic_impacts());
+    }
+
+    /** @brief The numbers of the generalized-alpha family that the scheme stands for.
+     *
+     *   M a_{n+1-m} + C v_{n+1-f} + F(u)_{n+1-f} = F_ext_{n+1-f} + f_contact,
+     * where x_{n+1-f} = (1-f) x_{n+1} + f x_n, with Newmark's formulae for u and v. */
+    struct Coefficients
+    {
+      /** m and f; no unit. */
+      double alpha_m = 0., alpha_f = 0.;
+      double gamma = 0.5, beta = 0.25;
+    };
+    Coefficients
+    coefficients() const;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    /** @throws InputError */
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,31 @@
+#ifndef touchstone_mesh_discretisation_parameters_h
+#define touchstone_mesh_discretisation_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+
+namespace Touchstone
+{
+  /** @brief Section "Discretisation". */
+  struct DiscretisationParameters
+  {
+    /** Polynomial degree of FE_Q, 1 or 2, for all bodies. */
+    unsigned int degree = 1;
+    /** Multiplies the number of cells per direction of built-in geometries;
+     * whole powers of two refine the mesh with its manifolds. Meshes from
+     * files accept powers of two only. */
+    double refinement_factor = 1.;
+    /** "automatic", "coordinates", "p4est", "METIS" or "METIS, cells only". */
+    std::string partitioner = "automatic";
+    /** For p4est, contact work of a slave face over the work of a cell; no unit. */
+    double contact_weight = 0.;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,87 @@
+#ifndef touchstone_solid_body_parameters_h
+#define touchstone_solid_body_parameters_h
+
+#include <touchstone/solid/boundary_parameters.h>
+#include <touchstone/solid/material_parameters.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  class Geometry;
+
+  /** @brief How the cells of a body interpolate strain. */
+  enum class ElementType
+  {
+    full,
+    b_bar,
+    incompatible_modes,
+    f_bar
+  };
+
+  /** @brief Section "Body NAME". */
+  struct BodyParameters
+  {
+    std::string name;
+    /** The key "Type" of the subsection "Geometry" ("box", "tube", ...). */
+    Choice<Registry<Geometry>> geometry_type{"box"};
+    /** The geometry with its own parameters read. */
+    std::shared_ptr<Geometry> geometry;
+    /** "full", "b-bar", "incompatible modes" or "F-bar"; "automatic" is replaced
+     * by the scene (see automatic_element()). */
+    std::string        element_name = "automatic";
+    MaterialParameters material;
+    /** Boundaries on which the normal displacement is zero (must be plane). */
+    std::vector<std::string> symmetry;
+    /** Boundaries on which all displacements are zero. */
+    std::vector<std::string> fixed;
+    /** @brief Displacements are prescribed somewhere. */
+    bool
+    supported() const;
+    /** Boundaries with a subsection "Boundary NAME" of their own. */
+    std::vector<std::string>                  conditions;
+    std::map<std::string, BoundaryParameters> boundaries;
+    /** Expressions in x, y, z: velocity (length per time) and displacement (length) at
+     * time 0; empty ones are zero. */
+    std::array<std::string, 3> initial_velocity, initial_displacement;
+    /** Expressions in x, y, z, t: force per reference volume, as gravity is. */
+    std::array<std::string, 3> body_force;
+    /** Expressions in x, y, z, t: the displacement that the reference solution "formula"
+     * compares with, length; empty ones are not compared. */
+    std::array<std::string, 3> reference_displacement;
+
+    /** @brief "Body NAME". */
+    std::string
+    section() const;
+    ElementType
+    element() const;
+    /** @brief What "automatic" stands for: full for degree 2; for degree 1 F-bar
+     * with a law for finite strain, b-bar with plasticity at small strain, and else
+     * incompatible modes. */
+    std::string
+    automatic_element(unsigned int degree) const;
+
+    /**
+     * @brief Declare all entries, those of the geometry included; @p conditions
+     * must be known before, for it names subsections.
+     * @param values Of this section: geometry, law and hardening decide on other keys.
+     */
+    void
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
+    /** @param degree Polynomial degree of the discretisation. */
+    void
+    check(unsigned int degree) const;
+
+  private:
+    void
+    check_element(unsigned int degree) const;
+  };
+} // namespace Touchstone
+
+#endif

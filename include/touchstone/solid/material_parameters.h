@@ -1,0 +1,86 @@
+#ifndef touchstone_solid_material_parameters_h
+#define touchstone_solid_material_parameters_h
+
+#include <touchstone/base/choice.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <memory>
+#include <string>
+
+namespace Touchstone
+{
+  class HardeningLaw;
+  class HyperelasticLaw;
+  class SmallStrainLaw;
+  class FiniteStrainLaw;
+
+  /** @brief Section "Body NAME/Material": an isotropic elastic or elastoplastic material. */
+  struct MaterialParameters
+  {
+    /** "linear elastic" (small strain) or the name of a HyperelasticLaw, a SmallStrainLaw
+     * or a FiniteStrainLaw, whose constants are those of linear elasticity at the
+     * undeformed state; keys of its own stand beside them. */
+    Choice<Registry<HyperelasticLaw, const MaterialParameters &>,
+           Registry<SmallStrainLaw, const MaterialParameters &>,
+           Registry<FiniteStrainLaw, const MaterialParameters &>>
+      law{"linear elastic"};
+    /** Young's modulus, force per area; must be positive. */
+    double young_modulus = 0.;
+    /** Poisson's ratio, -1 < nu < 0.5. */
+    double poisson_ratio = 0.3;
+    /** Mass per volume; must be positive where there is inertia. */
+    double density = 0.;
+    /** Rayleigh damping C = a M + b K, with K at the undeformed state: a per
+     * time, b time. */
+    double rayleigh_mass = 0., rayleigh_stiffness = 0.;
+
+    /** @name Subsection "Plasticity", of plastic laws only */
+    /** @{ */
+    /** The isotropic hardening, and that with its own parameters read; null if the law is
+     * elastic. */
+    Choice<Registry<HardeningLaw>> hardening_type{"none"};
+    std::shared_ptr<HardeningLaw>  hardening;
+    /** C of Armstrong and Frederick, force per area, 0 for none; and gamma, no unit, 0 for
+     * linear kinematic hardening. */
+    double kinematic_modulus = 0., kinematic_recovery = 0.;
+    /** @} */
+
+    /** @brief The law is "linear elastic". */
+    bool
+    linear() const
+    {
+      return law.name == "linear elastic";
+    }
+    /** @brief Whether the law has history: it is a SmallStrainLaw or a FiniteStrainLaw. */
+    bool
+    plastic() const;
+    /** @brief Whether the law is for finite strain. */
+    bool
+    finite_strain() const;
+    /** @brief mu, force per area. */
+    double
+    shear_modulus() const
+    {
+      return young_modulus / (2. * (1. + poisson_ratio));
+    }
+    /** @brief kappa, force per area. */
+    double
+    bulk_modulus() const
+    {
+      return young_modulus / (3. * (1. - 2. * poisson_ratio));
+    }
+    /** @brief Declare all entries.
+     * @param values Of this section: law and hardening decide on other keys. */
+    void
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
+    void
+    check(const std::string &section) const;
+
+  private:
+    void
+    check_plasticity(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

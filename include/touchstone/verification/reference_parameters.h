@@ -1,0 +1,38 @@
+#ifndef touchstone_verification_reference_parameters_h
+#define touchstone_verification_reference_parameters_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <map>
+#include <string>
+
+namespace Touchstone
+{
+  /**
+   * @brief Section "Reference solution": the exact answer that the result is
+   * held against; what it gives stands under `errors` in summary.json.
+   */
+  struct ReferenceParameters
+  {
+    /** Name under which the reference is registered ("none",
+     * "interference fit", "hertz", "uniform stress", ...). */
+    std::string type = "none";
+    /** The contact pair that is compared; empty: the first. */
+    std::string pair;
+    /** Named numbers that the type asks for ("radius: 10, pressure: 5"). */
+    std::string values;
+    /** Expression in x, y, z, t: the contact pressure of the reference "formula". */
+    std::string pressure;
+
+    /** @brief The named numbers. @throws InputError in the name of @p section. */
+    std::map<std::string, double>
+    numbers(const std::string &section) const;
+
+    void
+    declare(dealii::ParameterHandler &prm);
+    void
+    check(const std::string &section) const;
+  };
+} // namespace Touchstone
+
+#endif

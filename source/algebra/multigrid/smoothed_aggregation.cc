@@ -1,0 +1,80 @@
+#include <touchstone/algebra/multigrid/multigrid.h>
+#include <touchstone/algebra/preconditioner.h>
+
+#include <Ifpack_PointRelaxation.h>
+#include <Teuchos_ParameterList.hpp>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** One symmetric sweep, of each rank for itself. */
+    class GaussSeidel : public Ifpack_PointRelaxation
+    {
+    public:
+      explicit GaussSeidel(const std::shared_ptr<Epetra_CrsMatrix> &system)
+        : Ifpack_PointRelaxation(system.get())
+        , matrix(system)
+      {
+        Teuchos::ParameterList list;
+        list.set("relaxation: type", "symmetric Gauss-Seidel");
+        list.set("relaxation: sweeps", 1);
+        SetParameters(list);
+        Initialize();
+        Compute();
+      }
+
+    private:
+      const std::shared_ptr<Epetra_CrsMatrix> matrix;
+    };
+
+
+
+    /** Resistance to rigid motions over that of single dofs, away from constrained
+     * ones: zero but for inertia. Collective. */
+    double
+    stiffness_of_motions(const CondensedSystem &system, const RigidMotions &motions)
+    {
+      const Epetra_Vector &translation = *motions.columns(0);
+      Epetra_Vector        force(system.rhs->Map());
+      system.product().Apply(translation, force);
+      double sums[2] = {0., 0.}, all[2];
+      for (int i = 0; i < force.MyLength(); ++i)
+        if (!system.constrained[i] && !system.changed[i])
+          {
+            sums[0] += force[i] * translation[i];
+            if (translation[i] != 0.)
+              sums[1] += system.stiffness_diagonal(i) * translation[i] * translation[i];
+          }
+      force.Comm().SumAll(sums, all, 2);
+      return all[1] > 0. ? all[0] / all[1] : 0.;
+    }
+
+
+
+    /** The program's own multigrid, in single precision on 3 x 3 blocks (class Multigrid). */
+    class SmoothedAggregation : public Preconditioner
+    {
+    public:
+      std::unique_ptr<Epetra_Operator>
+      set_up(const CondensedSystem &system, const RigidMotions &motions) const override
+      {
+        // With much inertia it alone bounds the condition number: coarse spaces have nothing
+        // to do, and the aggregates that weak couplings leave would hardly be fewer.
+        constexpr double much = 0.15;
+        if (stiffness_of_motions(system, motions) >= much)
+          return std::make_unique<GaussSeidel>(system.matrix());
+        return std::make_unique<Multigrid>(system.rows(),
+                                           system.block_rows(),
+                                           near_null_space(system, motions),
+                                           motions.body,
+                                           system.symmetric);
+      }
+    };
+
+    const PreconditionerRegistry::Entry<SmoothedAggregation>
+      smoothed_aggregation_entry("multigrid",
+                                 "smoothed aggregation, in whose place the factors of a matrix "
+                                 "are kept where it would be slow.");
+  } // namespace
+} // namespace Touchstone

@@ -1,0 +1,146 @@
+#include <touchstone/algebra/linear_solver.h>
+#include <touchstone/algebra/solver_parameters.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/parameter_checks.h>
+
+#include <sstream>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  namespace
+  {
+    /** The lines "set KEY = VALUE" of the present values of options. */
+    std::vector<std::string>
+    lines(LinearSolverOptions &options)
+    {
+      ParameterHandler prm;
+      options.declare(prm);
+      std::stringstream text;
+      prm.print_parameters(text, ParameterHandler::ShortPRM);
+      std::vector<std::string> result;
+      for (std::string line; std::getline(text, line);)
+        if (const std::size_t begin = line.find("set "); begin != std::string::npos)
+          result.push_back(line.substr(begin + 4));
+      return result;
+    }
+
+    /** Refuse values other than the defaults of options that the scene does not use. */
+    void
+    refuse_unused(const std::string   &section,
+                  const std::string   &type,
+                  const std::string   &name,
+                  LinearSolverOptions &options)
+    {
+      const auto                     fresh = LinearSolverOptionsRegistry::make(name);
+      const std::vector<std::string> given = lines(options), defaults = lines(*fresh);
+      for (std::size_t k = 0; k < given.size(); ++k)
+        if (given[k] != defaults[k])
+          {
+            const std::size_t equal = given[k].find('=');
+            throw InputError(section,
+                             dealii::Utilities::trim(given[k].substr(0, equal)),
+                             dealii::Utilities::trim(given[k].substr(equal + 1)),
+                             "is an option of " + name + ", but 'Type' is '" + type + "'",
+                             "remove it, or set '" +
+                               std::string(LinearSolverRegistry::records().count(name) > 0
+                                             ? "Type"
+                                             : "Preconditioner") +
+                               "' to '" + name + "'");
+          }
+    }
+  } // namespace
+
+
+
+  std::map<std::string, std::shared_ptr<LinearSolverOptions>>
+  LinearSolverParameters::all_options()
+  {
+    std::map<std::string, std::shared_ptr<LinearSolverOptions>> result;
+    for (const std::string &name : LinearSolverOptionsRegistry::names())
+      result[name] = LinearSolverOptionsRegistry::make(name);
+    return result;
+  }
+
+
+
+  bool
+  LinearSolverParameters::takes_multipliers() const
+  {
+    return LinearSolverRegistry::make(type, *this)->takes_multipliers();
+  }
+
+
+
+  bool
+  LinearSolverParameters::symmetric_only() const
+  {
+    return LinearSolverRegistry::make(type, *this)->symmetric_only();
+  }
+
+
+
+  void
+  LinearSolverParameters::declare(ParameterHandler &prm)
+  {
+    prm.add_parameter("Type",
+                      type,
+                      "What solves the linear systems of Newton's method. " +
+                        LinearSolverRegistry::documentation(),
+                      Patterns::Selection(LinearSolverRegistry::selection()));
+    prm.add_parameter("Tolerance",
+                      tolerance,
+                      "Relative residual to which an iterative solver takes the linear "
+                      "system of a Newton iteration. Newton's own 'Residual tolerance' "
+                      "decides how exact the result is. [no unit]",
+                      Patterns::Double(0., 1.));
+    prm.add_parameter("Maximum iterations",
+                      maximum_iterations,
+                      "Of solvers that iterate, in one solve.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Restart",
+                      restart,
+                      "GMRES starts anew after this many iterations. It keeps two vectors "
+                      "for each of them.",
+                      Patterns::Integer(1));
+    prm.add_parameter("Preconditioner",
+                      preconditioner,
+                      "Of Belos CG or GMRES. " + PreconditionerRegistry::documentation(),
+                      Patterns::Selection(PreconditionerRegistry::selection()));
+    prm.add_parameter("Contact operator",
+                      contact_operator,
+                      "How an iterative solver multiplies: 'applied' applies constraints and "
+                      "contact terms beside the continuum matrix, and assembles all in "
+                      "one matrix only where multigrid is set up; 'assembled' does so in each "
+                      "Newton iteration.",
+                      Patterns::Selection("applied|assembled"));
+    for (const auto &of_one : options)
+      of_one.second->declare(prm);
+  }
+
+
+
+  void
+  LinearSolverParameters::check(const std::string &section) const
+  {
+    check_positive(section,
+                   "Tolerance",
+                   tolerance,
+                   "two to four digits a Newton iteration are usual: 1e-3");
+    const auto solver = LinearSolverRegistry::make(type, *this);
+    if (preconditioner != "multigrid" && !solver->takes_preconditioner())
+      throw InputError(section,
+                       "Preconditioner",
+                       preconditioner,
+                       "is for solvers that iterate, but 'Type' is '" + type + "'",
+                       "remove it, or set 'Type' to 'Belos CG' or 'Belos GMRES'");
+    const std::set<std::string> used = solver->used_options();
+    for (const auto &[name, of_one] : options)
+      if (used.count(name) > 0)
+        of_one->check(section);
+      else
+        refuse_unused(section, type, name, *of_one);
+  }
+} // namespace Touchstone

@@ -1,0 +1,122 @@
+#include <touchstone/base/formula.h>
+#include <touchstone/base/input_error.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+#include <regex>
+#include <sstream>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    bool
+    depends_on_place(const std::string &text)
+    {
+      return std::regex_search(text, std::regex("\\b[xyz]\\b"));
+    }
+
+    bool
+    empty(const std::string &text)
+    {
+      return text.find_first_not_of(" \t") == std::string::npos;
+    }
+  } // namespace
+
+
+
+  Formula::Formula(const std::string &section, const std::string &key, const std::string &text)
+    : section(section)
+    , key(key)
+    , text(text)
+    , function(std::make_unique<FunctionParser<dim>>(1))
+  {
+    function->initialize("x,y,z,t", text, {{"pi", numbers::PI}}, /*time_dependent=*/true);
+  }
+
+
+
+  double
+  Formula::value(const Point<dim> &x, const double t) const
+  {
+    if (function->get_time() != t)
+      function->set_time(t);
+    const double result = function->value(x);
+    if (!std::isfinite(result) && !failure)
+      failure = Failure{result, x, t};
+    return result;
+  }
+
+
+
+  std::string
+  Formula::problem() const
+  {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << "its value is " << (std::isnan(failure->value) ? "not a number" : "infinite") << " at ";
+    if (depends_on_place(text))
+      out << "x = " << failure->x[0] << ", y = " << failure->x[1] << ", z = " << failure->x[2]
+          << " and ";
+    out << "t = " << failure->t;
+    return out.str();
+  }
+
+
+
+  std::shared_ptr<const Formula>
+  Formulas::add(const std::string &section, const std::string &key, const std::string &text)
+  {
+    if (empty(text))
+      return nullptr;
+    all.push_back(std::make_shared<const Formula>(section, key, text));
+    return all.back();
+  }
+
+
+
+  void
+  Formulas::check(const MPI_Comm communicator) const
+  {
+    // The formula that comes first in the scene, and its place on the first rank that has one.
+    unsigned int first = 0;
+    while (first < all.size() && !all[first]->failure)
+      ++first;
+    const unsigned int failed = Utilities::MPI::min(first, communicator);
+    if (failed == all.size())
+      return;
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int who =
+      Utilities::MPI::min(all[failed]->failure ? rank : numbers::invalid_unsigned_int,
+                          communicator);
+    const std::string problem =
+      Utilities::MPI::broadcast(communicator, rank == who ? all[failed]->problem() : "", who);
+    throw InputError(all[failed]->section,
+                     all[failed]->key,
+                     all[failed]->text,
+                     problem,
+                     "give a formula that is finite everywhere on the body and at all times, from "
+                     "t = 0 on");
+  }
+
+
+
+  void
+  check_at_all_steps(const std::string &section,
+                     const std::string &key,
+                     const std::string &text,
+                     const double       end_time,
+                     const unsigned int steps)
+  {
+    if (empty(text) || depends_on_place(text))
+      return;
+    Formulas   one;
+    const auto formula = one.add(section, key, text);
+    for (unsigned int step = 0; step <= steps; ++step)
+      formula->value(Point<dim>(), step == steps ? end_time : end_time * step / steps);
+    one.check(MPI_COMM_SELF);
+  }
+} // namespace Touchstone

@@ -1,0 +1,18 @@
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/parameter_checks.h>
+
+#include <deal.II/base/patterns.h>
+
+namespace Touchstone
+{
+  void
+  check_positive(const std::string &section,
+                 const std::string &key,
+                 const double       value,
+                 const std::string &remedy)
+  {
+    if (value <= 0.)
+      throw InputError(
+        section, key, dealii::Patterns::Tools::to_string(value), "must be positive", remedy);
+  }
+} // namespace Touchstone

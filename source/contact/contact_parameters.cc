@@ -1,0 +1,238 @@
+#include <touchstone/base/expression.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/contact_parameters.h>
+#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/friction/friction_law.h>
+#include <touchstone/contact/pairing/pairing.h>
+
+#include <cmath>
+#include <set>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  std::string
+  ContactPairParameters::section() const
+  {
+    return "Contact pair " + name;
+  }
+
+
+
+  void
+  ContactPairParameters::declare(ParameterHandler &prm, const EarlyValues &values)
+  {
+    prm.add_parameter("Slave body",
+                      slave_body,
+                      "The body whose nodes must not penetrate. Required.",
+                      Patterns::Anything(),
+                      /*has_to_be_set=*/true);
+    prm.add_parameter("Slave boundaries",
+                      slave_boundaries,
+                      "Its boundaries, by name or number. Required.",
+                      Patterns::List(Patterns::Anything()),
+                      /*has_to_be_set=*/true);
+    prm.add_parameter("Master body",
+                      master_body,
+                      "The body that must not be penetrated; empty if it is an "
+                      "obstacle.",
+                      Patterns::Anything());
+    prm.add_parameter("Master boundaries", master_boundaries, "Its boundaries, by name or number.");
+    prm.add_parameter("Obstacle",
+                      obstacle,
+                      "Name of the rigid obstacle that must not be penetrated; "
+                      "empty if it is a body.",
+                      Patterns::Anything());
+    pairing.declare_key(prm,
+                        values,
+                        "Pairing",
+                        "How rows are made of surfaces: 'pointwise' projects each "
+                        "slave node onto the master surface; 'averaged' averages over the "
+                        "slave faces with a dual basis and passes the patch test. An "
+                        "obstacle needs neither.");
+    behaviour.declare_key(prm,
+                          values,
+                          "Behaviour",
+                          "'frictionless' contact; 'tied' once and for all where the surfaces "
+                          "face each other; or a friction law, whose own keys stand in the "
+                          "subsection 'Friction':",
+                          {"frictionless", "tied"});
+    friction = behaviour.make();
+    if (friction)
+      {
+        prm.enter_subsection("Friction");
+        behaviour.declare_own_keys(prm);
+        prm.leave_subsection();
+      }
+    prm.add_parameter("Initial overlap",
+                      initial_overlap,
+                      "An overlap of the bodies as they are placed is an 'interference' that "
+                      "presses them apart, or a fault of the mesh to 'adjust': gaps count from "
+                      "it, and it leads to no stress. 'ramp' is an interference that grows "
+                      "with time until the end of the run. Tied pairs are always adjusted.",
+                      Patterns::Selection("interference|adjust|ramp"));
+    prm.add_parameter("Sliding",
+                      sliding,
+                      "'finite' searches the partners in each iteration, 'small' "
+                      "keeps those of the reference state. Tied pairs are small; an "
+                      "obstacle is always met where it is.",
+                      Patterns::Selection("finite|small"));
+    prm.add_parameter("Contact geometry",
+                      contact_geometry,
+                      "Gaps and normals come from the exact surfaces where the "
+                      "geometry knows them ('manifold'), or from the faces of the "
+                      "mesh ('faceted').",
+                      Patterns::Selection("manifold|faceted"));
+    prm.add_parameter("Master normal",
+                      master_normal,
+                      "The normal of the master surface: that of the 'face' at the contact "
+                      "point; interpolated from normals 'averaged' at the nodes, except "
+                      "across sharp edges; or 'smoothed': gap and normal of a smooth patch "
+                      "over each face of degree 1. Where the exact surface is known "
+                      "'smoothed' is the same as 'averaged'.",
+                      Patterns::Selection("face|averaged|smoothed"));
+    prm.add_parameter("Search distance",
+                      search_distance,
+                      "Farthest distance at which a slave node looks for a "
+                      "master face; 0 chooses it from the size of the faces. "
+                      "[length]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Edge tolerance",
+                      edge_tolerance,
+                      "How far beyond the edge of the master surface a slave node "
+                      "is still held, as a fraction of the face. [no unit]",
+                      Patterns::Double(0., 1.));
+    pairing.declare_own_keys(prm);
+  }
+
+
+
+  void
+  ContactPairParameters::check(const std::string &section) const
+  {
+    if (slave_boundaries.empty())
+      throw InputError(section,
+                       "Slave boundaries",
+                       "",
+                       "the list is empty",
+                       "name the boundaries of '" + slave_body + "' that come into contact");
+    if (master_body.empty() && obstacle.empty())
+      throw InputError(section,
+                       "Master body",
+                       "",
+                       "the pair has neither a master body nor an obstacle",
+                       "set 'Master body' and 'Master boundaries', or 'Obstacle'");
+    if (!master_body.empty() && !obstacle.empty())
+      throw InputError(section,
+                       "Obstacle",
+                       obstacle,
+                       "contradicts 'Master body' = '" + master_body + "'",
+                       "remove one of them; a second pair can have the other");
+    if (!master_body.empty() && master_boundaries.empty())
+      throw InputError(section,
+                       "Master boundaries",
+                       "",
+                       "the list is empty",
+                       "name the boundaries of '" + master_body + "' that come into contact");
+    behaviour.check(section + "/Friction");
+    pairing.check(section);
+    if (!obstacle.empty() && !master_boundaries.empty())
+      throw InputError(section,
+                       "Master boundaries",
+                       master_boundaries.front(),
+                       "an obstacle has no boundaries",
+                       "remove 'Master boundaries' or take a master body");
+
+    for (const auto &[key, list] : {std::make_pair("Slave boundaries", &slave_boundaries),
+                                    std::make_pair("Master boundaries", &master_boundaries)})
+      {
+        std::set<std::string> names;
+        for (const std::string &boundary : *list)
+          if (boundary.empty() || !names.insert(boundary).second)
+            throw InputError(section,
+                             key,
+                             boundary,
+                             boundary.empty() ? "a name in this list is empty"
+                                              : "this boundary is listed twice",
+                             "name each boundary once, with commas between them");
+      }
+    if (slave_body == master_body)
+      for (const std::string &slave : slave_boundaries)
+        for (const std::string &master : master_boundaries)
+          if (slave == master)
+            throw InputError(section,
+                             "Master boundaries",
+                             master,
+                             "this boundary of '" + master_body +
+                               "' is slave and master at the same time",
+                             "let different boundaries be slave and master");
+  }
+
+
+
+  void
+  ContactParameters::declare(ParameterHandler &prm, const EarlyValues &values)
+  {
+    enforcement.declare_key(prm,
+                            values,
+                            "Enforcement",
+                            "How contact is enforced: 'elimination' of the slave unknowns, which "
+                            "leaves a system for any linear solver; "
+                            "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
+                            "'augmented lagrange', springs whose forces grow until the gaps close; "
+                            "or 'penalty', springs that leave a penetration.");
+    prm.add_parameter("Penalty factor",
+                      penalty_factor,
+                      "Multiplies the automatic stiffness of the springs, which is Young's "
+                      "modulus times tributary area over face size, times 100 for 'penalty' "
+                      "and 20 for 'augmented lagrange'. [no unit]",
+                      Patterns::Double());
+    prm.add_parameter("Augmentation",
+                      augmentation,
+                      "Forces of 'augmented lagrange' grow in each Newton iteration "
+                      "('merged'), or each time that Newton has found a balance ('outer').",
+                      Patterns::Selection("merged|outer"));
+    prm.add_parameter("Friction",
+                      friction,
+                      "Nodes that stick are held without any slip ('exact'), or slip "
+                      "elastically on springs ('regularised'), as they always do with "
+                      "'penalty'.",
+                      Patterns::Selection("exact|regularised"));
+    prm.add_parameter("Tangential factor",
+                      tangential_factor,
+                      "Multiplies the automatic stiffness of these springs, which is ten times "
+                      "Young's modulus times tributary area over face size. [no unit]",
+                      Patterns::Double());
+    prm.add_parameter("Linearisation",
+                      linearisation,
+                      "Within a Newton iteration, normals, contact points and slip directions "
+                      "change with the bodies ('consistent', quadratic convergence), or not "
+                      "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
+                      "where a direct solver takes unsymmetric systems, and for the rest of a step "
+                      "in which a frozen iteration has gained little.",
+                      Patterns::Selection("automatic|consistent|frozen"));
+    enforcement.declare_own_keys(prm);
+  }
+
+
+
+  void
+  ContactParameters::check(const std::string &section) const
+  {
+    enforcement.check(section);
+    if (!(penalty_factor > 0.) || !std::isfinite(penalty_factor))
+      throw InputError(section,
+                       "Penalty factor",
+                       std::to_string(penalty_factor),
+                       "must be positive",
+                       "1 is the automatic choice.");
+    if (!(tangential_factor > 0.) || !std::isfinite(tangential_factor))
+      throw InputError(section,
+                       "Tangential factor",
+                       std::to_string(tangential_factor),
+                       "must be positive",
+                       "1 is the automatic choice.");
+  }
+} // namespace Touchstone

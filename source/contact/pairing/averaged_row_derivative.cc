@@ -1,0 +1,225 @@
+#include <touchstone/contact/pairing/averaged_row_derivative.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  AveragedRowDerivative::AveragedRowDerivative(const Stencil   &stencil,
+                                               const CoverSums &sums,
+                                               const double     size,
+                                               const bool       with_area)
+    : stencil(stencil)
+    , row(sums, size)
+    , with_area(with_area)
+    , builder(stencil.size())
+  {
+    for (unsigned int m = 0; m < stencil.size(); ++m)
+      in_stencil[stencil[m].node] = m;
+  }
+
+
+
+  std::size_t
+  AveragedRowDerivative::index(const Index node)
+  {
+    const std::size_t result = builder.index(node);
+    sums.resize(builder.result->nodes.size());
+    return result;
+  }
+
+
+
+  template <unsigned int n>
+  void
+  AveragedRowDerivative::add_face(const unsigned int k, const SlaveFaceDerivative<n> &face)
+  {
+    add_positions<n>(k, face);
+    add_normals<n>(k, face);
+  }
+
+
+
+  template <unsigned int n>
+  void
+  AveragedRowDerivative::add_positions(const unsigned int k, const SlaveFaceDerivative<n> &face)
+  {
+    // Terms W_km of the stencil: integrals of master shapes (which column), and, with the opposite
+    // sign, what slave nodes leave to this one (which node of the face).
+    std::vector<std::pair<unsigned int, unsigned int>> of_masters, of_slaves;
+    for (unsigned int m = 0; m < face.masters.size(); ++m)
+      if (const auto found = in_stencil.find(face.masters[m]); found != in_stencil.end())
+        of_masters.emplace_back(OverlapColumns::master + m, found->second);
+    for (unsigned int i = 0; i < n; ++i)
+      if (const auto found = in_stencil.find(face.own[i]); found != in_stencil.end())
+        of_slaves.emplace_back(i, found->second);
+    const bool part = with_area && face.covered_in_part(k);
+    area_changes    = area_changes || part;
+
+    RowDerivative                                           &result = *builder.result;
+    std::array<typename SlaveFaceDerivative<n>::Change, dim> change;
+    for (unsigned int i = 0; i < face.n_nodes(); ++i)
+      {
+        for (unsigned int e = 0; e < dim; ++e)
+          face.differentiate(k, i, e, change[e]);
+        for (const auto &[node, weight] : face.carriers(i))
+          {
+            const std::size_t    to  = index(node);
+            CoverSumsDerivative &sum = sums[to];
+            for (unsigned int e = 0; e < dim; ++e)
+              {
+                const auto &d = change[e];
+                sum.area[e] += weight * d.integrals[OverlapColumns::area];
+                sum.kept[e] += weight * d.share[k];
+                sum.given[e] += weight * (d.area - d.share[k]);
+                if (part)
+                  sum.reference[e] += weight * d.reference;
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    sum.gap[c][e] += weight * d.integrals[OverlapColumns::gap + c];
+                    sum.normal[c][e] += weight * d.integrals[OverlapColumns::normal + c];
+                  }
+                for (const auto &[column, m] : of_masters)
+                  result.weights[m][to][e] += weight * d.integrals[column];
+                for (const auto &[l, m] : of_slaves)
+                  result.weights[m][to][e] -= weight * d.share[l];
+              }
+          }
+      }
+  }
+
+
+
+  template <unsigned int n>
+  void
+  AveragedRowDerivative::add_normals(const unsigned int k, const SlaveFaceDerivative<n> &face)
+  {
+    const bool slave_smooth = face.slave.smooth();
+    for (const OverlapDerivative<n> &part : face.parts)
+      {
+        ByNormals &by_master = by_master_normals[part.master];
+        by_master.smooth     = part.master_smooth;
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              const double w = face.dual.weight(k, j);
+              by_master.normal[m] += w * part.normal_normal[j][m];
+              by_master.gap[m] += w * part.gap_normal[j][m];
+              if (slave_smooth)
+                by_slave_normals[face.slave.face().key][m] += w * part.gap_slave_normal[j][m];
+            }
+        if (row.needs_least())
+          offer<n>(least, part.least, part.least_by_normals, face, *part.master);
+        if (row.needs_own())
+          offer<n>(own, part.own[k], part.own_by_normals[k], face, *part.master);
+      }
+  }
+
+
+
+  template <unsigned int n>
+  void
+  AveragedRowDerivative::offer(std::optional<ClosestPoint>                    &closest,
+                               const PositionFad<n>                           &gap,
+                               const typename OverlapDerivative<n>::ByNormals &by_normals,
+                               const SlaveFaceDerivative<n>                   &face,
+                               const Face                                     &master)
+  {
+    if (gap.val() == std::numeric_limits<double>::max() || (closest && closest->gap <= gap.val()))
+      return;
+    closest.emplace(ClosestPoint{gap.val(), &master, face.slave.face().key, {}, {}, {}});
+    std::copy(by_normals.master, by_normals.master + n, closest->by_master_normals.begin());
+    std::copy(by_normals.slave, by_normals.slave + n, closest->by_slave_normals.begin());
+    for (unsigned int i = 0; i < 2 * n; ++i)
+      {
+        const Tensor<1, dim> by_node({gap.fastAccessDx(dim * i),
+                                      gap.fastAccessDx(dim * i + 1),
+                                      gap.fastAccessDx(dim * i + 2)});
+        for (const auto &[node, weight] :
+             face.carriers(i < n ? i : face.index_of_master(master.nodes[i - n])))
+          closest->by_nodes.emplace_back(node, weight * by_node);
+      }
+  }
+
+
+
+  std::vector<std::uint64_t>
+  AveragedRowDerivative::slave_faces() const
+  {
+    std::vector<std::uint64_t> result;
+    for (const auto &[key, by_normals] : by_slave_normals)
+      result.push_back(key);
+    return result;
+  }
+
+
+
+  void
+  AveragedRowDerivative::continue_closest(const ClosestPoint &point,
+                                          Tensor<1, dim> CoverSumsDerivative::*of_point,
+                                          const OfMaster                      &of_master,
+                                          const OfSlave                       &of_slave)
+  {
+    const auto add = [&](const Index node, const Tensor<1, dim> &value) {
+      const std::size_t to = index(node);
+      sums[to].*of_point += value;
+    };
+    for (const auto &[node, value] : point.by_nodes)
+      add(node, value);
+    if (const auto *derivatives = of_master(point.master))
+      for (const NormalDerivative &d : *derivatives)
+        add(d.node, point.by_master_normals[d.m] * d.value);
+    if (by_slave_normals.count(point.slave) > 0)
+      for (const NormalDerivative &d : *of_slave(point.slave))
+        add(d.node, point.by_slave_normals[d.m] * d.value);
+  }
+
+
+
+  std::shared_ptr<const RowDerivative>
+  AveragedRowDerivative::finish(const OfMaster &of_master, const OfSlave &of_slave)
+  {
+    for (const auto &[key, by_normals] : by_slave_normals)
+      for (const NormalDerivative &d : *of_slave(key))
+        {
+          const std::size_t to = index(d.node);
+          sums[to].gap += by_normals[d.m] * d.value;
+        }
+    for (const auto &[face, by_normals] : by_master_normals)
+      if (const auto *derivatives = of_master(face))
+        for (const NormalDerivative &d : *derivatives)
+          {
+            const std::size_t to = index(d.node);
+            sums[to].normal += by_normals.normal[d.m] * d.value;
+            if (by_normals.smooth)
+              sums[to].gap += by_normals.gap[d.m] * d.value;
+          }
+    if (least)
+      continue_closest(*least, &CoverSumsDerivative::least, of_master, of_slave);
+    if (own)
+      continue_closest(*own, &CoverSumsDerivative::own, of_master, of_slave);
+
+    // The sums are complete: now the row.
+    RowDerivative &result = *builder.result;
+    for (std::size_t a = 0; a < result.nodes.size(); ++a)
+      {
+        row.differentiate(sums[a], result.normal[a], result.gap_vector[a]);
+        for (std::size_t m = 0; m < result.weights.size(); ++m)
+          result.weights[m][a] =
+            row.weight_derivative(stencil[m].weight, result.weights[m][a], sums[a]);
+        if (area_changes)
+          result.area.push_back(sums[a].reference);
+      }
+    return builder.result;
+  }
+
+
+
+  template void
+  AveragedRowDerivative::add_face<4>(unsigned int, const SlaveFaceDerivative<4> &);
+  template void
+  AveragedRowDerivative::add_face<9>(unsigned int, const SlaveFaceDerivative<9> &);
+} // namespace Touchstone

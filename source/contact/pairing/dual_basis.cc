@@ -1,0 +1,141 @@
+#include <touchstone/contact/pairing/dual_basis.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** S M~^-1; @p mass becomes the inverse of the regularised M~.
+     *
+     * On a sliver the mass matrix is singular to working precision. What is added to the diagonal
+     * is taken out again of the weights by iterative refinement, and not of the inverse: weights of
+     * nodes that take the shares of others are moderate and leave small residuals, however thin
+     * the sliver. */
+    FullMatrix<double>
+    divide_by_mass(const CoverShares &shares, FullMatrix<double> &mass)
+    {
+      constexpr unsigned int   n_refinements = 4;
+      const unsigned int       n             = mass.m();
+      const FullMatrix<double> original(mass);
+      const double             addition = Tolerances::mass_regularisation * mass.trace();
+      for (unsigned int i = 0; i < n; ++i)
+        mass(i, i) += addition;
+      mass.gauss_jordan();
+      FullMatrix<double> result(n, n), residual(n, n);
+      for (unsigned int step = 0; step < n_refinements; ++step)
+        {
+          result.mmult(residual, original);
+          for (unsigned int k = 0; k < n; ++k)
+            for (unsigned int i = 0; i < n; ++i)
+              residual(k, i) = shares.share[k][i] - residual(k, i);
+          residual.mmult(result, mass, /*adding=*/true);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  DualBasis::DualBasis(const FullMatrix<double> &mass,
+                       const Values             &shape_areas,
+                       const TraceBasis         *basis,
+                       const Values             &whole,
+                       const bool                gradual,
+                       const bool                with_derivative)
+    : areas(basis ? basis->apply(shape_areas) : shape_areas)
+    , shares(mass.m(), areas, whole, gradual, with_derivative)
+    , basis(basis)
+    , inverse(mass)
+  {
+    if (!basis)
+      {
+        weights = divide_by_mass(shares, inverse);
+        return;
+      }
+    const FullMatrix<double> transposed = to_basis(mass.m());
+    FullMatrix<double>       product(mass.m(), mass.m());
+    product.triple_product(mass, transposed, transposed, false, true);
+    inverse = product;
+    product = divide_by_mass(shares, inverse);
+    weights.reinit(mass.m(), mass.m());
+    product.mmult(weights, transposed);
+  }
+
+
+
+  FullMatrix<double>
+  DualBasis::to_basis(const unsigned int n) const
+  {
+    FullMatrix<double> result(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int p = 0; p < n; ++p)
+        result(p, i) = basis->weights[i][p];
+    return result;
+  }
+
+
+
+  DualBasis::Solution
+  DualBasis::solve(const FullMatrix<double> &q) const
+  {
+    Solution result{FullMatrix<double>(q.m(), q.n()), FullMatrix<double>(q.m(), q.n())};
+    if (!basis)
+      {
+        inverse.mmult(result.of_basis, q);
+        result.of_shapes = result.of_basis;
+        return result;
+      }
+    const FullMatrix<double> transposed = to_basis(q.m());
+    FullMatrix<double>       of_trace(q.m(), q.n());
+    transposed.mmult(of_trace, q);
+    inverse.mmult(result.of_basis, of_trace);
+    transposed.Tmmult(result.of_shapes, result.of_basis);
+    return result;
+  }
+
+
+
+  DualBasis::Values
+  DualBasis::share_derivative(const unsigned int k, const Values &d_areas) const
+  {
+    const unsigned int n = weights.m();
+    Values             result{};
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int l = 0; l < n; ++l)
+        result[i] += shares.derivative[k][i][l] * d_areas[l];
+    return result;
+  }
+
+
+
+  void
+  DualBasis::differentiate(const unsigned int      k,
+                           const Solution         &solution,
+                           const Values           &d_share,
+                           const Table<3, double> &d_mass,
+                           const Table<3, double> &d_q,
+                           const unsigned int      v,
+                           ArrayView<double>       result) const
+  {
+    const unsigned int n = weights.m(), n_columns = result.size();
+    std::fill(result.begin(), result.end(), 0.);
+    for (unsigned int i = 0; i < n; ++i)
+      if (d_share[i] != 0.)
+        for (unsigned int c = 0; c < n_columns; ++c)
+          result[c] += d_share[i] * solution.of_basis(i, c);
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        double of_mass = 0.; // (W_k dM)_j
+        for (unsigned int i = 0; i < n; ++i)
+          of_mass += weights(k, i) * d_mass(v, i, j);
+        const double  w  = weights(k, j);
+        const double *dq = &d_q(v, j, 0), *x = &solution.of_shapes(j, 0);
+        for (unsigned int c = 0; c < n_columns; ++c)
+          result[c] += w * dq[c] - of_mass * x[c];
+      }
+  }
+} // namespace Touchstone

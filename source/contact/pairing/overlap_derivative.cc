@@ -1,0 +1,66 @@
+#include <touchstone/contact/pairing/overlap_derivative.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  template <unsigned int n>
+  void
+  OverlapDerivative<n>::add(const OverlapPointDerivative<n> &point,
+                            const FaceDifferentiator        &on_slave,
+                            const FaceDifferentiator        &on_master)
+  {
+    const FacePosition               slave_point  = on_slave.position(point.slave);
+    const FaceDerivative             master_point = on_master.at(point.master);
+    OverlapSample<n, PositionFad<n>> sample;
+    if (!differentiate<n>(
+          point, on_slave.geometry, slave_point, on_master.geometry, master_point, sample))
+      return;
+    const double          least_before = this->least.val();
+    std::array<double, n> own_before;
+    for (unsigned int j = 0; j < n; ++j)
+      own_before[j] = this->own[j].val();
+    OverlapIntegrals<n, PositionFad<n>>::add(sample);
+
+    // Positions depend on nodal normals only where the surfaces are smooth patches.
+    const bool slave_smooth = on_slave.geometry.smooth();
+    const auto by_normals   = [&]() {
+      const Tensor<1, dim> gap({sample.gap[0].val(), sample.gap[1].val(), sample.gap[2].val()});
+      ByNormals            result;
+      for (unsigned int m = 0; m < n; ++m)
+        {
+          result.master[m] = gap * master_point.normal_normal[m];
+          if (master_smooth)
+            result.master[m] -= master_point.normal * master_point.x_normal[m];
+          if (slave_smooth)
+            result.slave[m] = master_point.normal * slave_point.x_normal[m];
+        }
+      return result;
+    };
+    if (this->least.val() < least_before)
+      least_by_normals = by_normals();
+    for (unsigned int j = 0; j < n; ++j)
+      if (this->own[j].val() < own_before[j])
+        own_by_normals[j] = by_normals();
+
+    if (sample.weight.val() == 0.)
+      return;
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        const double weight = sample.weight.val() * sample.slave_shape[j].val();
+        for (unsigned int m = 0; m < n; ++m)
+          {
+            normal_normal[j][m] += weight * master_point.normal_normal[m];
+            if (master_smooth)
+              gap_normal[j][m] -= weight * master_point.x_normal[m];
+            if (slave_smooth)
+              gap_slave_normal[j][m] += weight * slave_point.x_normal[m];
+          }
+      }
+  }
+
+
+
+  template struct OverlapDerivative<4>;
+  template struct OverlapDerivative<9>;
+} // namespace Touchstone

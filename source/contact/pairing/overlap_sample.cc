@@ -1,0 +1,208 @@
+#include <touchstone/contact/pairing/facing_part.h>
+#include <touchstone/contact/pairing/overlap_sample.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  template <unsigned int n>
+  bool
+  evaluate(const OverlapPoint       &point,
+           const FaceGeometry       &slave,
+           const FaceGeometry       &master,
+           const Tensor<1, dim>     &plane,
+           OverlapSample<n, double> &sample)
+  {
+    const FaceShapes shapes(slave.face().degree, point.slave);
+    const FaceShapes master_shapes(master.face().degree, point.master);
+    const auto [x, normal] = master.position_and_normal(point.master, master_shapes);
+    const double part =
+      FacingPart(facing_cosine(plane, normal, master.face(), master.exact_surface(), point.master))
+        .value;
+    if (part == 0.)
+      return false;
+    const Tensor<1, dim> gap = slave.position(point.slave, shapes) - x;
+    sample.weight            = part * point.weight;
+    for (unsigned int m = 0; m < n; ++m)
+      {
+        sample.slave_shape[m]  = shapes.value[m];
+        sample.master_shape[m] = master_shapes.value[m];
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        sample.gap[d]    = gap[d];
+        sample.normal[d] = normal[d];
+      }
+    return true;
+  }
+
+
+
+  namespace
+  {
+    /** The derivative of the cosine between the slave plane and the master surface at @p point,
+     * c = -zeta . nu, nu = x,1 x x,2 / |x,1 x x,2| (doc/theory.md 3). Here nu is the normal of the
+     * master surface itself: averaged normals do not see how steep a single face is. */
+    template <unsigned int n>
+    typename OverlapPointDerivative<n>::Gradient
+    cosine_derivative(const Face                      &slave,
+                      const OverlapPointDerivative<n> &point,
+                      const FaceGeometry              &master,
+                      const Tensor<1, dim>            &normal)
+    {
+      const Face                   &face  = master.face();
+      const Tensor<1, dim>          plane = plane_normal(slave);
+      const FaceShapes              shapes(face.degree, point.master);
+      const FacePoint               x       = evaluate(face, master.exact_surface(), point.master);
+      const Tensor<1, dim>          product = cross_product_3d(x.tangents[0], x.tangents[1]);
+      const double                  sign    = product * normal < 0. ? 1. : -1.;
+      const Tensor<1, dim>          nu      = sign * product / product.norm();
+      const Tensor<1, dim>          by_product = sign * (plane * normalisation_derivative(product));
+      const Tensor<1, dim>          by_t[2]    = {cross_product_3d(x.tangents[1], by_product),
+                                                  cross_product_3d(by_product, x.tangents[0])};
+      std::array<Tensor<1, dim>, 3> second;
+      if (master.exact_surface() != nullptr)
+        second = master.second_derivatives(point.master);
+      else
+        {
+          // Of the facet, not of the patch over it.
+          const auto hessians = shape_hessians(face.degree, point.master);
+          for (unsigned int m = 0; m < n; ++m)
+            for (unsigned int s = 0; s < 3; ++s)
+              second[s] += hessians[m][s] * face.position(m);
+        }
+      const double by_xi[2] = {by_t[0] * second[0] + by_t[1] * second[1],
+                               by_t[0] * second[1] + by_t[1] * second[2]};
+      const auto   by_slave = plane_normal_derivatives(slave);
+
+      typename OverlapPointDerivative<n>::Gradient result;
+      for (unsigned int v = 0; v < OverlapPointDerivative<n>::n_variables; ++v)
+        result[v] = by_xi[0] * point.d_master[0][v] + by_xi[1] * point.d_master[1][v];
+      for (unsigned int m = 0; m < n; ++m)
+        {
+          const Tensor<1, dim> by_node = nu * by_slave[m];
+          for (unsigned int e = 0; e < dim; ++e)
+            {
+              result[dim * m + e] += by_node[e];
+              result[dim * (n + m) + e] +=
+                shapes.gradient[m][0] * by_t[0][e] + shapes.gradient[m][1] * by_t[1][e];
+            }
+        }
+      return result;
+    }
+
+
+
+    /** The weight of a point, reduced by FacingPart where the surfaces are inclined.
+     * @return false if nothing is left. */
+    template <unsigned int n>
+    bool
+    differentiate_weight(const Face                      &slave,
+                         const OverlapPointDerivative<n> &point,
+                         const FaceGeometry              &master,
+                         const Tensor<1, dim>            &normal,
+                         PositionFad<n>                  &weight)
+    {
+      constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
+      const double           cosine      = facing_cosine(
+        plane_normal(slave), normal, master.face(), master.exact_surface(), point.master);
+      const FacingPart part(cosine);
+      weight.val() = part.value * point.weight;
+      for (unsigned int v = 0; v < n_variables; ++v)
+        weight.fastAccessDx(v) = part.value * point.d_weight[v];
+      if (part.by_cosine != 0.)
+        {
+          const auto d_cosine = cosine_derivative<n>(slave, point, master, normal);
+          for (unsigned int v = 0; v < n_variables; ++v)
+            weight.fastAccessDx(v) += point.weight * part.by_cosine * d_cosine[v];
+        }
+      return part.value > 0.;
+    }
+  } // namespace
+
+
+
+  template <unsigned int n>
+  bool
+  differentiate(const OverlapPointDerivative<n>  &point,
+                const FaceGeometry               &slave,
+                const FacePosition               &on_slave,
+                const FaceGeometry               &master,
+                const FaceDerivative             &on_master,
+                OverlapSample<n, PositionFad<n>> &sample)
+  {
+    constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
+    if (!differentiate_weight<n>(slave.face(), point, master, on_master.normal, sample.weight))
+      return false;
+
+    // Both points move on their faces as the overlap changes (d xi), and with the nodes.
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        PositionFad<n> &gap = sample.gap[d], &normal = sample.normal[d];
+        gap.val()    = on_slave.point.x[d] - on_master.point.x[d];
+        normal.val() = on_master.normal[d];
+        for (unsigned int v = 0; v < n_variables; ++v)
+          {
+            double d_gap = 0., d_normal = 0.;
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                d_gap += on_slave.point.tangents[a][d] * point.d_slave[a][v] -
+                         on_master.point.tangents[a][d] * point.d_master[a][v];
+                d_normal += on_master.normal_xi[a][d] * point.d_master[a][v];
+              }
+            gap.fastAccessDx(v)    = d_gap;
+            normal.fastAccessDx(v) = d_normal;
+          }
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int e = 0; e < dim; ++e)
+            {
+              gap.fastAccessDx(dim * m + e) += on_slave.x_position[m][d][e];
+              gap.fastAccessDx(dim * (n + m) + e) -= on_master.x_position[m][d][e];
+              normal.fastAccessDx(dim * (n + m) + e) += on_master.normal_position[m][d][e];
+            }
+      }
+    for (unsigned int m = 0; m < n; ++m)
+      {
+        const auto shape = [&](const FaceShapes                                     &shapes,
+                               const std::array<std::array<double, n_variables>, 2> &d_xi) {
+          PositionFad<n> result(shapes.value[m]);
+          for (unsigned int v = 0; v < n_variables; ++v)
+            result.fastAccessDx(v) =
+              shapes.gradient[m][0] * d_xi[0][v] + shapes.gradient[m][1] * d_xi[1][v];
+          return result;
+        };
+        sample.slave_shape[m]  = shape(on_slave.shapes, point.d_slave);
+        sample.master_shape[m] = shape(on_master.shapes, point.d_master);
+      }
+    return true;
+  }
+
+
+
+  template bool
+  evaluate<4>(const OverlapPoint &,
+              const FaceGeometry &,
+              const FaceGeometry &,
+              const Tensor<1, dim> &,
+              OverlapSample<4, double> &);
+  template bool
+  evaluate<9>(const OverlapPoint &,
+              const FaceGeometry &,
+              const FaceGeometry &,
+              const Tensor<1, dim> &,
+              OverlapSample<9, double> &);
+  template bool
+  differentiate<4>(const OverlapPointDerivative<4> &,
+                   const FaceGeometry &,
+                   const FacePosition &,
+                   const FaceGeometry &,
+                   const FaceDerivative &,
+                   OverlapSample<4, PositionFad<4>> &);
+  template bool
+  differentiate<9>(const OverlapPointDerivative<9> &,
+                   const FaceGeometry &,
+                   const FacePosition &,
+                   const FaceGeometry &,
+                   const FaceDerivative &,
+                   OverlapSample<9, PositionFad<9>> &);
+} // namespace Touchstone

@@ -1,0 +1,96 @@
+#include <touchstone/contact/pairing/row_sums.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  RowSums::clear()
+  {
+    static_cast<CoverSums &>(*this) = CoverSums();
+    least = own = std::numeric_limits<double>::max();
+    lever       = Tensor<1, dim>();
+    for (Stencil *list : {&stencil, &taken, &left})
+      list->clear();
+  }
+
+
+
+  template <unsigned int n>
+  void
+  RowSums::add(const unsigned int                 k,
+               const DualBasis                   &dual,
+               const Face                        &master,
+               const OverlapIntegrals<n, double> &part)
+  {
+    // r_k = W_k Q, see DualBasis.
+    std::array<double, OverlapIntegrals<n, double>::n_columns> r{};
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int c = 0; c < r.size(); ++c)
+        r[c] += dual.weight(k, j) * part.q[j][c];
+    area += r[OverlapColumns::area];
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        gap[d] += r[OverlapColumns::gap + d];
+        normal[d] += r[OverlapColumns::normal + d];
+      }
+    for (unsigned int m = 0; m < n; ++m)
+      add(stencil, master.nodes[m], r[OverlapColumns::master + m]);
+    least = std::min(least, part.least);
+    own   = std::min(own, part.own[k]);
+  }
+
+
+
+  void
+  RowSums::add(Stencil &list, const Index node, const double value)
+  {
+    const auto found = std::find_if(list.begin(), list.end(), [node](const StencilEntry &entry) {
+      return entry.node == node;
+    });
+    if (found != list.end())
+      found->weight += value;
+    else
+      list.push_back({node, value});
+  }
+
+
+
+  void
+  RowSums::finish()
+  {
+    // Of two nodes that each leave something to the other on different faces, only the one
+    // that takes more refers to the other: constraints must not depend on each other in a
+    // cycle. It is rare: both must lie at the edge of the cover, on different sides.
+    for (const StencilEntry &entry : taken)
+      {
+        const auto back = std::find_if(left.begin(), left.end(), [&](const StencilEntry &other) {
+          return other.node == entry.node;
+        });
+        if (back != left.end() && std::abs(entry.weight) <= std::abs(back->weight))
+          kept += entry.weight;
+        else
+          add(stencil, entry.node, -entry.weight);
+      }
+    std::sort(stencil.begin(), stencil.end(), [](const StencilEntry &a, const StencilEntry &b) {
+      return a.node < b.node;
+    });
+  }
+
+
+
+  template void
+  RowSums::add<4>(unsigned int,
+                  const DualBasis &,
+                  const Face &,
+                  const OverlapIntegrals<4, double> &);
+  template void
+  RowSums::add<9>(unsigned int,
+                  const DualBasis &,
+                  const Face &,
+                  const OverlapIntegrals<9, double> &);
+} // namespace Touchstone

@@ -1,0 +1,149 @@
+#include <touchstone/contact/pairing/slave_face_derivative.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  template <unsigned int n>
+  SlaveFaceDerivative<n>::SlaveFaceDerivative(const FaceGeometry &slave,
+                                              const TraceBasis   *basis,
+                                              const Parts        &parts,
+                                              const bool          gradual)
+    : slave(slave)
+    , parts(parts)
+    , dual(total_mass<n>(parts),
+           total_areas<n>(parts),
+           basis,
+           whole_areas(slave.face(), basis, /*reference=*/true),
+           gradual,
+           /*with_derivative=*/true)
+    , basis(basis)
+    , whole(whole_areas(slave.face(), basis, /*reference=*/true))
+    , present(whole_areas(slave.face(), basis, /*reference=*/false))
+    , d_present(whole_area_derivatives(slave.face(), basis))
+  {
+    const auto &nodes = basis ? basis->nodes : slave.face().nodes;
+    own.assign(nodes.begin(), nodes.begin() + n);
+    for (const OverlapDerivative<n> &part : parts)
+      masters.insert(masters.end(), part.master->nodes.begin(), part.master->nodes.begin() + n);
+    std::sort(masters.begin(), masters.end());
+    masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
+    solution = dual.solve(assemble());
+  }
+
+
+
+  template <unsigned int n>
+  unsigned int
+  SlaveFaceDerivative<n>::index_of_master(const Index node) const
+  {
+    return n + (std::lower_bound(masters.begin(), masters.end(), node) - masters.begin());
+  }
+
+
+
+  template <unsigned int n>
+  FullMatrix<double>
+  SlaveFaceDerivative<n>::assemble()
+  {
+    const unsigned int n_columns = OverlapColumns::master + masters.size();
+    FullMatrix<double> q(n, n_columns);
+    d_mass.reinit(dim * n_nodes(), n, n);
+    d_q.reinit(dim * n_nodes(), n, n_columns);
+    for (const OverlapDerivative<n> &part : parts)
+      {
+        // Variables and columns of the part among those of all.
+        constexpr unsigned int n_local = OverlapPointDerivative<n>::n_variables;
+        unsigned int           variable[n_local], column[OverlapColumns::master + n];
+        for (unsigned int v = 0; v < n * dim; ++v)
+          {
+            variable[v]           = v;
+            variable[n * dim + v] = dim * index_of_master(part.master->nodes[v / dim]) + v % dim;
+          }
+        for (unsigned int c = 0; c < OverlapColumns::master; ++c)
+          column[c] = c;
+        for (unsigned int m = 0; m < n; ++m)
+          column[OverlapColumns::master + m] =
+            OverlapColumns::master + index_of_master(part.master->nodes[m]) - n;
+
+        for (unsigned int j = 0; j < n; ++j)
+          {
+            for (unsigned int k = 0; k <= j; ++k)
+              for (unsigned int v = 0; v < n_local; ++v)
+                {
+                  const double d = part.mass[j][k].fastAccessDx(v);
+                  d_mass(variable[v], j, k) += d;
+                  if (k < j)
+                    d_mass(variable[v], k, j) += d;
+                }
+            for (unsigned int c = 0; c < OverlapColumns::master + n; ++c)
+              {
+                q(j, column[c]) += part.q[j][c].val();
+                for (unsigned int v = 0; v < n_local; ++v)
+                  d_q(variable[v], j, column[c]) += part.q[j][c].fastAccessDx(v);
+              }
+          }
+      }
+    return q;
+  }
+
+
+
+  template <unsigned int n>
+  Stencil
+  SlaveFaceDerivative<n>::carriers(const unsigned int i) const
+  {
+    if (i >= n)
+      return {{masters[i - n], 1.}};
+    return basis ? basis->stencil(i) : Stencil{{own[i], 1.}};
+  }
+
+
+
+  template <unsigned int n>
+  bool
+  SlaveFaceDerivative<n>::covered_in_part(const unsigned int k) const
+  {
+    return std::abs(dual.shares.share[k][k] - present[k]) > Tolerances::fully_covered * present[k];
+  }
+
+
+
+  template <unsigned int n>
+  void
+  SlaveFaceDerivative<n>::differentiate(const unsigned int k,
+                                        const unsigned int i,
+                                        const unsigned int e,
+                                        Change            &change) const
+  {
+    const unsigned int v = dim * i + e;
+    DualBasis::Values  d_areas{};
+    for (unsigned int j = 0; j < n; ++j)
+      d_areas[j] = d_q(v, j, OverlapColumns::area);
+    if (basis)
+      d_areas = basis->apply(d_areas);
+    change.area  = d_areas[k];
+    change.share = dual.share_derivative(k, d_areas);
+    // S_kk A_k / A_k(x), with A_k(x) of the whole face in the present position.
+    change.reference = change.share[k];
+    if (i < n)
+      change.reference -= dual.shares.share[k][k] / present[k] * d_present[i][e][k];
+    change.reference *= whole[k] / present[k];
+    change.integrals.resize(OverlapColumns::master + masters.size());
+    dual.differentiate(k,
+                       solution,
+                       change.share,
+                       d_mass,
+                       d_q,
+                       v,
+                       ArrayView<double>(change.integrals.data(), change.integrals.size()));
+  }
+
+
+
+  template class SlaveFaceDerivative<4>;
+  template class SlaveFaceDerivative<9>;
+} // namespace Touchstone

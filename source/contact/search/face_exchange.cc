@@ -1,0 +1,243 @@
+#include <touchstone/base/exchange.h>
+#include <touchstone/contact/search/face_exchange.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  FaceExchange::FaceExchange(const Surface     &surface,
+                             const double       reach,
+                             const MasterNormal kind,
+                             const MPI_Comm     communicator)
+    : surface(surface)
+    , reach(reach)
+    , kind(kind)
+    , communicator(communicator)
+  {
+  }
+
+
+
+  FaceExchange::Box
+  FaceExchange::box(const Face &face, const Displacements &displacement) const
+  {
+    Point<dim> lower, upper;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      {
+        const Point<dim> x = face.reference[m] + displacement[m];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = m == 0 ? x[d] : std::min(lower[d], x[d]);
+            upper[d] = m == 0 ? x[d] : std::max(upper[d], x[d]);
+          }
+      }
+    // A curved face reaches beyond its nodes: by less than half its size, or it
+    // would be bent by more than a right angle.
+    const bool   curved = face.degree > 1 || kind == MasterNormal::smoothed;
+    const double margin = 0.25 * lower.distance(upper) * (curved ? 1. : 0.5);
+    Box          result({lower, upper});
+    result.extend(margin);
+    return result;
+  }
+
+
+
+  FaceExchange::Box
+  FaceExchange::box(const Face &face) const
+  {
+    return box(face, face.displacement);
+  }
+
+
+
+  FaceExchange::Box
+  FaceExchange::committed_box(const Face &face) const
+  {
+    return box(face, face.committed);
+  }
+
+
+
+  FaceExchange::Box
+  FaceExchange::swept_box(const Face &face) const
+  {
+    Box result = box(face);
+    if (has_committed)
+      result.merge_with(committed_box(face));
+    return result;
+  }
+
+
+
+  void
+  FaceExchange::commit(const Vector *u)
+  {
+    has_committed = true;
+    committed.assign(surface.owned_faces().size(), {});
+    if (u != nullptr)
+      for (std::size_t f = 0; f < committed.size(); ++f)
+        {
+          const Face &face = surface.owned_faces()[f];
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            for (unsigned int d = 0; d < dim; ++d)
+              committed[f][m][d] = (*u)(dim * face.nodes[m] + d);
+        }
+  }
+
+
+
+  FaceExchange::Capture
+  FaceExchange::capture(const std::vector<Point<dim>> &positions) const
+  {
+    Capture result;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        result.lower[d] = std::numeric_limits<double>::max();
+        result.upper[d] = std::numeric_limits<double>::lowest();
+      }
+    for (const Point<dim> &x : positions)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          result.lower[d] = std::min(result.lower[d], x[d] - reach);
+          result.upper[d] = std::max(result.upper[d], x[d] + reach);
+        }
+    return result;
+  }
+
+
+
+  Face
+  FaceExchange::own_face(const std::size_t f) const
+  {
+    Face face = surface.owned_faces()[f];
+    if (!committed.empty())
+      face.committed = committed[f];
+    return face;
+  }
+
+
+
+  void
+  FaceExchange::update(const std::vector<Point<dim>> &positions)
+  {
+    known.clear();
+    by_key.clear();
+    sent.clear();
+    received.clear();
+    const std::size_t n_own = surface.owned_faces().size();
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      {
+        for (std::size_t f = 0; f < n_own; ++f)
+          known.push_back(own_face(f));
+        return;
+      }
+
+    const unsigned int   this_rank = Utilities::MPI::this_mpi_process(communicator);
+    std::vector<Capture> captures;
+    for (const auto &of_rank :
+         gather_records(std::vector<Capture>{capture(positions)}, communicator))
+      captures.push_back(of_rank.front());
+    std::map<unsigned int, std::vector<Face>> messages;
+    for (std::size_t f = 0; f < n_own; ++f)
+      {
+        const Face face = own_face(f);
+        const Box  box  = swept_box(face);
+        for (unsigned int rank = 0; rank < captures.size(); ++rank)
+          {
+            bool meets = true;
+            for (unsigned int d = 0; d < dim; ++d)
+              meets = meets && captures[rank].lower[d] <= captures[rank].upper[d] &&
+                      box.lower_bound(d) <= captures[rank].upper[d] &&
+                      box.upper_bound(d) >= captures[rank].lower[d];
+            if (!meets)
+              continue;
+            sent[rank].push_back(f);
+            if (rank == this_rank)
+              known.push_back(face);
+            else
+              messages[rank].push_back(face);
+          }
+      }
+    if (!known.empty())
+      received[this_rank] = 0;
+    for (const auto &[rank, faces] : messages)
+      {
+        ++counted.messages;
+        counted.faces_sent += faces.size();
+      }
+    for (const auto &[rank, faces] : exchange_records(messages, communicator))
+      {
+        received[rank] = known.size();
+        known.insert(known.end(), faces.begin(), faces.end());
+      }
+  }
+
+
+
+  const Face *
+  FaceExchange::face(const std::uint64_t key) const
+  {
+    if (by_key.empty())
+      for (std::size_t i = 0; i < known.size(); ++i)
+        by_key.emplace(known[i].key, i);
+    const auto found = by_key.find(key);
+    return found == by_key.end() ? nullptr : &known[found->second];
+  }
+
+
+
+  namespace
+  {
+    /** A NormalDerivative of a face, known by its index in what was sent to the other rank. */
+    struct DerivativeOfFace
+    {
+      std::size_t      face;
+      NormalDerivative derivative;
+    };
+  } // namespace
+
+
+
+  std::unordered_map<const Face *, std::vector<NormalDerivative>>
+  FaceExchange::normal_derivatives(const std::vector<const Face *> &needed) const
+  {
+    std::unordered_map<const Face *, std::vector<NormalDerivative>> result;
+    if (kind == MasterNormal::face)
+      return result;
+    for (const Face *face : needed)
+      result[face];
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      {
+        for (auto &[face, derivative] : result)
+          derivative = surface.normal_derivative(surface.owned_faces()[index(*face)]);
+        return result;
+      }
+
+    std::map<unsigned int, std::vector<std::size_t>> questions;
+    for (const auto &[face, derivative] : result)
+      {
+        // The rank whose faces begin last before this one.
+        const std::size_t f    = index(*face);
+        auto              from = received.end();
+        for (auto it = received.begin(); it != received.end(); ++it)
+          if (it->second <= f && (from == received.end() || it->second > from->second))
+            from = it;
+        questions[from->first].push_back(f - from->second);
+      }
+    std::map<unsigned int, std::vector<DerivativeOfFace>> answers;
+    for (const auto &[rank, faces] : exchange_records(questions, communicator))
+      for (const std::size_t f : faces)
+        for (const NormalDerivative &derivative :
+             surface.normal_derivative(surface.owned_faces()[sent.at(rank)[f]]))
+          answers[rank].push_back({f, derivative});
+    for (const auto &[rank, list] : exchange_records(answers, communicator))
+      for (const DerivativeOfFace &answer : list)
+        result[&known[received.at(rank) + answer.face]].push_back(answer.derivative);
+    return result;
+  }
+} // namespace Touchstone

@@ -1,0 +1,115 @@
+#include <touchstone/contact/geometry/crossing.h>
+#include <touchstone/contact/search/swept_search.h>
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  bool
+  SweptSearch::may_cross(const SlavePoint &point, const Face &face) const
+  {
+    // Seen from the node, which then stands in the origin: the box of the face must go around it
+    // in each direction at the start, at the end, or between.
+    const FaceExchange::Box before = tree.exchange.committed_box(face),
+                            after  = tree.exchange.box(face);
+    bool around                    = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      around =
+        around &&
+        std::min(before.lower_bound(d) - point.start[d], after.lower_bound(d) - point.x[d]) <= 0. &&
+        std::max(before.upper_bound(d) - point.start[d], after.upper_bound(d) - point.x[d]) >= 0.;
+    return around;
+  }
+
+
+
+  FaceProjection
+  SweptSearch::follow(const SlavePoint &point, const Face &from) const
+  {
+    const std::vector<Face> &faces = tree.exchange.faces();
+    FaceProjection           best  = tree.project(point.x, from);
+    while (best.projection.beyond_inner > 0.)
+      {
+        const Face    &face  = *best.face;
+        FaceProjection found = best;
+        for (const std::size_t i : tree.meeting(tree.exchange.box(face)))
+          {
+            const Face &other     = faces[i];
+            const auto  end       = other.nodes.begin() + other.n_nodes();
+            const bool  neighbour = std::find_first_of(other.nodes.begin(),
+                                                      end,
+                                                      face.nodes.begin(),
+                                                      face.nodes.begin() + face.n_nodes()) != end;
+            if (!neighbour || tree.is_back_face(i, point.normal))
+              continue;
+            const FaceProjection candidate = tree.project(point.x, other);
+            // Round-off must not send it to and fro between neighbours.
+            const double tie = Tolerances::equal_squares * reach * reach;
+            if (candidate.projection.distance_squared < found.projection.distance_squared - tie)
+              found = candidate;
+          }
+        if (found.face == best.face)
+          break;
+        best = found;
+      }
+    return best;
+  }
+
+
+
+  std::optional<FaceProjection>
+  SweptSearch::passed(const SlavePoint &point, const bool penetrates) const
+  {
+    if (!tree.exchange.swept())
+      return {};
+    const std::vector<Face> &faces = tree.exchange.faces();
+    FaceExchange::Box        path({point.x, point.x});
+    path.merge_with(FaceExchange::Box({point.start, point.start}));
+    std::vector<std::pair<Crossing, const Face *>> crossings;
+    for (const std::size_t i : tree.meeting_in_step(path))
+      {
+        const Face &face = faces[i];
+        if (tree.is_back_face(i, point.normal) || !may_cross(point, face))
+          continue;
+        tree.count_candidate();
+        if (const auto found =
+              crossing(point.start, point.x, face, tree.exchange.exact_surface(face)))
+          crossings.emplace_back(*found, &face);
+      }
+    std::sort(crossings.begin(), crossings.end(), [](const auto &a, const auto &b) {
+      return a.first.time != b.first.time ? a.first.time < b.first.time
+                                          : a.second->key < b.second->key;
+    });
+
+    // How many bodies the node is in, and where it went into the first of them.
+    int         depth = 0;
+    const Face *entry = nullptr;
+    for (std::size_t i = 0; i < crossings.size(); ++i)
+      {
+        const Crossing &c = crossings[i].first;
+        // Faces that meet in an edge are passed together.
+        if (i > 0 && c.inward == crossings[i - 1].first.inward &&
+            c.time - crossings[i - 1].first.time < Tolerances::same_time)
+          continue;
+        if (c.inward && depth == 0)
+          entry = crossings[i].second;
+        depth = std::max(0, depth + (c.inward ? 1 : -1));
+      }
+    if (depth <= (penetrates ? 1 : 0))
+      return {};
+    return follow(point, *entry);
+  }
+
+
+
+  const Face *
+  SweptSearch::entry(const SlavePoint &point) const
+  {
+    const auto found = passed(point, false);
+    return found ? found->face : nullptr;
+  }
+} // namespace Touchstone

@@ -1,0 +1,236 @@
+#include <touchstone/base/expression.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
+#include <touchstone/mesh/geometry.h>
+#include <touchstone/solid/body_parameters.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  std::string
+  BodyParameters::section() const
+  {
+    return "Body " + name;
+  }
+
+
+
+  bool
+  BodyParameters::supported() const
+  {
+    return !symmetry.empty() || !fixed.empty() ||
+           std::any_of(boundaries.begin(), boundaries.end(), [](const auto &entry) {
+             const BoundaryParameters &b = entry.second;
+             return !(b.displacement_x + b.displacement_y + b.displacement_z).empty();
+           });
+  }
+
+
+
+  ElementType
+  BodyParameters::element() const
+  {
+    return element_name == "full"    ? ElementType::full
+           : element_name == "b-bar" ? ElementType::b_bar
+           : element_name == "F-bar" ? ElementType::f_bar
+                                     : ElementType::incompatible_modes;
+  }
+
+
+
+  std::string
+  BodyParameters::automatic_element(const unsigned int degree) const
+  {
+    return degree > 1                 ? "full"
+           : material.finite_strain() ? "F-bar"
+           : material.plastic()       ? "b-bar"
+                                      : "incompatible modes";
+  }
+
+
+
+  void
+  BodyParameters::declare(ParameterHandler &prm, const EarlyValues &values)
+  {
+    prm.add_parameter("Element",
+                      element_name,
+                      "How cells interpolate strain: 'full' integration of the displacements' "
+                      "gradient; 'b-bar' with a constant volume change per cell, for nearly "
+                      "incompressible material; 'incompatible modes' for bending; 'F-bar' is "
+                      "b-bar for finite strain. The latter three are for degree 1, b-bar for "
+                      "material laws of small strain, incompatible modes for the law 'linear "
+                      "elastic' only, F-bar for laws of finite strain. 'automatic' takes full "
+                      "for degree 2; for degree 1 F-bar with a law for finite strain, b-bar with "
+                      "plasticity at small strain (plastic flow keeps the volume, and full cells "
+                      "lock), and else incompatible modes.",
+                      Patterns::Selection("automatic|full|b-bar|incompatible modes|F-bar"));
+    prm.add_parameter("Symmetry",
+                      symmetry,
+                      "Plane boundaries that keep their place in the normal "
+                      "direction, by name or number.");
+    prm.add_parameter("Fixed", fixed, "Boundaries that cannot move at all, by name or number.");
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::string letter(1, "xyz"[d]);
+        const auto        formula =
+          [&](const std::string &key, std::string &value, const std::string &what) {
+            prm.add_parameter(key + " " + letter, value, what, Patterns::Anything());
+          };
+        formula("Initial velocity",
+                initial_velocity[d],
+                letter + " component of the velocity at time 0, a formula in x, y, z; empty: "
+                         "zero. [length per time]");
+        formula("Initial displacement",
+                initial_displacement[d],
+                letter + " component of the displacement that the body starts from, a formula in "
+                         "x, y, z; empty: zero. [length]");
+        formula("Body force",
+                body_force[d],
+                letter + " component of the force on the body, gravity for example, a formula in "
+                         "x, y, z, t; empty: none. [force per reference volume]");
+        formula("Reference displacement",
+                reference_displacement[d],
+                letter + " component of the displacement that the result is compared with if "
+                         "'Reference solution/Type' is 'formula', a formula in x, y, z, t; empty: "
+                         "not compared. [length]");
+      }
+    prm.add_parameter("Boundary conditions",
+                      conditions,
+                      "Boundaries, by name or number, that each have a subsection "
+                      "'Boundary NAME' with displacements or loads.");
+
+    prm.enter_subsection("Geometry");
+    {
+      geometry_type.declare_key(prm,
+                                values.in("Geometry"),
+                                "Type",
+                                "The shape of the body, which decides on the other keys here.");
+      if (!GeometryRegistry::knows(geometry_type.chosen()))
+        throw InputError(section() + "/Geometry",
+                         "Type",
+                         geometry_type.chosen(),
+                         "there is no such geometry" +
+                           did_you_mean(geometry_type.chosen(), GeometryRegistry::names()),
+                         "take one of " + quoted_list(GeometryRegistry::names()));
+      geometry_type.declare_own_keys(prm);
+      geometry = geometry_type.make();
+    }
+    prm.leave_subsection();
+
+    prm.enter_subsection("Material");
+    material.declare(prm, values.in("Material"));
+    prm.leave_subsection();
+
+    for (const std::string &boundary : conditions)
+      {
+        prm.enter_subsection("Boundary " + boundary);
+        boundaries[boundary].declare(prm);
+        prm.leave_subsection();
+      }
+  }
+
+
+
+  void
+  BodyParameters::check_element(const unsigned int degree) const
+  {
+    if (degree > 1 && element() != ElementType::full)
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "is made for degree 1, but 'Discretisation/Degree' is " +
+                         std::to_string(degree),
+                       "take the element 'automatic' or 'full', or degree 1");
+    const ElementType type = element();
+    const bool small_only  = type == ElementType::b_bar || type == ElementType::incompatible_modes;
+    if (type == ElementType::incompatible_modes && material.plastic() && !material.finite_strain())
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "has no plasticity, but 'Material/Law' is '" + material.law.name + "'",
+                       "take the element 'automatic' or 'b-bar', degree 2, or the law 'linear "
+                       "elastic'");
+    if (material.finite_strain() && small_only)
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "is for small strain, but 'Material/Law' is '" + material.law.name + "'",
+                       "take the element 'automatic', 'F-bar' or 'full', or the law "
+                       "'linear elastic'");
+    if (!material.finite_strain() && type == ElementType::f_bar)
+      throw InputError(section(),
+                       "Element",
+                       element_name,
+                       "is for finite strain, but 'Material/Law' is '" + material.law.name + "'",
+                       "take the element 'automatic', 'b-bar' or 'full', or another law");
+  }
+
+
+
+  void
+  BodyParameters::check(const unsigned int degree) const
+  {
+    geometry_type.check(section() + "/Geometry");
+    material.check(section() + "/Material");
+    check_element(degree);
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::string letter(1, "xyz"[d]);
+        for (const auto &[key, expression, variables] :
+             {std::make_tuple("Initial velocity ", &initial_velocity[d], "x,y,z"),
+              std::make_tuple("Initial displacement ", &initial_displacement[d], "x,y,z"),
+              std::make_tuple("Body force ", &body_force[d], "x,y,z,t"),
+              std::make_tuple("Reference displacement ", &reference_displacement[d], "x,y,z,t")})
+          if (!expression->empty())
+            check_expression(section(), key + letter, *expression, variables);
+      }
+
+    // Where nothing can move in some direction nothing can be pushed in it.
+    std::map<std::string, std::string> held;
+    for (const auto &[key, list] :
+         {std::make_pair("Symmetry", &symmetry), std::make_pair("Fixed", &fixed)})
+      for (const std::string &boundary : *list)
+        {
+          if (boundary.empty())
+            throw InputError(section(),
+                             key,
+                             Patterns::Tools::to_string(*list),
+                             "a name in this list is empty",
+                             "remove the comma too many");
+          if (held.count(boundary) > 0)
+            throw InputError(section(),
+                             key,
+                             boundary,
+                             held.at(boundary) == key
+                               ? "this boundary is listed twice"
+                               : "this boundary is also in the list '" + held.at(boundary) + "'",
+                             "name it once: a fixed boundary needs no symmetry");
+          held[boundary] = key;
+        }
+
+    for (const auto &[boundary, condition] : boundaries)
+      {
+        const std::string where = section() + "/Boundary " + boundary;
+        condition.check(where);
+        if (held.count(boundary) == 0)
+          continue;
+        const auto entries = condition.formulas();
+        // A symmetry plane may still be moved or loaded along itself, and
+        // which direction that is only the mesh knows; pressure is across.
+        const unsigned int n = held.at(boundary) == "Fixed" ? entries.size() : 1;
+        for (unsigned int i = 0; i < n; ++i)
+          if (!entries[i].second.empty())
+            throw InputError(where,
+                             entries[i].first,
+                             entries[i].second,
+                             "this boundary is held by '" + held.at(boundary) + "' of '" +
+                               section() + "'",
+                             "remove this entry or take the boundary from the list '" +
+                               held.at(boundary) + "'");
+      }
+  }
+} // namespace Touchstone

@@ -1,0 +1,93 @@
+#include <touchstone/base/expression.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/solid/boundary_parameters.h>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  void
+  BoundaryParameters::declare(ParameterHandler &prm)
+  {
+    const std::string formula = " A formula in x, y, z (reference coordinates) and t (time); ";
+    const auto        component =
+      [&](const std::string &name, std::string &value, const std::string &what) {
+        prm.add_parameter(name, value, what, Patterns::Anything());
+      };
+    const std::string moved = "component of the displacement." + formula + "empty: free. [length]";
+    component("Displacement x", displacement_x, "Prescribed x " + moved);
+    component("Displacement y", displacement_y, "Prescribed y " + moved);
+    component("Displacement z", displacement_z, "Prescribed z " + moved);
+    const std::string loaded = "component of the traction on the reference area." + formula +
+                               "empty: none. [force per area]";
+    component("Traction x", traction_x, "The x " + loaded);
+    component("Traction y", traction_y, "The y " + loaded);
+    component("Traction z", traction_z, "The z " + loaded);
+    component("Pressure",
+              pressure,
+              "Pressure against the outward normal of the surface." + formula +
+                "empty: none. [force per area]");
+    prm.add_parameter("Pressure follows",
+                      pressure_follows,
+                      "'surface': the pressure acts on the deformed surface, along its present "
+                      "normal; 'nothing': on the reference area along the normal there (a dead "
+                      "load); 'automatic': on the deformed surface if the material has a law for "
+                      "finite strain.",
+                      Patterns::Selection("automatic|surface|nothing"));
+  }
+
+
+
+  std::vector<std::pair<std::string, std::string>>
+  BoundaryParameters::formulas() const
+  {
+    return {{"Pressure", pressure},
+            {"Displacement x", displacement_x},
+            {"Displacement y", displacement_y},
+            {"Displacement z", displacement_z},
+            {"Traction x", traction_x},
+            {"Traction y", traction_y},
+            {"Traction z", traction_z}};
+  }
+
+
+
+  void
+  BoundaryParameters::check(const std::string &section) const
+  {
+    const std::string *displacements[] = {&displacement_x, &displacement_y, &displacement_z};
+    const std::string *tractions[]     = {&traction_x, &traction_y, &traction_z};
+    bool               all_moved       = true;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::string letter(1, "xyz"[d]);
+        if (!displacements[d]->empty())
+          check_expression(section, "Displacement " + letter, *displacements[d]);
+        if (!tractions[d]->empty())
+          check_expression(section, "Traction " + letter, *tractions[d]);
+        if (!displacements[d]->empty() && !tractions[d]->empty())
+          throw InputError(section,
+                           "Traction " + letter,
+                           *tractions[d],
+                           "contradicts 'Displacement " + letter +
+                             "', which moves the same component",
+                           "prescribe either the displacement or the traction");
+        all_moved = all_moved && !displacements[d]->empty();
+      }
+    if (!pressure.empty())
+      check_expression(section, "Pressure", pressure);
+    if (pressure.empty() && pressure_follows != "automatic")
+      throw InputError(section,
+                       "Pressure follows",
+                       pressure_follows,
+                       "there is no pressure on this boundary",
+                       "remove the key, or set 'Pressure'");
+    if (!pressure.empty() && all_moved)
+      throw InputError(section,
+                       "Pressure",
+                       pressure,
+                       "has no effect where all three displacements are prescribed",
+                       "remove the pressure or one of the displacements");
+  }
+} // namespace Touchstone

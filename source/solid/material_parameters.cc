@@ -1,0 +1,147 @@
+#include <touchstone/base/input_error.h>
+#include <touchstone/solid/hardening_law.h>
+#include <touchstone/solid/hyperelastic_law.h>
+#include <touchstone/solid/material_law.h>
+#include <touchstone/solid/material_parameters.h>
+
+namespace Touchstone
+{
+  using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
+
+  namespace
+  {
+    bool
+    has_plasticity(const std::string &law)
+    {
+      return SmallStrainRegistry::knows(law) || FiniteStrainRegistry::knows(law);
+    }
+  } // namespace
+
+
+
+  bool
+  MaterialParameters::plastic() const
+  {
+    return has_plasticity(law.name);
+  }
+
+
+
+  bool
+  MaterialParameters::finite_strain() const
+  {
+    return !linear() && !SmallStrainRegistry::knows(law.name);
+  }
+
+
+
+  void
+  MaterialParameters::declare(ParameterHandler &prm, const EarlyValues &values)
+  {
+    law.declare_key(prm,
+                    values,
+                    "Law",
+                    "The material law, always isotropic. 'linear elastic': small "
+                    "strain and small rotations.",
+                    {"linear elastic"});
+    prm.add_parameter("Young modulus",
+                      young_modulus,
+                      "Young's modulus, greater than zero. Required. "
+                      "[force per area]",
+                      Patterns::Double(),
+                      /*has_to_be_set=*/true);
+    prm.add_parameter("Poisson ratio",
+                      poisson_ratio,
+                      "Poisson's ratio, greater than -1 and less than 0.5. "
+                      "[no unit]",
+                      Patterns::Double());
+    prm.add_parameter("Density",
+                      density,
+                      "Mass per volume, for inertia. [mass per volume]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Rayleigh mass",
+                      rayleigh_mass,
+                      "Damping force per momentum. [1 / time]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Rayleigh stiffness",
+                      rayleigh_stiffness,
+                      "Damping force per elastic force of the same velocity field, with the "
+                      "stiffness of the undeformed body: it also resists finite rotations. [time]",
+                      Patterns::Double(0.));
+    law.declare_own_keys(prm);
+    if (!has_plasticity(law.chosen()))
+      return;
+    prm.enter_subsection("Plasticity");
+    hardening_type.declare_key(
+      prm,
+      values.in("Plasticity"),
+      "Hardening",
+      "Isotropic hardening: how the yield stress depends on the equivalent plastic strain p.");
+    hardening_type.declare_own_keys(prm);
+    hardening = hardening_type.make();
+    prm.add_parameter("Kinematic modulus",
+                      kinematic_modulus,
+                      "Kinematic hardening, which may be added to the isotropic one: increase of "
+                      "the uniaxial back stress per plastic strain, at least zero; 0 for none. "
+                      "[force per area]",
+                      Patterns::Double());
+    prm.add_parameter("Kinematic recovery",
+                      kinematic_recovery,
+                      "Dynamic recovery of the back stress after Armstrong and Frederick, at "
+                      "least zero: the uniaxial back stress tends to 'Kinematic modulus' over "
+                      "this; 0 for linear kinematic hardening. [no unit]",
+                      Patterns::Double());
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  MaterialParameters::check(const std::string &section) const
+  {
+    if (young_modulus <= 0.)
+      throw InputError(section,
+                       "Young modulus",
+                       Patterns::Tools::to_string(young_modulus),
+                       "must be positive",
+                       "give Young's modulus in the scene's unit of force per "
+                       "area, e.g. 210000 for steel in N and mm");
+    if (poisson_ratio <= -1. || poisson_ratio >= 0.5)
+      throw InputError(section,
+                       "Poisson ratio",
+                       Patterns::Tools::to_string(poisson_ratio),
+                       "must be greater than -1 and less than 0.5",
+                       std::string("for incompressible material take 0.4999 with the element '") +
+                         (finite_strain() ? "F-bar" : "b-bar") + "' or degree 2");
+    law.check(section);
+    if (hardening)
+      check_plasticity(section + "/Plasticity");
+  }
+
+
+
+  void
+  MaterialParameters::check_plasticity(const std::string &section) const
+  {
+    hardening_type.check(section);
+    if (!(kinematic_modulus >= 0.))
+      throw InputError(section,
+                       "Kinematic modulus",
+                       Patterns::Tools::to_string(kinematic_modulus),
+                       "must not be negative",
+                       "give the increase of the back stress per plastic strain, or 0 for none");
+    if (!(kinematic_recovery >= 0.))
+      throw InputError(section,
+                       "Kinematic recovery",
+                       Patterns::Tools::to_string(kinematic_recovery),
+                       "must not be negative",
+                       "give 0 for linear kinematic hardening");
+    if (kinematic_recovery > 0. && kinematic_modulus == 0.)
+      throw InputError(section,
+                       "Kinematic recovery",
+                       Patterns::Tools::to_string(kinematic_recovery),
+                       "has no effect while 'Kinematic modulus' is 0",
+                       "set 'Kinematic modulus', or remove this key");
+  }
+} // namespace Touchstone
