@@ -1,47 +1,84 @@
 #!/bin/sh
 # Run the scenes of the documentation and make its pictures, doc/pictures/*.png.
-# Needs ParaView and gnuplot: apt-get install paraview xvfb xauth gnuplot-nox
+# Needs VTK, an X server and gnuplot:
+#   apt-get install python3-vtk9 python3-numpy xvfb xauth gnuplot-nox
 #
-# Usage: contrib/make_pictures.sh [PROGRAM]      (build/touchstone)
+# Usage: contrib/make_pictures.sh [PROGRAM [NAME...]]      (build/touchstone, all)
+#
+# NAME is that of a picture of a scene (press_fit, twist, ...), or ironing_forces, partial_slip,
+# bar_impact, plate_drop_energies. Runs are kept in $TOUCHSTONE_RUNS (output/pictures) and not
+# repeated; plate_drop takes minutes, ironing ten.
 set -eu
 # One display for all pictures; its server needs a moment to start.
 [ -n "${DISPLAY-}" ] || exec xvfb-run -n $((100 + $$ % 900)) -w 5 sh "$0" "$@"
 cd "$(dirname -- "$0")/.."
 program=${1:-build/touchstone}
-runs=output/pictures
+[ $# -eq 0 ] || shift
+wanted=$*
+runs=${TOUCHSTONE_RUNS:-output/pictures}
 pictures=doc/pictures
 mkdir -p "$runs" "$pictures"
+export OPENBLAS_NUM_THREADS=1
 
+# wants NAME: whether this picture is asked for.
+wants()
+{
+  [ -z "$wanted" ] && return 0
+  case " $wanted " in *" $1 "*) return 0 ;; esac
+  return 1
+}
+
+# run SCENE [OPTION...]: once.
 run()
 {
-  mkdir -p "$(dirname "$runs/$1")"
-  [ -f "$runs/$1/solution.pvd" ] || "$program" --output "$runs/$1" "prm/$1.prm" >"$runs/$1.log"
+  scene=$1
+  shift
+  mkdir -p "$(dirname "$runs/$scene")"
+  [ -f "$runs/$scene/summary.json" ] ||
+    "$program" --output "$runs/$scene" "$@" "prm/$scene.prm" >"$runs/$scene.log"
 }
 
-# render NAME OPTION...
+# render SCENE OPTION...: run it and make a picture with contrib/render.py.
 render()
 {
-  name=$1
+  name=${1##*/}
+  wants "$name" || return 0
+  run "$1"
+  folder=$runs/$1
   shift
-  pvbatch contrib/render.py "$runs/$name" "$pictures/$name.png" "$@"
+  /usr/bin/python3 contrib/render.py "$folder" "$pictures/$name.png" --unit MPa "$@"
 }
 
-run press_fit
-render press_fit --unit MPa --camera "0.35 -0.6 1" --up "0 1 0" \
-  --contact-camera "-1 -1 0.7" --contact-up "0 0 1"
+small="520 400"
+render press_fit --camera "0.35 -0.6 1" --up "0 1 0" --contact-camera "-1 -1 0.7" --contact-up "0 0 1"
+render two_tubes --camera "0.5 0.75 0.9" --up "0 1 0" --contact-camera "0.5 -0.6 -0.6" --contact-up "0 1 0"
+render imported_mesh --size "$small" --camera "0.35 -0.6 1" --up "0 1 0" --contact-camera "-1 -1 0.7" \
+  --contact-up "0 0 1"
+render patch_test --size "$small" --camera "1 -1.4 0.7" --contact-camera "0.6 -1 1.2"
+render hertz_sphere --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.02" --width 0.9 \
+  --contact-camera "-0.4 -0.8 1.6" --contact-width 0.55 --points "$runs/hertz_sphere.txt"
+render hertz_rigid_plane --size "$small" --camera "-1 -0.6 0.35" --focus "0.1 0.1 0.1" --width 0.9 \
+  --contact-camera "-0.4 -0.8 1.6" --contact-width 0.55
+render hertz_sphere_adaptive --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.02" --width 0.9 \
+  --contact-camera "-0.4 -0.8 1.6" --contact-width 0.55 --no-outline
+render plate_drop --field equivalent_plastic_strain --unit "" --contact-unit MPa --camera "0 -1 0.2" \
+  --focus "0 0 0.08" --width 0.36 --contact-camera "0 -0.3 -1" --contact-width 0.2
+render benchmarks/cattaneo_mindlin --size "$small" --camera "0.3 -1 0.25" --focus "0 0 0" --width 4 \
+  --contact traction_x --contact-camera "0 0 1" --contact-up "0 1 0" --contact-width 2.6
+render benchmarks/cook --size "$small" --no-contact --camera "0.15 0.1 1" --up "0 1 0"
+render benchmarks/hill_tube --size "$small" --field equivalent_plastic_strain --unit "" --contact-unit MPa \
+  --camera "0.35 -0.6 1" --up "0 1 0" --no-contact
+render bolted_joint --camera "-0.7 -1 0.7" --contact-camera "0.2 -1 1.6"
+render benchmarks/ironing --size "760 400" --camera "0 -1 0" --no-contact
+render benchmarks/sliding_block --size "$small" --camera "1 -1.4 0.7" --contact traction_x \
+  --contact-camera "0.6 -1 -1.2"
+render benchmarks/sliding_block_force --size "$small" --camera "1 -1.4 0.7" --contact traction_x \
+  --contact-camera "0.6 -1 -1.2"
+render benchmarks/taylor_bar --size "$small" --field equivalent_plastic_strain --unit "" --no-contact \
+  --camera "1 -1 0.25" --mirror "x"
+render benchmarks/twist --camera "1 -1.2 0.6" --contact-camera "0.3 -0.5 -1" --contact-up "0 1 0"
 
-run two_tubes
-render two_tubes --unit MPa --camera "0.5 0.75 0.9" --up "0 1 0" --zoom 0.95 \
-  --contact-camera "0.5 -0.6 -0.6" --contact-up "0 1 0"
-
-run hertz_sphere_adaptive
-render hertz_sphere_adaptive --unit MPa --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.05" --zoom 6 \
-  --contact-camera "-0.4 -0.8 1.6" --contact-zoom 9
-
-run hertz_sphere
-render hertz_sphere --unit MPa --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.05" --zoom 6 \
-  --contact-camera "-0.4 -0.8 1.6" --contact-zoom 9 --points "$runs/hertz_sphere.txt"
-
+if wants hertz_sphere; then
 # Hertz' pressure at the force that was computed: four times that of the quarter.
 awk '/"force":/ { gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print 4 * (f[3] < 0 ? -f[3] : f[3]) }' \
   "$runs/hertz_sphere/summary.json" >"$runs/hertz_force.txt"
@@ -58,11 +95,13 @@ set xrange [0:0.26]; set yrange [0:1600]; set key top right; set grid; set sampl
 plot (x < a ? p0 * sqrt(1 - (x / a)**2) : 0) title "Hertz, p_0 (1 - r^2/a^2)^{1/2}" lw 2 lc rgb "#b03030", \\
   "$runs/hertz_sphere.txt" using (sqrt(\$1**2 + \$2**2)):(\$4) title "slave nodes" pt 7 ps 0.8 lc rgb "#2040a0"
 END
+fi
 
-# Shallow ironing: forces per mm of depth, ten times those of the slice. Published:
-# smallest and largest of Fischer and Wriggers 2006, Hartmann et al. 2009, Yastrebov
-# 2011, Poulios and Renard 2015 and Code_Aster, as digitised in the solids4foam
-# tutorial shallowIroning, at the end of the press and in the middle of the draw.
+# Shallow ironing: forces per mm of depth, ten times those of the slice. Published: smallest and
+# largest of Fischer and Wriggers 2006, Hartmann et al. 2009, Yastrebov 2011, Poulios and Renard
+# 2015 and Code_Aster, as digitised in the solids4foam tutorial shallowIroning, at the end of the
+# press and in the middle of the draw.
+if wants ironing_forces; then
 run benchmarks/ironing
 gnuplot <<END
 set terminal pngcairo size 800,480 font "DejaVu Sans,12"
@@ -81,14 +120,12 @@ plot "$runs/benchmarks/ironing/statistics" using (scaled(\$2)):(10 * \$9) with l
 1.5 145 102.1 188.8
 e
 END
-
-run benchmarks/twist
-pvbatch contrib/render.py "$runs/benchmarks/twist" "$pictures/twist.png" --unit MPa \
-  --camera "1 -1.2 0.6" --contact-camera "0.3 -0.5 -1" --contact-up "0 1 0"
+fi
 
 # Partial slip: tractions at the nodes against Cattaneo and Mindlin.
+if wants partial_slip; then
 run benchmarks/cattaneo_mindlin
-perl tests/checks/contact_points.pl "$runs"/benchmarks/cattaneo_mindlin/contact_0008.vtu >"$runs/slip.txt"
+contrib/contact_points "$runs"/benchmarks/cattaneo_mindlin/contact_0008.vtu >"$runs/slip.txt"
 awk '/"force":/ { sub(/.*force/, ""); gsub(/[^-+0-9.eE,]/, ""); split($0, f, ","); if (!n++) print f[3] / 0.25, -f[1] / 0.25 }' \
   "$runs/benchmarks/cattaneo_mindlin/summary.json" >"$runs/slip_forces.txt"
 gnuplot <<END
@@ -106,8 +143,10 @@ plot mu * p0 * root(x, a) title "limit {/Symbol m}p" lw 1 dt 2 lc rgb "#606060",
   "$runs/slip.txt" using 1:(0.3 * \$7) title "nodes, {/Symbol m}p" pt 6 ps 0.7 lc rgb "#606060", \\
   "" using 1:(-\$11) title "nodes, shear traction" pt 7 ps 0.7 lc rgb "#2040a0"
 END
-# Impact of two bars: the contact stress over time with three schemes, half of the
-# Courant step.
+fi
+
+# Impact of two bars: the contact stress over time with three schemes, half of the Courant step.
+if wants bar_impact; then
 for scheme in newmark contact_stabilized generalized_alpha; do
   mass=lumped
   [ "$scheme" != generalized_alpha ] || mass="dispersion corrected"
@@ -127,11 +166,11 @@ plot "$runs/bars_newmark/statistics" using (1e6 * \$2):(abs(\$7) / 100) with lin
   "$runs/bars_contact_stabilized/statistics" using (1e6 * \$2):(abs(\$7) / 100) with lines lw 2 lc rgb "#2040a0" title "contact\\_stabilized, lumped", \\
   "$runs/bars_generalized_alpha/statistics" using (1e6 * \$2):(abs(\$7) / 100) with lines lw 2 lc rgb "#b03030" title "generalized\\_alpha, dispersion corrected"
 END
+fi
 
 # The plate: energies and contact force, with the impacts of the published case as well.
+if wants plate_drop_energies; then
 run plate_drop
-render plate_drop --field equivalent_plastic_strain --camera "0 -1 0.2" --focus "0 0 0.08" \
-  --zoom 4.5 --contact-zoom 1
 [ -f "$runs/plate_elastic/summary.json" ] || "$program" --output "$runs/plate_elastic" \
   --set "Time integration/Impact=elastic" --set "Linear solver/Type=Belos CG" \
   --set "Output/VTU interval=0" prm/plate_drop.prm >"$runs/plate_elastic.log"
@@ -149,4 +188,5 @@ set title "Contact force"; set ylabel "N"; set key bottom right
 plot "$runs/plate_elastic/statistics" using (1e6*\$2):9 with lines lw 1 lc rgb "#b0b0b0" title "elastic impacts", \\
   "$runs/plate_drop/statistics" using (1e6*\$2):9 with lines lw 2 lc rgb "#2040a0" title "no rebound"
 END
+fi
 ls -l "$pictures"
