@@ -28,7 +28,7 @@ namespace Touchstone
      * whether the row opens is for the sign of its force to say. Against the gap, scaled by the
      * stiffness of a cell, the contact force of a thin body counts for nothing: a belt on a drum
      * would lose all its rows whenever it slides. */
-    constexpr double gap_of_linearisation = 0.1;
+    constexpr double gap_of_linearisation = 1e-2;
 
     /**
      * How a row that closes begins. What closes the gap and what takes back the
