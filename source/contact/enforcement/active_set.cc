@@ -23,13 +23,6 @@ namespace Touchstone
      * it: keeps nodes from chattering between stick and slip. */
     constexpr double on_the_cone = 1e-8;
 
-    /** Gap over the size of a face that a row in contact can have because normals and contact
-     * points change within an iteration. The linear system has closed it and closes it again:
-     * whether the row opens is for the sign of its force to say. Against the gap, scaled by the
-     * stiffness of a cell, the contact force of a thin body counts for nothing: a belt on a drum
-     * would lose all its rows whenever it slides. */
-    constexpr double gap_of_linearisation = 1e-2;
-
     /**
      * How a row that closes begins. What closes the gap and what takes back the
      * slip are estimated with the same stiffness: does friction bear the latter?
@@ -76,9 +69,7 @@ namespace Touchstone
         return {-row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.,
                 status_of_closing(row)};
       const double scale = row.stiffness * row.size;
-      const double gap   = row.gap / row.size;
-      const double slack = row.normal_accepted ? gap_of_linearisation : 0.;
-      const double trial = row.lambda / scale - (gap > 0. ? std::max(0., gap - slack) : gap);
+      const double trial = row.lambda / scale - row.gap / row.size;
       if (trial < -gap_tolerance)
         return {-trial, ContactStatus::open};
       if (!row.friction || row.dropped())
