@@ -75,11 +75,10 @@ namespace Touchstone
           ContactRow &row = rows[p][k];
           if (!row.friction || row.status == ContactStatus::no_partner)
             continue;
-          FrictionState       &f          = *row.friction;
-          const Tensor<2, dim> tangential = tangential_projector(row.normal);
-          const Tensor<1, dim> direction  = in_plane_rotation(row, pairs[p].tangents[k]);
-          f.frame[0]                      = direction / direction.norm();
-          f.frame[1]                      = cross_product_3d(row.normal, f.frame[0]);
+          FrictionState       &f         = *row.friction;
+          const Tensor<1, dim> direction = in_plane_rotation(row, pairs[p].tangents[k]);
+          f.frame[0]                     = direction / direction.norm();
+          f.frame[1]                     = cross_product_3d(row.normal, f.frame[0]);
           f.find_tangents(row.normal);
           f.start = f.tangential * f.carry(f.stored);
           f.slip_gradient.clear();
