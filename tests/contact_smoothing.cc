@@ -90,9 +90,10 @@ namespace
         pair.move_surfaces(zero);
         for (const std::string kind : {"face", "averaged", "smoothed"})
           {
-            const unsigned int n_steps = 1000;
-            const MasterNormal k       = master_normal(kind);
-            const Ride         r       = ride(pair, k, path, distance, n_steps, height);
+            const unsigned int    n_steps = 1000;
+            Keyword<MasterNormal> k       = ContactPairParameters().master_normal;
+            k                             = kind;
+            const Ride r                  = ride(pair, k, path, distance, n_steps, height);
             // A jump is what does not become smaller with the steps.
             const Ride fine = ride(pair, k, path, distance, 10 * n_steps, height);
             const auto jump = [](const double a, const double b) {

@@ -2,7 +2,8 @@
 #define touchstone_tests_contact_support_h
 
 #include <touchstone/contact/contact.h>
-#include <touchstone/drive/pair_inputs.h>
+#include <touchstone/scene/pair_input.h>
+#include <touchstone/scene/scene.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -73,9 +74,9 @@ namespace Touchstone
   public:
     PairOfScene(const std::string &text, const std::vector<std::string> &overrides = {})
       : scene(text, "scene.prm", overrides)
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
-      , pair(pair_inputs(scene, forest, solid).at(0))
+      , forest(scene.forest_input(), "", MPI_COMM_WORLD)
+      , solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD)
+      , pair(pair_input(scene, forest, solid, 0))
       , slave(&pair.slave())
       , master(pair.master())
       , pairing(&pair.pairing())

@@ -34,7 +34,7 @@ namespace
         sliding += node.condition.force_direction.norm_square() > 0.;
         across += !node.normal;
       }
-    const Mass mass(run.scene, solid, {}, 0.1);
+    const Mass mass(run.scene.time_integration.mass, solid, {}, 0.1);
     Impact     impact(constraints, mass, solid, [](Vec &) {});
 
     Vec positions(solid.owned, solid.communicator), v(positions);

@@ -63,8 +63,9 @@ namespace
   {
     const Scene scene(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/" + from}),
       other(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/" + to});
-    Forest forest(scene, "", MPI_COMM_WORLD), other_forest(other, "", MPI_COMM_WORLD);
-    Solid  solid(scene, forest, MPI_COMM_WORLD);
+    Forest forest(scene.forest_input(), "", MPI_COMM_WORLD),
+      other_forest(other.forest_input(), "", MPI_COMM_WORLD);
+    Solid solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
     if (refined)
       refine(forest, solid);
     const Touchstone::Vector x = positions(solid);
@@ -86,7 +87,7 @@ namespace
     auto       archive = reader(pieces);
 
     other_forest.refine(archive.refined_cells(other_forest.first_level()));
-    Solid other_solid(other, other_forest, MPI_COMM_WORLD);
+    Solid other_solid(other.bodies, other.discretisation.degree, other_forest, MPI_COMM_WORLD);
     archive.connect(other_solid);
     Touchstone::Vector difference = positions(other_solid);
     difference -= archive.field("positions");

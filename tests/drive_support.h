@@ -73,8 +73,8 @@ end
         const std::vector<std::string> &overrides,
         const MPI_Comm                  communicator)
       : scene(text, "scene.prm", overrides)
-      , forest(scene, "", communicator)
-      , solid(scene, forest, communicator)
+      , forest(scene.forest_input(), "", communicator)
+      , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
       , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
       , problem(scene, forest, solid, timer)
     {

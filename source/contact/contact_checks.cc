@@ -39,7 +39,8 @@ namespace Touchstone
     {
       const Vector forces = normal_forces(contact, pair, solid);
       // Overlaps can be meant.
-      const bool overlaps = pair.parameters().initial_overlap == "interference";
+      const bool overlaps =
+        pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference;
       if (!pair.master())
         return overlaps ? obstacle_within_face(solid,
                                                pair.parameters(),
@@ -105,17 +106,19 @@ namespace Touchstone
             size   = std::max(size, row.size);
             overlapping += (gap < -negligible_overlap * row.size);
           }
-        const unsigned int total     = Utilities::MPI::sum(pair.rows().size(), communicator);
-        lowest                       = Utilities::MPI::min(lowest, communicator);
-        size                         = Utilities::MPI::max(size, communicator);
-        partner                      = Utilities::MPI::sum(partner, communicator);
-        overlapping                  = Utilities::MPI::sum(overlapping, communicator);
-        const std::string &treatment = pair.parameters().initial_overlap;
-        const std::string  overlap   = std::string(": an initial overlap") +
-                                    (lowest < -size ? " larger than a face" : "") + ", " +
-                                    (treatment == "adjust" ? "adjusted to no gap"
-                                     : treatment == "ramp" ? "an interference that grows with time"
-                                                           : "taken as interference");
+        const unsigned int total = Utilities::MPI::sum(pair.rows().size(), communicator);
+        lowest                   = Utilities::MPI::min(lowest, communicator);
+        size                     = Utilities::MPI::max(size, communicator);
+        partner                  = Utilities::MPI::sum(partner, communicator);
+        overlapping              = Utilities::MPI::sum(overlapping, communicator);
+        const ContactPairParameters::Overlap treatment = pair.parameters().initial_overlap;
+        const std::string                    overlap =
+          std::string(": an initial overlap") + (lowest < -size ? " larger than a face" : "") +
+          ", " +
+          (treatment == ContactPairParameters::Overlap::adjust ? "adjusted to no gap"
+           : treatment == ContactPairParameters::Overlap::ramp
+             ? "an interference that grows with time"
+             : "taken as interference");
         char text[300];
         if (partner == 0)
           std::snprintf(text,

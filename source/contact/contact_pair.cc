@@ -12,7 +12,8 @@ namespace Touchstone
   ContactPair::ContactPair(const ContactPairInput &input)
     : input(input)
     , is_tied(input.parameters.tied())
-    , small(is_tied || (input.obstacle == nullptr && input.parameters.sliding == "small"))
+    , small(is_tied || (input.obstacle == nullptr &&
+                        input.parameters.sliding == ContactPairParameters::Sliding::small))
     , slave_surface(
         make_surface(input.slave_body, input.parameters.slave_boundaries, "Slave boundaries"))
   {
@@ -57,9 +58,10 @@ namespace Touchstone
                             const std::string              &key) const
   {
     const std::string section = input.parameters.section();
-    const bool        exact   = (input.parameters.contact_geometry == "manifold");
-    const auto        ids     = input.forest.boundary_ids(body, boundaries, section, key);
-    auto surface = std::make_unique<Surface>(input.solid, input.forest, body, ids, exact);
+    const bool        exact =
+      (input.parameters.contact_geometry == ContactPairParameters::Shape::manifold);
+    const auto ids     = input.forest.boundary_ids(body, boundaries, section, key);
+    auto       surface = std::make_unique<Surface>(input.solid, input.forest, body, ids, exact);
     if (surface->largest_face() == 0.)
       throw InputError(section, key, "", "these boundaries have no faces", "check the mesh.");
     return surface;
@@ -106,17 +108,17 @@ namespace Touchstone
     std::vector<FrictionRow> result(present.size());
     if (!input.parameters.friction)
       return result;
-    const std::vector<Stencil> tangents = slave_surface->tangents();
+    const std::vector<std::array<Stencil, 2>> tangents = slave_surface->material_tangents();
     for (std::size_t k = 0; k < result.size(); ++k)
       {
         FrictionRow &row = result[k];
         row.law          = input.parameters.friction.get();
         if (const auto found = mirrors.find(present[k].slave); found != mirrors.end())
           row.mirrors = found->second;
-        row.tangent = tangents[k];
-        row.small   = small;
-        row.exact   = (contact.friction == "exact");
-        row.alpha   = 10. * contact.tangential_factor * present[k].stiffness;
+        row.material_tangents = tangents[k];
+        row.small             = small;
+        row.exact             = (contact.friction == ContactParameters::Stick::exact);
+        row.alpha             = 10. * contact.tangential_factor * present[k].stiffness;
       }
     return result;
   }
@@ -215,17 +217,19 @@ namespace Touchstone
   void
   ContactPair::apply_overlap()
   {
-    const std::string &treatment = input.parameters.initial_overlap;
+    const ContactPairParameters::Overlap treatment = input.parameters.initial_overlap;
     for (std::size_t k = 0; k < present.size(); ++k)
       {
         ContactRow &row = present[k];
         if (!row.has_partner)
           continue;
-        if (!started && treatment != "interference")
+        if (!started && treatment != ContactPairParameters::Overlap::interference)
           overlaps[k] = std::min(row.gap, 0.);
         if (overlaps[k] < 0.)
           {
-            const double part = treatment == "ramp" ? std::max(0., 1. - time / input.end_time) : 1.;
+            const double part = treatment == ContactPairParameters::Overlap::ramp
+                                  ? std::max(0., 1. - time / input.end_time)
+                                  : 1.;
             row.gap -= part * overlaps[k];
             row.gap_vector -= part * overlaps[k] * row.normal;
           }

@@ -1,6 +1,6 @@
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/contact_counts.h>
 #include <touchstone/contact/results.h>
-#include <touchstone/contact/work.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -109,10 +109,10 @@ namespace Touchstone
 
 
 
-  ContactWork
-  contact_work(const Contact &contact)
+  ContactCounts
+  contact_counts(const Contact &contact)
   {
-    ContactWork sum;
+    ContactCounts sum;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);

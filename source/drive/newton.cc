@@ -23,7 +23,7 @@ namespace Touchstone
     public:
       explicit LineSearch(const NewtonParameters &parameters)
         : parameters(parameters)
-        , on(parameters.line_search == "automatic")
+        , on(parameters.line_search == NewtonParameters::LineSearch::automatic)
       {
       }
 

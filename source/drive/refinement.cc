@@ -76,12 +76,12 @@ namespace Touchstone
 
 
 
-  Refinement::Refinement(const Scene &scene, Forest &forest, Solid &solid)
-    : scene(scene)
+  Refinement::Refinement(const RefinementParameters &parameters, Forest &forest, Solid &solid)
+    : parameters(parameters)
     , forest(forest)
     , solid(solid)
   {
-    region = formulas.add("Refinement", "Region", scene.refinement.region);
+    region = formulas.add("Refinement", "Region", parameters.region);
   }
 
 
@@ -89,7 +89,7 @@ namespace Touchstone
   int
   Refinement::finest_level() const
   {
-    return std::min<int>(10, forest.first_level() + scene.refinement.maximum_level);
+    return std::min<int>(10, forest.first_level() + parameters.maximum_level);
   }
 
 
@@ -236,13 +236,14 @@ namespace Touchstone
   double
   Refinement::estimate(const Step &problem)
   {
-    const std::string &estimator = scene.refinement.estimator;
-    const Vector       u         = problem.ghosted_displacement();
+    using Estimator = RefinementParameters::Estimator;
+    const Vector u  = problem.ghosted_displacement();
     errors.reinit(forest.triangulation.n_active_cells());
     variation.reinit(forest.triangulation.n_active_cells());
-    if (estimator == "region")
+    if (parameters.estimator == Estimator::region)
       return 0.;
-    errors = estimator == "Kelly" ? jump_errors(scene, solid, u) : recovery_errors(scene, solid, u);
+    errors =
+      parameters.estimator == Estimator::kelly ? jump_errors(solid, u) : recovery_errors(solid, u);
     variation           = pressure_variation(problem.contact_state().fields(false),
                                    pair_boundaries(problem.contact_state()));
     const double energy = problem.strain_energy();
@@ -307,8 +308,7 @@ namespace Touchstone
   bool
   Refinement::mark(const Step &problem, const double time)
   {
-    const RefinementParameters &parameters = scene.refinement;
-    auto                       &mesh       = forest.triangulation;
+    auto &mesh = forest.triangulation;
 
     const double high  = bulk_threshold(variation, parameters.contact_fraction),
                  large = bulk_threshold(errors, parameters.refine_fraction);

@@ -1,7 +1,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/contact_counts.h>
 #include <touchstone/contact/results.h>
-#include <touchstone/contact/work.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/output/resources.h>
@@ -22,13 +22,14 @@ namespace Touchstone
     std::shared_ptr<ReferenceSolution>
     make_reference(const Scene &scene)
     {
-      if (ReferenceRegistry::records().count(scene.reference.type) == 0)
+      const std::shared_ptr<ReferenceSolution> result = scene.reference.type.make(scene);
+      if (!result)
         throw InputError("Reference solution",
                          "Type",
-                         scene.reference.type,
+                         scene.reference.type.name,
                          "there is no such reference solution",
                          "choose one of " + ReferenceRegistry::selection() + ".");
-      return ReferenceRegistry::make(scene.reference.type, scene);
+      return result;
     }
 
     std::string
@@ -59,10 +60,10 @@ namespace Touchstone
     , folder(scene.output.directory, communicator)
     , log(folder, terminal, resume)
     , warnings(log)
-    , forest(scene, folder_of_scene, communicator)
-    , solid(scene, forest, communicator)
+    , forest(scene.forest_input(), folder_of_scene, communicator)
+    , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
     , problem(Step::make(scene, forest, solid, timer))
-    , refinement(scene, forest, solid)
+    , refinement(scene.refinement, forest, solid)
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
     , volume_output(solid, folder)
@@ -148,12 +149,12 @@ namespace Touchstone
 
 
   void
-  Simulation::write_pictures(const unsigned int step, const double time)
+  Simulation::write_vtu(const unsigned int step, const double time)
   {
-    if (last_picture == step)
+    if (last_vtu_step == step)
       return;
     TimerOutput::Scope scope(timer, "output");
-    last_picture       = step;
+    last_vtu_step      = step;
     const Vector u     = problem->ghosted_displacement();
     const auto   rates = problem->time_integration().rates();
     Vector       velocity;
@@ -175,10 +176,13 @@ namespace Touchstone
                           const unsigned int newton,
                           const unsigned int cuts)
   {
-    const Vector u       = problem->ghosted_displacement();
-    const auto   results = pair_results(problem->contact_state(), u);
-    StepRecord   record;
-    record.step              = step;
+    const Vector  u       = problem->ghosted_displacement();
+    const auto    results = pair_results(problem->contact_state(), u);
+    ConvergedStep record;
+    record.solid             = &solid;
+    record.displacement      = &u;
+    record.points            = contact_points(problem->contact_state(), u);
+    record.number            = step;
     record.time              = time;
     record.step_size         = size;
     record.newton_iterations = newton;
@@ -202,7 +206,7 @@ namespace Touchstone
     const Energies &energies  = problem->time_integration().committed_energies();
     record.energies["strain"] = energies.strain;
     if (solid.has_history())
-      record.energies["plastic"] = energies.plastic;
+      record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
     if (problem->time_integration().dynamic())
       {
         record.energies["kinetic"]       = energies.kinetic;
@@ -232,9 +236,11 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);
     }
+    for (const auto &observer : observers)
+      observer(record);
     const unsigned int interval = scene.output.vtu_interval;
     if (interval > 0 && step % interval == 0)
-      write_pictures(step, time);
+      write_vtu(step, time);
   }
 
 
@@ -269,7 +275,7 @@ namespace Touchstone
   Simulation::stop(const std::string &reason, const Position &position)
   {
     summary.failure = reason;
-    write_pictures(position.step - 1, position.time);
+    write_vtu(position.step - 1, position.time);
     write_last_checkpoint(position);
   }
 
@@ -372,7 +378,7 @@ namespace Touchstone
           }
       }
     if (scene.output.vtu_interval > 0)
-      write_pictures(step - 1, time);
+      write_vtu(step - 1, time);
     write_last_checkpoint({time, size, step, cuts});
     summary.converged = true;
   }
@@ -410,6 +416,12 @@ namespace Touchstone
         log.line("The run did not converge: " + summary.failure);
         log.line("The last converged state is in " + folder.path("solution.pvd") +
                  ". Try more load steps, a finer mesh at the contact, or another enforcement.");
+        // Bodies that friction holds until they snap, or that buckle, leave no static equilibrium
+        // nearby. A block pushed along with a coefficient of 2 does so (doc/robustness.md).
+        if (!scene.time_integration.dynamic() && summary.steps > 0)
+          log.line("Steps that are cut again and again where all went well before can mean that "
+                   "there is no equilibrium to go on with, because a body snaps or buckles: with "
+                   "inertia ('Time integration/Scheme') the run goes on.");
       }
     log.check();
     return summary;
@@ -422,7 +434,8 @@ namespace Touchstone
   {
     check_lost_contact();
     finish_summary();
-    summary.warnings = warnings.list();
+    summary.quantities = statistics.for_summary();
+    summary.warnings   = warnings.list();
     if (summary.ranks > 1)
       log.line(summary.balance_line());
     TimerOutput::Scope scope(timer, "output");
@@ -434,7 +447,7 @@ namespace Touchstone
   void
   Simulation::measure_balance()
   {
-    const ContactWork                                 work = contact_work(problem->contact_state());
+    const ContactCounts work = contact_counts(problem->contact_state());
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
@@ -509,8 +522,8 @@ namespace Touchstone
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
-    const Forest forest(scene, folder_of_scene, communicator);
-    Solid        solid(scene, forest, communicator);
+    const Forest forest(scene.forest_input(), folder_of_scene, communicator);
+    Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     StepProblem  problem(scene, forest, solid, timer);
     // Up to the first linear system: finds bodies that nothing holds.

@@ -2,8 +2,8 @@
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/enforcement/row_terms.h>
-#include <touchstone/drive/pair_inputs.h>
 #include <touchstone/drive/step_problem.h>
+#include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -25,8 +25,9 @@ namespace Touchstone
     bool
     consistent(const Scene &scene, const bool iterates)
     {
-      return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && scene.has_friction() && !iterates);
+      return scene.contact.linearisation == ContactParameters::Linearisation::consistent ||
+             (scene.contact.linearisation == ContactParameters::Linearisation::automatic &&
+              scene.has_friction() && !iterates);
     }
   } // namespace
 
@@ -39,7 +40,7 @@ namespace Touchstone
     : scene(scene)
     , solid(solid)
     , timer(timer)
-    , boundary_conditions(scene, forest, solid)
+    , boundary_conditions(forest, solid)
     , contact(pair_inputs(scene, forest, solid),
               scene.contact,
               solid,
@@ -63,19 +64,23 @@ namespace Touchstone
       solid.assemble();
       ++assemblies;
     }
-    modes = std::make_unique<RigidBodyModes>(scene, solid);
+    modes = std::make_unique<RigidBodyModes>(solid);
     std::set<Index> slaves;
     for (const ContactRow &row : contact.rows())
       if (!row.tied)
         slaves.insert(dim * row.slave);
-    integration = TimeIntegration::make(scene, solid, slaves, committed_u);
+    integration = TimeIntegration::make(scene.time_integration,
+                                        scene.load_stepping.end_time / scene.load_stepping.steps,
+                                        solid,
+                                        slaves,
+                                        committed_u);
     length      = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
     length      = Utilities::MPI::min(length, solid.communicator);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
     extent                 = Utilities::MPI::max(extent, solid.communicator);
-    const auto       boxes = body_boxes(scene, solid);
+    const auto       boxes = body_boxes(solid);
     BoundingBox<dim> all(boxes.front());
     for (const auto &box : boxes)
       all.merge_with(box);
@@ -155,6 +160,8 @@ namespace Touchstone
     loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
+    // Last: what came before looked at the committed state.
+    solid.begin_step(time - committed_time);
   }
 
 
@@ -448,7 +455,8 @@ namespace Touchstone
     begin_system();
     if (!system->keep_symmetric &&
         (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (forcing_term.slow() && scene.contact.linearisation == "automatic")))
+         (forcing_term.slow() &&
+          scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
       contact.differentiate();
     contact.enforcement().enforce(contact, graph, *system);
     add_follower_pressure();
@@ -672,7 +680,8 @@ namespace Touchstone
       }
     before_increment = u;
     u                = trial;
-    contact.enforcement().update(contact, scene.newton.line_search != "none");
+    contact.enforcement().update(contact,
+                                 scene.newton.line_search != NewtonParameters::LineSearch::none);
   }
 
 

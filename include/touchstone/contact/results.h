@@ -76,6 +76,16 @@ namespace Touchstone
     unsigned int slip            = 0;
     /** Work done against friction since the start, force times length. */
     double friction_work = 0.;
+
+    /** @brief For checkpoints. All members are named, so that this does not compile if one is
+     * forgotten. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      auto &[f, m, a, pressure, penetration, in_contact, sticks, slips, work] = *this;
+      archive &f &m &a &pressure &penetration &in_contact &sticks &slips &work;
+    }
   };
 
   /** @brief Boundaries of the slave and of the master surface of a pair, by

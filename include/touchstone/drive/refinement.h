@@ -3,6 +3,7 @@
 
 #include <touchstone/base/formula.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/drive/refinement_parameters.h>
 #include <touchstone/drive/step.h>
 #include <touchstone/mesh/forest.h>
 
@@ -26,7 +27,7 @@ namespace Touchstone
   class Refinement
   {
   public:
-    Refinement(const Scene &scene, Forest &forest, Solid &solid);
+    Refinement(const RefinementParameters &parameters, Forest &forest, Solid &solid);
 
     /**
      * @brief Estimate the errors of the present state of @p problem.
@@ -54,7 +55,7 @@ namespace Touchstone
   private:
     using Values = dealii::Vector<double>;
 
-    const Scene                   &scene;
+    const RefinementParameters    &parameters;
     Forest                        &forest;
     Solid                         &solid;
     Formulas                       formulas;

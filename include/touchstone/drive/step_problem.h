@@ -7,6 +7,7 @@
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/drive/forcing_term.h>
 #include <touchstone/drive/step.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 #include <touchstone/solid/rigid_body_modes.h>
 

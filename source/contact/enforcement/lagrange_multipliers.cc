@@ -15,6 +15,12 @@ namespace Touchstone
       {
       }
 
+      bool
+      uses_multipliers() const override
+      {
+        return true;
+      }
+
     protected:
       ConstraintGraph::Treatment
       treatment(const ContactRow &) const override

@@ -311,7 +311,7 @@ namespace Touchstone
     public:
       explicit AugmentedLagrange(const ContactParameters &parameters)
         : SpringEnforcement(20. * parameters.penalty_factor)
-        , merged(parameters.augmentation == "merged")
+        , merged(parameters.augmentation == ContactParameters::Augmentation::merged)
       {
       }
 

@@ -40,13 +40,13 @@ namespace Touchstone
                    ? input.search_distance
                    : std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
         , facing(search,
                  Tolerances::negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
-        , kind(master_normal(input.parameters->master_normal))
-        , tied(input.parameters->behaviour.name == "tied")
+        , kind(input.parameters->master_normal)
+        , tied(input.parameters->tied())
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           row_of_node.emplace(node.node, static_cast<int>(row_of_node.size()));

@@ -4,9 +4,9 @@
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/linear_system.h>
 #include <touchstone/base/registry.h>
+#include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/row_array.h>
 #include <touchstone/contact/row_state.h>
-#include <touchstone/contact/contact_parameters.h>
 
 #include <cstdint>
 #include <functional>
@@ -84,6 +84,14 @@ namespace Touchstone
      * @param first The bodies are as they are placed: what touches starts in contact. */
     void
     update_partners(const ContactRows &rows, bool first);
+
+    /** @brief Whether contact forces are unknowns of the linear system, which then is not
+     * definite. */
+    virtual bool
+    uses_multipliers() const
+    {
+      return false;
+    }
 
     /** @brief A step begins, or begins again: no linear solve has come before. */
     virtual void
