@@ -45,9 +45,8 @@ namespace Touchstone
                              dealii::Utilities::trim(given[k].substr(equal + 1)),
                              "is an option of " + name + ", but 'Type' is '" + type + "'",
                              "remove it, or set '" +
-                               std::string(LinearSolverRegistry::records().count(name) > 0
-                                             ? "Type"
-                                             : "Preconditioner") +
+                               std::string(LinearSolverRegistry::knows(name) ? "Type"
+                                                                             : "Preconditioner") +
                                "' to '" + name + "'");
           }
     }

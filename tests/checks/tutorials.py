@@ -1,5 +1,5 @@
-"""The tutorials do what they say. tutorials.py PROGRAM PROJECT FOLDER runs, page by page, the commands
-of doc/tutorials/*.md and compares:
+"""The documents do what they say. tutorials.py PROGRAM PROJECT FOLDER looks for the targets of all links,
+for every scene of prm/ in the gallery, and runs, page by page, the commands of doc/tutorials/*.md:
 
 * In a block ```console a line "$ build/touchstone ..." is run (other commands, such as those of editors
   and compilers, are not), "\\" continues it. Each of the lines below it, but "...", must be printed
@@ -133,12 +133,53 @@ def check(page, program, project, folder):
         print(f"{page.name}: no command of this page is run here")
 
 
+def slug(heading):
+    """The anchor that a heading has on the usual sites."""
+    text = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", heading).replace("`", "").strip().lower()
+    return re.sub(r"[^\w\- ]", "", text).replace(" ", "-")
+
+
+def prose(page):
+    """The page without its blocks of code and comments."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.S | re.M)
+    return re.sub(r"<!--.*?-->|^    [^\n]*$|`[^`\n]*`", "", text, flags=re.S | re.M)
+
+
+def links(project):
+    """The files and headings that links name exist."""
+    pages = [*project.glob("*.md"), *(project / "doc").rglob("*.md")]
+    for page in pages:
+        for target in re.findall(r"\]\(([^)\s]+)\)", prose(page)):
+            if re.match("https?:|mailto:", target):
+                continue
+            path, _, anchor = target.partition("#")
+            file = (page.parent / path).resolve() if path else page
+            if not file.exists():
+                fail(page, f"the link to {target} leads nowhere")
+            elif anchor and file.suffix == ".md":
+                headings = re.findall(r"^#+ (.*)$", file.read_text(encoding="utf-8"), re.M)
+                if anchor not in map(slug, headings):
+                    fail(page, f"{path or page.name} has no heading '{anchor}'")
+
+
+def gallery(project):
+    """Every shipped scene is in the gallery, with its command."""
+    page = project / "doc/gallery.md"
+    text = page.read_text(encoding="utf-8")
+    for scene in sorted((project / "prm").rglob("*.prm")):
+        command = f"build/touchstone {scene.relative_to(project)}`"
+        if command not in text:
+            fail(page, f"'{command[:-1]}' is not there")
+
+
 def main():
     program, project, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
     folder.mkdir(parents=True, exist_ok=True)
     pages = sorted((project / "doc/tutorials").glob("*.md"))
     if not pages:
         sys.exit("there are no tutorials")
+    links(project)
+    gallery(project)
     for page in pages:
         check(page, program, project, folder / page.stem)
     if failures:
