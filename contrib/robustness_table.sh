@@ -1,5 +1,5 @@
 #!/bin/sh
-# Print the tables of doc/robustness.md: runs all hard cases (tests/checks/hard_cases.sh), and
+# Print the tables of doc/robustness.md: runs all hard cases (tests/checks/hard_cases.py), and
 # the scenes below as they are shipped: no key but those that make the case is set.
 #
 # Usage: contrib/robustness_table.sh [PROGRAM] [FOLDER]     (build/touchstone, output/robustness)
@@ -8,7 +8,7 @@ root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 program=$(realpath "${1:-$root/build/touchstone}")
 mkdir -p "${2:-$root/output/robustness}"
 folder=$(CDPATH= cd -- "${2:-$root/output/robustness}" && pwd)
-sh "$root/tests/checks/hard_cases.sh" "$program" "$root" "$folder" >"$folder/report" 2>&1 ||
+python3 "$root/tests/checks/hard_cases.py" "$program" "$root" "$folder" >"$folder/report" 2>&1 ||
   grep '^FAILED' "$folder/report" >&2
 cat "$folder/robustness.md"
 

@@ -5,7 +5,7 @@ set -eu
 build=${1:-build}
 [ $# -eq 0 ] || shift
 [ $# -gt 0 ] || set -- 1e4 3e4 1e5 3e5 1e6
-test=$build/tests/contact_search_scaling.release/contact_search_scaling.release
-[ -x "$test" ] || cmake --build "$build" --target contact_search_scaling.release
+test=$build/tests/unit/contact_search_scaling.release
+[ -x "$test" ] || cmake --build "$build" --target contact_search_scaling
 export OPENBLAS_NUM_THREADS=1 OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 exec "$test" "$@"

@@ -41,8 +41,8 @@ for kernel in "$@"; do
     mkdir -p "$folder" && cd "$folder" || exit 1
     if [ -e "$root/tests/$name.prm" ]; then
       program=$build/touchstone scene=$root/tests/$name.prm
-    elif [ "${name#drive_}" != "$name" ] && [ -x "$build/tests/$name.$type/$name.$type" ]; then
-      program=$build/tests/$name.$type/$name.$type scene=
+    elif [ "${name#drive_}" != "$name" ] && [ -x "$build/tests/unit/$name.$type" ]; then
+      program=$build/tests/unit/$name.$type scene=
     else
       continue
     fi

@@ -61,11 +61,11 @@ end
     const MPI_Comm communicator = MPI_COMM_WORLD;
     const bool     first        = Utilities::MPI::this_mpi_process(communicator) == 0;
     const Scene    scene(scene_text, "scene.prm", overrides);
-    const Forest   forest(scene, "", communicator);
-    Solid          solid(scene, forest, communicator);
+    const Forest   forest(scene.forest_input(), "", communicator);
+    Solid          solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     solid.assemble();
-    const BoundaryConditions boundary_conditions(scene, forest, solid);
-    const RigidBodyModes     modes(scene, solid);
+    const BoundaryConditions boundary_conditions(forest, solid);
+    const RigidBodyModes     modes(solid);
 
     Touchstone::Vector u(solid.owned, communicator);
     ConstraintGraph    graph;
@@ -114,10 +114,10 @@ main(int argc, char **argv)
   // The modes are in the null space of the stiffness.
   const MPI_Comm communicator = MPI_COMM_WORLD;
   const Scene    scene(scene_text, "scene.prm", {});
-  const Forest   forest(scene, "", communicator);
-  Solid          solid(scene, forest, communicator);
+  const Forest   forest(scene.forest_input(), "", communicator);
+  Solid          solid(scene.bodies, scene.discretisation.degree, forest, communicator);
   solid.assemble();
-  const RigidBodyModes modes(scene, solid);
+  const RigidBodyModes modes(solid);
   Epetra_MultiVector   product(solid.stiffness().rows(), 6);
   for (unsigned int k = 0; k < 6; ++k)
     solid.stiffness().multiply(product[k], modes.motions().columns[k]);

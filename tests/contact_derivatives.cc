@@ -123,7 +123,7 @@ end
 
         for (std::size_t k = 0; k < rows.size(); ++k)
           {
-            if (!rows[k].active())
+            if (!rows[k].was_active)
               {
                 if (rows[k].derivative)
                   std::cout << "derivative of a row that is not active FAILED\n";
@@ -168,7 +168,7 @@ end
     // How the contact points lie: stencils of each size.
     std::map<unsigned int, unsigned int> stencils;
     for (const ContactRow &row : rows)
-      if (row.active())
+      if (row.was_active)
         ++stencils[std::min<std::size_t>(row.stencil.size(), 19)];
     std::ostringstream text_of_stencils;
     for (unsigned int size = 0; size < 20; ++size)

@@ -41,9 +41,9 @@ namespace
   double
   difference(const ContactRow &a, const ContactRow &b)
   {
-    if (a.status != b.status || a.stencil.size() != b.stencil.size())
+    if (a.has_partner != b.has_partner || a.stencil.size() != b.stencil.size())
       return 1.;
-    if (a.status == ContactStatus::no_partner)
+    if (!a.has_partner)
       return 0.; // the rest stays what it was
     double result = std::max({std::abs(a.gap - b.gap),
                               std::abs(a.area - b.area),

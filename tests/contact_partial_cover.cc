@@ -84,7 +84,7 @@ namespace
         std::vector<double> now;
         for (const ContactRow &row : pair.rows)
           {
-            const bool there = row.status != ContactStatus::no_partner;
+            const bool there = row.has_partner;
             // What a row contributes where it could bear: its gap is small.
             const double open = there ? (row.gap / row.share - true_gap) / row.size : 1e10;
             const double acts = 1. / (1. + 1e3 * std::max(open, 0.));

@@ -22,7 +22,7 @@ namespace
     const Touchstone::Vector u = pair.displacement(formula);
     Touchstone::Vector       ghosted(pair.solid.owned, pair.solid.relevant, MPI_COMM_WORLD);
     ghosted = u;
-    pair.master->move(ghosted);
+    pair.move_surfaces(ghosted);
   }
 
   const Tensor<1, dim> down({0., 0., -1.});

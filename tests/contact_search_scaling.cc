@@ -46,7 +46,7 @@ namespace
     ghosted = pair.displacement([](const Point<dim> &x, unsigned int) {
       return Tensor<1, dim>({0., 0., x[2] * height(x[0], x[1])});
     });
-    pair.master->move(ghosted);
+    pair.move_surfaces(ghosted);
 
     const double            gap = 1e-3 / n;
     std::vector<Point<dim>> points;

@@ -87,12 +87,13 @@ namespace
         const PairOfScene pair(
           master_only(geometry(cells), boundary, "set Contact geometry = faceted"));
         Touchstone::Vector zero(pair.solid.owned, pair.solid.relevant, MPI_COMM_WORLD);
-        pair.master->move(zero);
+        pair.move_surfaces(zero);
         for (const std::string kind : {"face", "averaged", "smoothed"})
           {
-            const unsigned int n_steps = 1000;
-            const MasterNormal k       = master_normal(kind);
-            const Ride         r       = ride(pair, k, path, distance, n_steps, height);
+            const unsigned int    n_steps = 1000;
+            Keyword<MasterNormal> k       = ContactPairParameters().master_normal;
+            k                             = kind;
+            const Ride r                  = ride(pair, k, path, distance, n_steps, height);
             // A jump is what does not become smaller with the steps.
             const Ride fine = ride(pair, k, path, distance, 10 * n_steps, height);
             const auto jump = [](const double a, const double b) {

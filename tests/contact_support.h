@@ -1,7 +1,9 @@
 #ifndef touchstone_tests_contact_support_h
 #define touchstone_tests_contact_support_h
 
-#include <touchstone/contact/pairing/pairing.h>
+#include <touchstone/contact/contact.h>
+#include <touchstone/scene/pair_input.h>
+#include <touchstone/scene/scene.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -65,33 +67,21 @@ namespace Touchstone
                "set Cells        = 4, 5, 2",
                slave_and_master("upper", "bottom", "lower", "top, right, back"));
 
-  /** The first contact pair of a scene, without the rest of the program. */
+  /** The first contact pair of a scene, without the rest of the program: rows as its pairing
+   * makes them. */
   class PairOfScene
   {
   public:
     PairOfScene(const std::string &text, const std::vector<std::string> &overrides = {})
       : scene(text, "scene.prm", overrides)
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
+      , forest(scene.forest_input(), "", MPI_COMM_WORLD)
+      , solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD)
+      , pair(pair_input(scene, forest, solid, 0))
+      , slave(&pair.slave())
+      , master(pair.master())
+      , pairing(&pair.pairing())
+      , rows(pair.rows())
     {
-      const ContactPairParameters &parameters = scene.pairs[0];
-      slave = make(parameters, parameters.slave_body, parameters.slave_boundaries);
-      if (!parameters.master_body.empty())
-        master = make(parameters, parameters.master_body, parameters.master_boundaries);
-      pairing = make_pairing({&parameters,
-                              parameters.obstacle.empty() ? nullptr : &scene.obstacles[0],
-                              &solid,
-                              slave.get(),
-                              master.get(),
-                              parameters.search_distance});
-      for (const SurfaceNode &node : slave->owned_nodes())
-        {
-          ContactRow row;
-          row.slave = node.node;
-          row.area  = node.area;
-          row.size  = node.size;
-          rows.push_back(row);
-        }
     }
 
     /** A displacement given by a formula of the reference position and the body. */
@@ -119,16 +109,23 @@ namespace Touchstone
       return u;
     }
 
+    /** Move the surfaces to a displacement (with ghosts). */
+    void
+    move_surfaces(const Vector &ghosted)
+    {
+      pair.move_surfaces(ghosted);
+    }
+
     /** Make the rows for a displacement (without ghosts). */
     void
     update(const Vector &u)
     {
       Vector ghosted(solid.owned, solid.relevant, solid.communicator);
       ghosted = u;
-      slave->move(ghosted);
-      if (master)
-        master->move(ghosted);
+      move_surfaces(ghosted);
       pairing->update(ghosted, 0., rows);
+      for (ContactRow &row : rows)
+        row.was_active = row.was_active && row.has_partner;
     }
 
     /** Take every row that has a partner as active, and differentiate. */
@@ -136,30 +133,19 @@ namespace Touchstone
     differentiate(const Vector &u)
     {
       for (ContactRow &row : rows)
-        if (row.status != ContactStatus::no_partner)
-          row.status = ContactStatus::slip;
+        row.was_active = row.has_partner;
       Vector ghosted(solid.owned, solid.relevant, solid.communicator);
       ghosted = u;
       pairing->differentiate(ghosted, 0., rows);
     }
 
-    const Scene              scene;
-    const Forest             forest;
-    const Solid              solid;
-    std::unique_ptr<Surface> slave, master;
-    std::shared_ptr<Pairing> pairing;
-    std::vector<ContactRow>  rows;
-
-  private:
-    std::unique_ptr<Surface>
-    make(const ContactPairParameters    &parameters,
-         const std::string              &body,
-         const std::vector<std::string> &boundaries) const
-    {
-      const BoundaryIds ids = forest.boundary_ids(scene.body_index(body), boundaries, "", "");
-      return std::make_unique<Surface>(
-        solid, forest, scene.body_index(body), ids, parameters.contact_geometry == "manifold");
-    }
+    const Scene          scene;
+    const Forest         forest;
+    const Solid          solid;
+    ContactPair          pair;
+    const Surface *const slave, *const master;
+    Pairing *const          pairing;
+    std::vector<ContactRow> rows;
   };
 
   /** A number between -1 and 1 that has nothing to do with those of neighbours. */

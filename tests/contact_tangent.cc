@@ -3,7 +3,7 @@
 // a linearisation that keeps normals and stencils constant the differences must be
 // seen. With an argument the errors themselves are printed.
 
-#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 
 #include "contact_support.h"
@@ -185,8 +185,7 @@ end
       : friction(friction)
       , enforcement_name(enforcement_name)
       , made(text, overrides(pairing, enforcement_name, friction, beyond_edge))
-      , contact(made.scene, made.forest, made.solid)
-      , enforcement(EnforcementRegistry::make(enforcement_name, made.scene.contact))
+      , contact(pair_inputs(made.scene, made.forest, made.solid), made.scene.contact, made.solid)
       , u(made.solid.owned, MPI_COMM_WORLD)
     {
       const bool   body   = made.master != nullptr;
@@ -206,13 +205,14 @@ end
         return place(x, number, false) - x;
       });
       contact.update(u, 0.);
-      for (ContactRow &row : contact.rows[0])
-        if (row.status != ContactStatus::no_partner && row.friction)
+      change_states([&](const ContactRow &row, RowState &state) {
+        if (row.has_partner && row.friction)
           {
-            row.status = ContactStatus::stick;
-            row.lambda = 0.1 * scale(row);
-            row.force  = row.lambda * row.normal + tangential(row, 3, 0.1);
+            state.status = ContactStatus::stick;
+            state.lambda = 0.1 * scale(row);
+            state.force  = state.lambda * row.normal + tangential(row, 3, 0.1);
           }
+      });
       contact.commit();
 
       // Where it is: turned as a whole, too, unless the obstacle stays behind.
@@ -221,44 +221,65 @@ end
         return rotation * place(x, number, true) - x;
       });
       contact.update(u, step);
-      for (ContactRow &row : contact.rows[0])
-        {
-          if (row.status == ContactStatus::no_partner)
-            continue;
-          ++n_rows;
-          n_penetrate += row.gap < 0.;
-          row.status = friction.status;
-          row.lambda = (0.1 + 0.03 * scatter(Point<dim>(row.position), 5)) * scale(row);
-          if (enforcement_name == "augmented lagrange")
-            row.augmented_lambda = row.lambda + 20. * row.stiffness * row.gap;
-          if (row.friction)
-            row.friction->base = row.augmented = tangential(row, 4, 0.02);
-        }
+      for (const ContactRow &row : contact.rows())
+        if (row.has_partner)
+          {
+            ++n_rows;
+            n_penetrate += row.gap < 0.;
+          }
+      change_states([&](const ContactRow &row, RowState &state) {
+        if (row.has_partner)
+          {
+            state.status = friction.status;
+            state.lambda = (0.1 + 0.03 * scatter(Point<dim>(row.position), 5)) * scale(row);
+            begin_with(row, state, tangential(row, 4, 0.02));
+          }
+      });
       evaluate();
       // Exact slip is linearised about a force against the slip.
       if (exact_slip())
-        for (ContactRow &row : contact.rows[0])
-          if (row.active())
-            row.friction->base = row.augmented =
-              -row.friction->limit / row.friction->slip.norm() * row.friction->slip;
+        change_states([&](const ContactRow &row, RowState &state) {
+          if (state.active())
+            {
+              const Tensor<1, dim> &slip = row.friction->kinematics.slip;
+              begin_with(row, state, -state.friction.limit / slip.norm() * slip);
+            }
+        });
       evaluate();
     }
 
     /** Length of the step in time. */
     static constexpr double step = 0.1;
 
-    const Friction               friction;
-    const std::string            enforcement_name;
-    PairOfScene                  made;
-    Contact                      contact;
-    std::shared_ptr<Enforcement> enforcement;
-    Touchstone::Vector           u;
-    unsigned int                 n_rows = 0, n_penetrate = 0;
+    const Friction     friction;
+    const std::string  enforcement_name;
+    PairOfScene        made;
+    Contact            contact;
+    Touchstone::Vector u;
+    unsigned int       n_rows = 0, n_penetrate = 0;
 
-    std::vector<ContactRow> &
-    rows()
+    template <class Change>
+    void
+    change_states(const Change &change)
     {
-      return contact.rows[0];
+      RowArray<RowState> states = contact.enforcement().states();
+      for (const ContactRow &row : contact.rows())
+        change(row, states[row]);
+      contact.enforcement().set_states(states);
+    }
+
+    /** Let the row begin with a tangential force, and augmented springs with one that makes its
+     * normal force. */
+    void
+    begin_with(const ContactRow &row, RowState &state, const Tensor<1, dim> &tangential)
+    {
+      const double augmented = enforcement_name == "augmented lagrange"
+                                 ? state.lambda + 20. * row.stiffness * row.gap
+                                 : 0.;
+      contact.enforcement().adopt(
+        row, state.status, augmented * row.normal + (row.friction ? tangential : Tensor<1, dim>()));
+      if (row.friction)
+        state.friction.base = tangential;
     }
 
     /** Forces are unknowns, or follow from the balance. */
@@ -275,13 +296,15 @@ end
       // With friction the normal force of a penalty is that of the linear solve: what this
       // gives where the system is linear.
       if (enforcement_name == "penalty")
-        for (ContactRow &row : rows())
-          if (row.friction && row.active())
-            row.lambda = -100. * made.scene.contact.penalty_factor * row.stiffness * row.gap;
-      enforcement->recover(contact,
-                           made.displacement(
-                             [](const Point<dim> &, unsigned int) { return Tensor<1, dim>(); }),
-                           graph);
+        change_states([&](const ContactRow &row, RowState &state) {
+          if (row.friction && state.active())
+            state.lambda = -100. * made.scene.contact.penalty_factor * row.stiffness * row.gap;
+        });
+      contact.enforcement().recover(contact,
+                                    made.displacement([](const Point<dim> &, unsigned int) {
+                                      return Tensor<1, dim>();
+                                    }),
+                                    ConstraintGraph());
     }
 
     /** Contact forces at the nodes; exact slip against the present slip. */
@@ -290,12 +313,13 @@ end
     {
       evaluate();
       if (exact_slip())
-        for (ContactRow &row : rows())
-          if (row.active())
+        change_states([&](const ContactRow &row, RowState &state) {
+          if (state.active())
             {
-              const FrictionState &f = *row.friction;
-              row.force              = row.lambda * row.normal - f.limit / f.slip.norm() * f.slip;
+              const Tensor<1, dim> &slip = row.friction->kinematics.slip;
+              state.force = state.lambda * row.normal - state.friction.limit / slip.norm() * slip;
             }
+        });
       Touchstone::Vector result(made.solid.owned, MPI_COMM_WORLD);
       contact.add_forces(result);
       return result;
@@ -311,11 +335,8 @@ end
       graph.clear();
       if (consistent)
         contact.differentiate();
-      enforcement->enforce(contact, graph, *system);
-      RowTerms terms(*system);
-      for (ContactRow &row : rows())
-        terms.add_row(row);
-      terms.finish();
+      contact.enforcement().enforce(contact, graph, *system);
+      contact.enforcement().add_friction(contact, *system);
     }
 
     /** Conditions of the active rows of this rank as the rows make them, in the order in which
@@ -326,12 +347,9 @@ end
     {
       unsigned int k = 0;
       for (const bool stick : {false, true})
-        for (ContactRow &row : rows())
+        for (const ContactRow &row : contact.rows())
           {
-            const unsigned int accepted = row.accepted, refused = row.refused;
-            const auto         conditions = start_row(row, false);
-            row.accepted                  = accepted;
-            row.refused                   = refused;
+            const auto conditions = row_conditions(row, contact.state(row), false);
             for (unsigned int i = 0; i < conditions.size(); ++i)
               if ((i > 0) == stick)
                 visit(k++, row, i, conditions[i]);
@@ -492,6 +510,24 @@ end
 
 
 
+  /** What conditions are compared with, by the index of rows. */
+  struct GapsAndSlips
+  {
+    explicit GapsAndSlips(const Contact &contact)
+    {
+      for (const ContactRow &row : contact.rows())
+        {
+          gaps.push_back(row.gap);
+          slips.push_back(row.friction ? row.friction->kinematics.slip : Tensor<1, dim>());
+        }
+    }
+
+    std::vector<double>         gaps;
+    std::vector<Tensor<1, dim>> slips;
+  };
+
+
+
   /** Relative errors: of the conditions along the normal and across, the rows of
    * the multipliers, the force itself, its change, the force per multiplier. */
   constexpr unsigned int n_errors = 6;
@@ -508,19 +544,20 @@ end
     std::array<Error, n_errors> errors;
 
     // The force itself: what the system adds at no increment.
-    const std::vector<ContactRow> base = c.rows();
-    std::vector<double>           extra;
+    const RowArray<RowState> base = c.contact.enforcement().states();
+    std::vector<double>      extra;
     c.for_each_condition(
       [&](unsigned int, const ContactRow &row, const unsigned int i, const Condition &condition) {
+        const RowState &state = c.contact.state(row);
         extra.push_back(
-          c.extra(row, i == 0 ? row.lambda : row.friction->base * condition.direction));
+          c.extra(row, i == 0 ? state.lambda : state.friction.base * condition.direction));
       });
     const Touchstone::Vector no_motion(c.made.solid.owned, MPI_COMM_WORLD);
     {
       Touchstone::Vector force = c.change(c.ghosted(no_motion), extra);
       force += c.system->rhs;
       errors[3].add(force, c.forces());
-      c.rows() = base;
+      c.contact.enforcement().set_states(base);
     }
 
     const double h = 1e-6;
@@ -533,15 +570,17 @@ end
         plus.add(h, direction);
         minus.add(-h, direction);
         c.contact.update(plus, Case::step);
-        Touchstone::Vector            difference = c.forces();
-        const std::vector<ContactRow> rows_plus  = c.rows();
-        c.rows()                                 = base;
+        Touchstone::Vector difference = c.forces();
+        const GapsAndSlips rows_plus(c.contact);
+        c.contact.enforcement().set_states(base);
         c.contact.update(minus, Case::step);
         difference -= c.forces();
         difference /= 2. * h;
-        const std::vector<ContactRow> rows_minus = c.rows();
+        const GapsAndSlips rows_minus(c.contact);
         c.contact.update(c.u, Case::step);
-        c.rows() = base;
+        c.contact.enforcement().set_states(base);
+        if (consistent)
+          c.contact.differentiate();
         errors[4].add(c.change(v, std::vector<double>(extra.size(), 0.)), difference);
 
         std::vector<double> rows_of_system(c.system->n_extra, 0.);
@@ -554,15 +593,14 @@ end
                                  const ContactRow  &row,
                                  const unsigned int i,
                                  const Condition   &condition) {
-          const std::size_t r     = &row - &c.rows()[0];
+          const std::size_t r     = row.index;
           double            value = 0.;
           for (const auto &[node, coefficients] : condition.motion_form())
             for (unsigned int d = 0; d < dim; ++d)
               value += coefficients[d] * v(dim * node + d);
           const double exact =
-            i == 0 ? (rows_plus[r].gap - rows_minus[r].gap) / (2. * h)
-                   : condition.direction *
-                       (rows_plus[r].friction->slip - rows_minus[r].friction->slip) / (2. * h);
+            i == 0 ? (rows_plus.gaps[r] - rows_minus.gaps[r]) / (2. * h)
+                   : condition.direction * (rows_plus.slips[r] - rows_minus.slips[r]) / (2. * h);
           errors[i > 0].add(value, exact);
           if (c.system->n_extra > 0)
             errors[2].add(rows_of_system[k] / row.stiffness, exact);
@@ -578,17 +616,19 @@ end
             extra_changes.push_back(c.extra(row, force_changes.back()));
           });
         const auto forces_at = [&](const double step) {
+          RowArray<RowState> states = base;
           c.for_each_condition([&](const unsigned int k,
-                                   ContactRow        &row,
+                                   const ContactRow  &row,
                                    const unsigned int i,
                                    const Condition   &condition) {
             if (i == 0)
-              row.lambda += step * force_changes[k];
+              states[row].lambda += step * force_changes[k];
             else
-              row.friction->base += step * force_changes[k] * condition.direction;
+              states[row].friction.base += step * force_changes[k] * condition.direction;
           });
+          c.contact.enforcement().set_states(states);
           const Touchstone::Vector result = c.forces();
-          c.rows()                        = base;
+          c.contact.enforcement().set_states(base);
           return result;
         };
         difference = forces_at(h);
@@ -635,11 +675,12 @@ end
     std::ostringstream out;
     double             seen    = 0.;
     unsigned int       refused = 0, inside = 0;
-    for (const ContactRow &row : c.rows())
+    for (const ContactRow &row : c.contact.rows())
       {
-        refused += row.refused;
-        inside += (row.active() && row.friction && row.status == ContactStatus::slip &&
-                   row.friction->excess <= 0.);
+        const RowState &state = c.contact.state(row);
+        refused += state.refused;
+        inside +=
+          (row.friction && state.status == ContactStatus::slip && state.friction.excess <= 0.);
       }
     const unsigned int count = Utilities::MPI::sum(c.n_rows, MPI_COMM_WORLD);
     out << pairing << ", " << enforcement << ", " << friction.name

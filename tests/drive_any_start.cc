@@ -34,7 +34,7 @@ namespace
       }
     const auto         &u = run.problem.displacement();
     std::vector<double> result(u.begin(), u.end());
-    for (const ContactPoint &point : run.problem.contact_state().points(u))
+    for (const ContactPoint &point : contact_points(run.problem.contact_state(), u))
       for (unsigned int d = 0; d < dim; ++d)
         result.push_back(point.traction[d] / 1000.);
     return result;

@@ -56,7 +56,7 @@ namespace
     {
       const auto &u = problem.displacement();
       record.insert(record.end(), u.begin(), u.end());
-      for (const ContactPoint &point : problem.contact_state().points(u))
+      for (const ContactPoint &point : contact_points(problem.contact_state(), u))
         {
           for (unsigned int d = 0; d < dim; ++d)
             {

@@ -246,7 +246,7 @@ end
         gain                = std::max({gain, -taken, (now.present() - had) / now.largest});
         loss += taken;
         const unsigned int active =
-          run.problem.contact_state().results(run.problem.ghosted_displacement())[0].active;
+          pair_results(run.problem.contact_state(), run.problem.ghosted_displacement())[0].active;
         closing += active > before;
         opening += active < before;
         // The same nodes all the time: nothing is lost.
@@ -298,12 +298,17 @@ subsection Body ball
 end
 )";
     const Scene       scene(text, "scene.prm", overrides);
-    const Forest      forest(scene, "", MPI_COMM_WORLD);
-    Solid             solid(scene, forest, MPI_COMM_WORLD);
+    const Forest      forest(scene.forest_input(), "", MPI_COMM_WORLD);
+    Solid             solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
     solid.assemble();
-    const BoundaryConditions conditions(scene, forest, solid);
+    const BoundaryConditions conditions(forest, solid);
     Touchstone::Vector       committed(solid.owned, solid.communicator), position(committed);
-    const auto               integration = TimeIntegration::make(scene, solid, {}, committed);
+    const auto               integration =
+      TimeIntegration::make(scene.time_integration,
+                            scene.load_stepping.end_time / scene.load_stepping.steps,
+                            solid,
+                            {},
+                            committed);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
     const auto scatter = [&](const double size, const unsigned int seed) {
       Touchstone::Vector result(committed);

@@ -24,18 +24,18 @@ namespace
     all.push_back("Body block/Material/Density=1e3");
     Run run(blocks, all, MPI_COMM_WORLD);
     run.solve(run.scene.newton, 0.8);
-    const Solid              &solid = run.solid;
-    std::vector<PressingNode> pressing =
-      run.problem.contact_state().pressing(ConstraintGraph(), 0.1);
+    const Solid                    &solid = run.solid;
+    std::vector<VelocityConstraint> constraints =
+      velocity_constraints(run.problem.contact_state(), ConstraintGraph(), 0.1);
     unsigned int sliding = 0, across = 0;
-    for (PressingNode &node : pressing)
+    for (VelocityConstraint &node : constraints)
       {
         node.condition.value = node.normal ? 0.3 : 0.2;
         sliding += node.condition.force_direction.norm_square() > 0.;
         across += !node.normal;
       }
-    const Mass mass(run.scene, solid, {}, 0.1);
-    Impact     impact(pressing, mass, solid, [](Vec &) {});
+    const Mass mass(run.scene.time_integration.mass, solid, {}, 0.1);
+    Impact     impact(constraints, mass, solid, [](Vec &) {});
 
     Vec positions(solid.owned, solid.communicator), v(positions);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
@@ -69,7 +69,7 @@ namespace
 
     // The velocities that are left are those that the conditions ask for.
     IndexSet needed = solid.relevant;
-    for (const PressingNode &node : pressing)
+    for (const VelocityConstraint &node : constraints)
       for (const auto &[at, coefficients] : node.condition.motion_form())
         needed.add_range(dim * at, dim * at + dim);
     needed.compress();
@@ -78,7 +78,7 @@ namespace
     double         missed   = 0.;
     double         impulses = 0.;
     Tensor<1, dim> impulse;
-    for (const PressingNode &node : pressing)
+    for (const VelocityConstraint &node : constraints)
       {
         double speed = 0.;
         for (const auto &[at, coefficients] : node.condition.motion_form())

@@ -199,8 +199,8 @@ end
       quadratic =
         quadratic && run.residuals[i] < std::max(200. * std::pow(run.residuals[i - 1], 2), 1e-12);
     if (first_rank())
-      std::cout << "tension, " << law << ", " << run.scene.bodies[0].element_name << ", degree "
-                << degree << ": nominal stress " << exact.stress << ", places "
+      std::cout << "tension, " << law << ", " << run.scene.bodies[0].element_type.word()
+                << ", degree " << degree << ": nominal stress " << exact.stress << ", places "
                 << small(place, 1e-10) << ", Cauchy stress " << small(cauchy, 1e-10)
                 << ", reaction " << small(reaction, 1e-10) << ", energy " << small(energy, 1e-10)
                 << ", volume " << small(volume, 1e-10)
@@ -231,10 +231,10 @@ end
       symmetrize(made->stress(F) * transpose(F)) / determinant(F);
     const double stress = run.deviation(0, exact) / 200., place = run.deviation(0, F);
     if (first_rank())
-      std::cout << what << ", " << law << ", " << run.scene.bodies[0].element_name << ", degree "
-                << degree << ": stress " << (exact.norm() < 1e-10 ? 0. : exact.norm())
-                << ", deviation " << small(stress, 1e-10) << ", places " << small(place, 1e-10)
-                << std::endl;
+      std::cout << what << ", " << law << ", " << run.scene.bodies[0].element_type.word()
+                << ", degree " << degree << ": stress "
+                << (exact.norm() < 1e-10 ? 0. : exact.norm()) << ", deviation "
+                << small(stress, 1e-10) << ", places " << small(place, 1e-10) << std::endl;
   }
 
 
@@ -252,8 +252,8 @@ end
                         {"Body rod/Material/Law=" + l,
                           "Body rod/Element=" + e,
                           "Discretisation/Degree=" + degree});
-      const Forest forest(scene, "", MPI_COMM_WORLD);
-      Solid        solid(scene, forest, MPI_COMM_WORLD);
+      const Forest forest(scene.forest_input(), "", MPI_COMM_WORLD);
+      Solid        solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
       solid.assemble();
       auto matrix = std::make_unique<Matrix>();
       matrix->copy_from(solid.stiffness());

@@ -63,7 +63,7 @@ end
     try
       {
         run.solve(run.scene.newton, time);
-        const auto warnings = run.problem.check_loose_bodies();
+        const auto warnings = run.problem.findings().warnings;
         std::cout << (warnings.empty() ? "no warning" : warnings.front());
       }
     catch (const LostContact &error)

@@ -57,7 +57,7 @@ namespace
       {
         run.solve(run.scene.newton, 0.5 * step);
         run.problem.commit();
-        take(numbers, run.problem.contact_state().points(run.problem.displacement()));
+        take(numbers, contact_points(run.problem.contact_state(), run.problem.displacement()));
       }
     return numbers;
   }

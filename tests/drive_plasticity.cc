@@ -74,7 +74,7 @@ namespace
           const auto p = plastic_strains(solid);
           record.insert(record.end(), p.begin(), p.end());
           record.push_back(problem.strain_energy());
-          record.push_back(solid.plastic_dissipation());
+          record.push_back(solid.dissipation());
         }
     }
   };
@@ -227,15 +227,15 @@ end
         if (step > 1)
           work -= 0.5 * (before + now) * 0.02;
         else
-          work = ten.problem.strain_energy() + ten.solid.plastic_dissipation();
+          work = ten.problem.strain_energy() + ten.solid.dissipation();
         before = now;
       }
-    const double       energy = ten.problem.strain_energy() + ten.solid.plastic_dissipation();
+    const double       energy = ten.problem.strain_energy() + ten.solid.dissipation();
     Touchstone::Vector difference(one.problem.displacement());
     difference -= ten.problem.displacement();
     const double p1  = one.solid.largest_plastic_strain().at(0),
                  p10 = ten.solid.largest_plastic_strain().at(0), d = difference.linfty_norm(),
-                 w = one.solid.plastic_dissipation() / ten.solid.plastic_dissipation() - 1.;
+                 w = one.solid.dissipation() / ten.solid.dissipation() - 1.;
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         std::cout << law << ", fifty times the yield strain in one step and in ten: plastic strain "

@@ -63,8 +63,9 @@ namespace
   {
     const Scene scene(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/" + from}),
       other(blocks, "scene.prm", {"Discretisation/Degree=2", "Discretisation/" + to});
-    Forest forest(scene, "", MPI_COMM_WORLD), other_forest(other, "", MPI_COMM_WORLD);
-    Solid  solid(scene, forest, MPI_COMM_WORLD);
+    Forest forest(scene.forest_input(), "", MPI_COMM_WORLD),
+      other_forest(other.forest_input(), "", MPI_COMM_WORLD);
+    Solid solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
     if (refined)
       refine(forest, solid);
     const Touchstone::Vector x = positions(solid);
@@ -86,7 +87,7 @@ namespace
     auto       archive = reader(pieces);
 
     other_forest.refine(archive.refined_cells(other_forest.first_level()));
-    Solid other_solid(other, other_forest, MPI_COMM_WORLD);
+    Solid other_solid(other.bodies, other.discretisation.degree, other_forest, MPI_COMM_WORLD);
     archive.connect(other_solid);
     Touchstone::Vector difference = positions(other_solid);
     difference -= archive.field("positions");
@@ -127,7 +128,7 @@ namespace
     const Touchstone::Vector &u      = run.problem.displacement();
     std::vector<double>       result = {u.l2_norm(), run.problem.strain_energy()};
     for (const PairResult &pair :
-         run.problem.contact_state().results(run.problem.ghosted_displacement()))
+         pair_results(run.problem.contact_state(), run.problem.ghosted_displacement()))
       result.insert(result.end(),
                     {pair.force[0],
                      pair.force[1],
@@ -160,7 +161,6 @@ namespace
                      {"Newton/Residual tolerance=1e-12", "Newton/Gap tolerance=1e-12"});
     Run whole(scene, overrides, MPI_COMM_WORLD);
     steps(whole, 0, 4);
-    whole.problem.forget();
     ArchiveWriter writer(whole.solid);
     whole.problem.save(writer);
     const auto pieces = all_pieces(writer);

@@ -1,6 +1,7 @@
 #ifndef touchstone_tests_drive_support_h
 #define touchstone_tests_drive_support_h
 
+#include <touchstone/contact/results.h>
 #include <touchstone/drive/step_problem.h>
 
 #include <deal.II/base/mpi.h>
@@ -72,8 +73,8 @@ end
         const std::vector<std::string> &overrides,
         const MPI_Comm                  communicator)
       : scene(text, "scene.prm", overrides)
-      , forest(scene, "", communicator)
-      , solid(scene, forest, communicator)
+      , forest(scene.forest_input(), "", communicator)
+      , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
       , timer(std::cout, dealii::TimerOutput::never, dealii::TimerOutput::wall_times)
       , problem(scene, forest, solid, timer)
     {
@@ -84,8 +85,7 @@ end
     void
     solve(const NewtonParameters &parameters, const double time)
     {
-      problem.begin_step(time);
-      Newton(parameters).solve(problem, [](unsigned int, const NewtonState &, int) {});
+      problem.solve(time, parameters, [](unsigned int, const NewtonState &, int) {});
     }
 
     /** Solve all steps of the scene, which end at time one, and keep them. @return
@@ -97,10 +97,11 @@ end
       for (unsigned int step = 1; step <= scene.load_stepping.steps; ++step)
         {
           residuals.emplace_back();
-          problem.begin_step(double(step) / scene.load_stepping.steps);
-          Newton(scene.newton).solve(problem, [&](unsigned int, const NewtonState &state, int) {
-            residuals.back().push_back(state.residual);
-          });
+          problem.solve(double(step) / scene.load_stepping.steps,
+                        scene.newton,
+                        [&](unsigned int, const NewtonState &state, int) {
+                          residuals.back().push_back(state.residual);
+                        });
           problem.commit();
         }
       return residuals;

@@ -42,7 +42,7 @@ namespace
     for (const std::string &factor : factors)
       {
         const Scene   scene = make_scene(text, factor, partitioner);
-        const Forest  forest(scene, ".", MPI_COMM_WORLD);
+        const Forest  forest(scene.forest_input(), ".", MPI_COMM_WORLD);
         const FE_Q<3> fe(1);
         DoFHandler<3> vertices(forest.triangulation);
         vertices.distribute_dofs(fe);
@@ -82,7 +82,7 @@ main(int argc, char **argv)
   if (Utilities::MPI::n_mpi_processes(world) == 1)
     {
       const Scene  scene = make_scene(boxes, "1");
-      const Forest forest(scene, ".", world);
+      const Forest forest(scene.forest_input(), ".", world);
       std::cout << forest.n_bodies() << " bodies, " << forest.triangulation.n_active_cells()
                 << " cells, " << forest.triangulation.n_used_vertices() << " vertices\n";
       for (const auto &cell : forest.triangulation.active_cell_iterators())

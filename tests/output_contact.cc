@@ -1,4 +1,4 @@
-// Pictures of the contact surface on any number of ranks: two bilinear faces, and
+// VTU output of the contact surface on any number of ranks: two bilinear faces, and
 // a biquadratic one of another pair. The nodes belong to rank 0 and the faces to
 // the last rank, so that others have none. Without any face nothing is written.
 
@@ -68,11 +68,13 @@ main(int argc, char **argv)
   if (root)
     print_lines(folder.path("contact.pvd"), "DataSet");
 
-  for (const auto &[key, point] : collect_contact_points(biquadratic, points, communicator))
+  const ContactFieldList fields;
+  for (const auto &[key, node] : collect_contact_nodes(fields, biquadratic, points, communicator))
     if (last && !root)
-      if (point.pressure != 10. * key.first + key.second ||
-          point.reference_position[2] != double(key.first) || point.node != key.second ||
-          point.slip_length != 3. * key.second || point.status != ContactStatus::slip)
+      if (node.values[fields.position("pressure")] != 10. * key.first + key.second ||
+          node.reference_position[2] != double(key.first) ||
+          node.values[fields.position("slip_length")] != 3. * key.second ||
+          node.values[fields.position("status")] != double(int(ContactStatus::slip)))
         std::cout << "wrong point" << std::endl;
 
   ContactOutput output(folder);

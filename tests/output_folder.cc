@@ -82,12 +82,12 @@ main(int argc, char **argv)
 
   Statistics statistics(folder);
   attempt("statistics", [&]() {
-    StepRecord record;
-    record.step               = 1;
+    ConvergedStep record;
+    record.number             = 1;
     record.pairs["joint"]     = PairResult();
     record.energies["strain"] = 0.5;
     statistics.add_step(record);
-    record.step                    = 2;
+    record.number                  = 2;
     record.reactions["inner/left"] = dealii::Tensor<1, dim>({1., 2., -3.});
     statistics.add_step(record);
   });

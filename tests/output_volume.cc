@@ -1,4 +1,4 @@
-// Pictures of the bodies and the uniform-stress reference: two boxes on top of
+// VTU output of the bodies and the uniform-stress reference: two boxes on top of
 // each other with the exact displacement of a uniform stress, for both degrees.
 
 #include <touchstone/output/volume_output.h>
@@ -68,8 +68,8 @@ end
     std::string scene_text = text;
     scene_text.replace(scene_text.find("DEGREE"), 6, degree);
     const Scene        scene(scene_text, "test.prm", {});
-    const Forest       forest(scene, ".", communicator);
-    const Solid        solid(scene, forest, communicator);
+    const Forest       forest(scene.forest_input(), ".", communicator);
+    const Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     const OutputFolder folder("volume_test", communicator);
 
     Vector                        owned(solid.owned, communicator);
@@ -100,7 +100,7 @@ end
     input.solid        = &solid;
     input.displacement = &displacement;
     input.communicator = communicator;
-    const auto errors  = ReferenceRegistry::make(scene.reference.type, scene)->errors(input);
+    const auto errors  = scene.reference.type.make(scene)->errors(input);
     if (folder.rank == 0)
       for (const auto &[name, error] : errors)
         std::cout << "degree " << degree << ": " << name
@@ -111,8 +111,7 @@ end
                             {"Reference solution/Type=point displacement",
                              "Reference solution/Values=point x: 1, point y: 1, point z: 2, "
                              "displacement z: -0.03"});
-    const auto  lines =
-      ReferenceRegistry::make(point_scene.reference.type, point_scene)->compare(input).lines;
+    const auto  lines = point_scene.reference.type.make(point_scene)->compare(input).lines;
 
     VolumeOutput output(solid, folder);
     output.write(displacement, nullptr, 0, 0.);
@@ -132,7 +131,7 @@ end
                 if (line.find(pattern) != std::string::npos)
                   std::cout << line << std::endl;
           }
-        if (std::getenv("KEEP_PICTURES") == nullptr)
+        if (std::getenv("KEEP_VTU") == nullptr)
           std::filesystem::remove_all("volume_test");
       }
   }

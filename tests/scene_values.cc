@@ -11,9 +11,9 @@ namespace
     std::cout << scene.title << ", " << scene.bodies.size() << " bodies\n";
     for (const auto &body : scene.bodies)
       {
-        std::cout << body.name << ": " << body.geometry_type.name << ", " << body.element_name
-                  << ", E " << body.material.young_modulus << ", nu " << body.material.poisson_ratio
-                  << ", fixed " << body.fixed.size() << '\n';
+        std::cout << body.name << ": " << body.geometry_type.name << ", "
+                  << body.element_type.word() << ", E " << body.material.young_modulus << ", nu "
+                  << body.material.poisson_ratio << ", fixed " << body.fixed.size() << '\n';
         for (const auto &[name, boundary] : body.boundaries)
           std::cout << "  " << name << ": pressure '" << boundary.pressure << "'\n";
       }
@@ -23,7 +23,7 @@ namespace
     for (const auto &pair : scene.pairs)
       std::cout << pair.name << ": " << pair.slave_body << ' ' << pair.slave_boundaries.size()
                 << " on " << pair.master_body << pair.obstacle << ", " << pair.behaviour.name
-                << ", " << pair.sliding << '\n';
+                << ", " << pair.sliding.word() << '\n';
     std::cout << "degree " << scene.discretisation.degree << ", steps " << scene.load_stepping.steps
               << ", tolerance " << scene.newton.residual_tolerance << ", "
               << scene.linear_solver.type << ", to " << scene.output.directory << '\n';

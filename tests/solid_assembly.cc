@@ -39,8 +39,8 @@ end
     const Scene  scene(text,
                       "scene.prm",
                       {"Body ball/Material/Law=" + law, "Discretisation/Degree=" + degree});
-    const Forest forest(scene, "", MPI_COMM_WORLD);
-    Solid        solid(scene, forest, MPI_COMM_WORLD);
+    const Forest forest(scene.forest_input(), "", MPI_COMM_WORLD);
+    Solid        solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
 
     // Two small displacements as functions of the place.
     Touchstone::Vector x(solid.owned, MPI_COMM_WORLD), y(x), kx(x), ky(x);

@@ -96,13 +96,13 @@ end
   void
   closed_surface(const std::string &degree, const std::string &pressure)
   {
-    const Scene              scene(ball,
+    const Scene  scene(ball,
                       "scene.prm",
                       {"Discretisation/Degree=" + degree,
-                                    "Body ball/Boundary surface/Pressure=" + pressure});
-    const Forest             forest(scene, "", MPI_COMM_WORLD);
-    const Solid              solid(scene, forest, MPI_COMM_WORLD);
-    const BoundaryConditions conditions(scene, forest, solid);
+                        "Body ball/Boundary surface/Pressure=" + pressure});
+    const Forest forest(scene.forest_input(), "", MPI_COMM_WORLD);
+    const Solid  solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
+    const BoundaryConditions conditions(forest, solid);
     const Touchstone::Vector u = displacement(solid, 0.05, 1), v = displacement(solid, 1., 2),
                              w = displacement(solid, 1., 3);
     Touchstone::Vector force(u), after(u), before(u);

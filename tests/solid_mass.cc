@@ -222,11 +222,12 @@ end
     const Scene           scene(text,
                       "scene.prm",
                       {"Time integration/Mass=" + kind, "Discretisation/Degree=" + degree});
-    const Forest          forest(scene, "", MPI_COMM_WORLD);
-    Solid                 solid(scene, forest, MPI_COMM_WORLD);
+    const Forest          forest(scene.forest_input(), "", MPI_COMM_WORLD);
+    Solid                 solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
     const std::set<Index> chosen_nodes = nodes_where(solid, chosen);
     solid.assemble();
-    const Mass    full(scene, solid, {}, step), part(scene, solid, chosen_nodes, step);
+    const Mass full(scene.time_integration.mass, solid, {}, step),
+      part(scene.time_integration.mass, solid, chosen_nodes, step);
     const Moments exact = integrals(solid, 7.), of_full = moments(solid, full, 0);
     double        moved = 0., inertia = 0.;
     for (unsigned int d = 0; d < dim; ++d)

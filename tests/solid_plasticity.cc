@@ -49,7 +49,7 @@ namespace
           Tensor<2, dim> F;
           F[0][0] = finite ? std::exp(axial) : axial;
           F[1][1] = F[2][2] = finite ? std::exp(lateral) : lateral;
-          law->respond(F, state.data(), Demand::tangent, response, present.data());
+          law->respond({F, state.data(), 0.}, Demand::tangent, response, present.data());
           const double residual = response.stress[1][1];
           if (std::abs(residual) < 1e-12 || iteration == 50)
             {
@@ -71,12 +71,12 @@ namespace
     double
     plastic_strain() const
     {
-      return state[MaterialLaw::plastic_strain];
+      return law->plastic_strain(state.data());
     }
     double
     plastic_work() const
     {
-      return state[MaterialLaw::plastic_work];
+      return law->dissipation(state.data());
     }
 
     double axial = 0., lateral = 0., energy = 0.;

@@ -56,8 +56,8 @@ end
               {"Discretisation/Partitioner=p4est",
                "Body plastic/Material/Law=" + law,
                "Discretisation/Degree=" + degree})
-      , forest(scene, "", MPI_COMM_WORLD)
-      , solid(scene, forest, MPI_COMM_WORLD)
+      , forest(scene.forest_input(), "", MPI_COMM_WORLD)
+      , solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD)
       , n_state(solid.history_law(1)->n_state())
     {
     }
@@ -164,12 +164,12 @@ end
       std::copy(one.begin(), one.end(), state);
     });
     const auto   same  = [&](const CellId &, unsigned int) { return one; };
-    const double work  = bodies.solid.plastic_dissipation();
+    const double work  = bodies.solid.dissipation();
     const auto   cells = bodies.forest.triangulation.n_global_active_cells();
     bodies.change(true);
     const auto   finer      = bodies.forest.triangulation.n_global_active_cells();
     const double refined    = bodies.difference(same);
-    const double work_after = bodies.solid.plastic_dissipation();
+    const double work_after = bodies.solid.dissipation();
     bodies.change(false);
     const auto   coarser   = bodies.forest.triangulation.n_global_active_cells();
     const double coarsened = bodies.difference(same);

@@ -1,7 +1,7 @@
 """Errors against exact solutions from the contact results of any program.
 
 The same measures as those of source/output/{interference_fit,hertz,cattaneo_mindlin,
-uniform_stress}.cc, where their formulas and sources stand; tests/checks/benchmark.sh
+uniform_stress}.cc, where their formulas and sources stand; tests/checks/benchmark.py
 holds the two against each other.
 """
 

@@ -1,6 +1,6 @@
-// An enforcement to start from: an augmented Lagrangian in its simplest form. Copy
-// to source/contact/NAME.cc, fill in what is marked TODO, and add NAME to the key
-// "Enforcement" in source/scene/contact_parameters.cc.
+// An enforcement to start from: an augmented Lagrangian in its simplest form. Copy to
+// source/contact/enforcement/NAME.cc and change what is marked TODO: 'set Enforcement = NAME'
+// selects it, and nothing else need be edited.
 
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>

@@ -1,7 +1,7 @@
-// A pairing to start from: node to node. Copy to source/contact/NAME.cc, fill in
-// what is marked TODO, and add NAME to the key "Pairing" in
-// source/scene/contact_parameters.cc.
+// A pairing to start from: node to node. Copy to source/contact/pairing/NAME.cc and change
+// what is marked TODO: 'set Pairing = NAME' selects it, and nothing else need be edited.
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/contact/pairing/pairing.h>
 
 #include <algorithm>
@@ -14,12 +14,38 @@ namespace Touchstone
     class NodePairing : public Pairing
     {
     public:
-      explicit NodePairing(const PairingInput &input)
+      // TODO: keys of its own, in the section of the contact pair; leave it out if there are none.
+      struct Parameters : public PluginParameters
+      {
+        double reach = 4.;
+
+        void
+        declare(dealii::ParameterHandler &prm) override
+        {
+          prm.add_parameter("Search reach",
+                            reach,
+                            "How far partners are looked for, in diagonals of the largest master "
+                            "face, positive. [no unit]");
+        }
+
+        void
+        check(const std::string &section) const override
+        {
+          if (!(reach > 0.))
+            throw InputError(section,
+                             "Search reach",
+                             dealii::Patterns::Tools::to_string(reach),
+                             "must be positive",
+                             "4 is a good choice");
+        }
+      };
+
+      NodePairing(const Parameters &own, const PairingInput &input)
         : Pairing(input)
         , search(*input.master,
-                 4. * input.master->largest_face(),
+                 own.reach * input.master->largest_face(),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
       {
       }

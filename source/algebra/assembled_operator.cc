@@ -44,7 +44,7 @@ namespace Touchstone
       n_blocks() const override
       {
         const BlockPattern &pattern = stiffness.couplings();
-        return (pattern.column.size() + pattern.mirrors().blocks.size()) * 11 / 10;
+        return (pattern.column.size() + pattern.transposed_blocks().blocks.size()) * 11 / 10;
       }
 
       const RowOfBlocks<Block> &

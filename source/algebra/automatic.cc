@@ -8,9 +8,9 @@ namespace Touchstone
 {
   namespace
   {
-    /** From this number of unknowns on, iterations with multigrid are faster than
+    /** From this number of dofs on, iterations with multigrid are faster than
      * a factorisation (doc/benchmarks.md), unless they are many. */
-    constexpr int many_unknowns = 10000;
+    constexpr int many_dofs = 10000;
 
     /**
      * Iterations with multigrid where the system is large and has no multipliers, conjugate
@@ -33,31 +33,31 @@ namespace Touchstone
       }
 
       bool
-      wants_basis_change(const int n_unknowns) const override
+      wants_basis_change(const int n_dofs) const override
       {
-        return iterates(n_unknowns);
+        return iterates(n_dofs);
       }
 
       bool
-      applies_operator(const int n_unknowns) const override
+      applies_operator(const int n_dofs) const override
       {
-        return iterates(n_unknowns) && parameters.contact_operator == "applied";
+        return iterates(n_dofs) && parameters.contact_operator == "applied";
       }
 
       bool
-      factorises(const int n_unknowns) const override
+      factorises(const int n_dofs) const override
       {
-        return n_unknowns < many_unknowns;
+        return n_dofs < many_dofs;
       }
 
       void
-      forget() override
+      clear_cache() override
       {
         strikes.succeeded();
         for (Method *method : {&cg, &gmres})
           if (method->solver)
-            method->solver->forget();
-        direct->forget();
+            method->solver->clear_cache();
+        direct->clear_cache();
       }
 
     private:
@@ -72,21 +72,20 @@ namespace Touchstone
       bool                                told_of_one = false, told_of_all = false;
 
       bool
-      iterates(const int n_unknowns) const
+      iterates(const int n_dofs) const
       {
-        return !strikes.out() && n_unknowns >= many_unknowns;
+        return !strikes.out() && n_dofs >= many_dofs;
       }
 
       /** The size decides how many iterations are worth while, and does not change. */
       LinearSolver &
-      make(Method &method, const int n_unknowns) const
+      make(Method &method, const int n_dofs) const
       {
         if (!method.solver)
           {
             LinearSolverParameters with_patience = parameters;
             with_patience.type                   = method.name;
-            with_patience.patience =
-              static_cast<unsigned int>(ConvergenceWatch::patience(n_unknowns));
+            with_patience.patience = static_cast<unsigned int>(ConvergenceWatch::patience(n_dofs));
             with_patience.maximum_iterations =
               std::min(parameters.maximum_iterations, with_patience.patience);
             method.solver = LinearSolverRegistry::make(method.name, with_patience);
@@ -99,11 +98,11 @@ namespace Touchstone
                const RigidMotions    &motions,
                Epetra_Vector         &solution) override
       {
-        const int n_unknowns = system.rows().NumGlobalElements();
-        bool      solved     = false;
-        if (!system.definite && n_unknowns >= many_unknowns)
+        const int n_dofs = system.rows().NumGlobalElements();
+        bool      solved = false;
+        if (!system.definite && n_dofs >= many_dofs)
           remark("linear solver: MUMPS, for multigrid cannot solve a system with multipliers");
-        else if (iterates(n_unknowns))
+        else if (iterates(n_dofs))
           solved = try_to_iterate(system, motions, solution);
         if (!solved)
           delegate(*direct, system, motions, solution);
@@ -137,7 +136,7 @@ namespace Touchstone
         // What one keeps is of no use for the other.
         Method &method = system.symmetric ? cg : gmres, &other = system.symmetric ? gmres : cg;
         if (other.solver)
-          other.solver->forget();
+          other.solver->clear_cache();
         LinearSolver &iterative = make(method, system.rows().NumGlobalElements());
         try
           {
@@ -149,7 +148,7 @@ namespace Touchstone
           {
             strikes.failed(system.symmetric);
             tell(failure.what());
-            iterative.forget();
+            iterative.clear_cache();
             solution.PutScalar(0.);
             return false;
           }

@@ -22,7 +22,7 @@ namespace Touchstone
     using Manager = Belos::SolverManager<double, Epetra_MultiVector, Epetra_Operator>;
 
     /** Multigrid that would take more iterations than ConvergenceWatch::patience() is replaced by
-     * factors in systems of up to so many unknowns, of which they need some GB. */
+     * factors in systems of up to so many dofs, of which they need some GB. */
     constexpr int factorisable = 200000;
 
     /** A Krylov method from Belos with a preconditioner of the registry. */
@@ -60,7 +60,7 @@ namespace Touchstone
       }
 
       void
-      forget() override
+      clear_cache() override
       {
         preconditioner.reset();
         strikes.succeeded();
@@ -73,7 +73,7 @@ namespace Touchstone
       /** Multigrid would take too many iterations, factors are kept instead. */
       bool    slow = false, told = false;
       Strikes strikes;
-      /** Constrained unknowns of its matrix, and those of changed basis. */
+      /** Constrained dofs of its matrix, and those of changed basis. */
       std::vector<char> constrained, changed;
       /** Iterations of the first solve with the present preconditioner. */
       int fresh_iterations = 0;
@@ -247,7 +247,7 @@ namespace Touchstone
     bool
     BelosSolver::fits(const CondensedSystem &system) const
     {
-      // It serves until the active set changes (other unknowns are
+      // It serves until the active set changes (other dofs are
       // condensed then: multigrid of an earlier set cost up to six times the
       // iterations, and factors near incompressibility up to a thousand times), or until it
       // costs half as many iterations again; a set-up of multigrid costs about ten.

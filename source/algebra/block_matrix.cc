@@ -14,7 +14,7 @@ namespace Touchstone
   {
     constexpr unsigned int block = dim * dim;
 
-    /** Numbers a node in vectors whose nodes are to be loaded and stored whole. */
+    /** Numbers of a node in padded vectors: three would end within the register of the next. */
     constexpr unsigned int pad = 4;
 
     /** Numbers that are read behind a block. */
@@ -28,44 +28,40 @@ namespace Touchstone
                 const Number       *in,
                 Number             *result)
     {
-      // Four numbers in registers, from any address. (VectorizedArray of a deal.II that was
-      // built for all processors has but one or two.)
-      using Lane
-        __attribute__((vector_size(4 * sizeof(Number)), aligned(alignof(Number)), may_alias)) =
-          Number;
-      auto *const               out     = reinterpret_cast<Lane *>(result);
+      using Vector4                     = typename Simd<Number, 4>::type;
+      auto *const               out     = reinterpret_cast<Vector4 *>(result);
       const unsigned int *const column  = pattern.column.data();
       const unsigned int        n_nodes = pattern.n_nodes();
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
           // Three rows of the node and one that is not used: what fits into a register.
-          Lane              sums[dim] = {};
+          Vector4           sums[dim] = {};
           const Number      own[dim]  = {in[pad * node], in[pad * node + 1], in[pad * node + 2]};
-          const std::size_t end       = pattern.mirrored[node];
+          const std::size_t end       = pattern.upper_end[node];
           for (std::size_t k = pattern.start[node]; k < end; ++k)
             {
               const Number *a = entries + block * k;
               const Number *y = in + pad * column[k];
               // Columns of the block, and rows of it. These from the registers: what limits
               // the speed are loads.
-              const Lane a0 = *reinterpret_cast<const Lane *>(a),
-                         a1 = *reinterpret_cast<const Lane *>(a + dim),
-                         a2 = *reinterpret_cast<const Lane *>(a + 2 * dim);
+              const Vector4 a0 = *reinterpret_cast<const Vector4 *>(a),
+                            a1 = *reinterpret_cast<const Vector4 *>(a + dim),
+                            a2 = *reinterpret_cast<const Vector4 *>(a + 2 * dim);
               sums[0] += a0 * y[0];
               sums[1] += a1 * y[1];
               sums[2] += a2 * y[2];
-              const Lane upper = __builtin_shufflevector(a0, a1, 0, 4, 1, 5),
-                         lower = __builtin_shufflevector(a0, a1, 2, 6, 3, 7);
-              out[column[k]] += __builtin_shufflevector(upper, a2, 0, 1, 4, 5) * own[0] +
-                                __builtin_shufflevector(upper, a2, 2, 3, 5, 6) * own[1] +
-                                __builtin_shufflevector(lower, a2, 0, 1, 6, 7) * own[2];
+              const Vector4 upper = TOUCHSTONE_SHUFFLE(a0, a1, 0, 4, 1, 5),
+                            lower = TOUCHSTONE_SHUFFLE(a0, a1, 2, 6, 3, 7);
+              out[column[k]] += TOUCHSTONE_SHUFFLE(upper, a2, 0, 1, 4, 5) * own[0] +
+                                TOUCHSTONE_SHUFFLE(upper, a2, 2, 3, 5, 6) * own[1] +
+                                TOUCHSTONE_SHUFFLE(lower, a2, 0, 1, 6, 7) * own[2];
             }
           for (std::size_t k = end; k < pattern.start[node + 1]; ++k)
             {
               const Number *a = entries + block * k;
               const Number *y = in + pad * column[k];
               for (unsigned int d = 0; d < dim; ++d)
-                sums[d] += *reinterpret_cast<const Lane *>(a + dim * d) * y[d];
+                sums[d] += *reinterpret_cast<const Vector4 *>(a + dim * d) * y[d];
             }
           out[node] += sums[0] + sums[1] + sums[2];
         }
@@ -171,24 +167,24 @@ namespace Touchstone
 
 
 
-  const BlockPattern::Mirrors &
-  BlockPattern::mirrors() const
+  const BlockPattern::TransposedBlocks &
+  BlockPattern::transposed_blocks() const
   {
-    if (known_mirrors)
-      return *known_mirrors;
-    auto result = std::make_unique<Mirrors>();
+    if (known_transposed)
+      return *known_transposed;
+    auto result = std::make_unique<TransposedBlocks>();
     result->start.resize(n_nodes() + 1, 0);
     for (unsigned int node = 0; node < n_nodes(); ++node)
-      for (std::size_t k = start[node]; k < mirrored[node]; ++k)
+      for (std::size_t k = start[node]; k < upper_end[node]; ++k)
         ++result->start[column[k] + 1];
     std::partial_sum(result->start.begin(), result->start.end(), result->start.begin());
     result->blocks.resize(result->start.back());
     std::vector<std::size_t> next(result->start);
     for (unsigned int node = 0; node < n_nodes(); ++node)
-      for (std::size_t k = start[node]; k < mirrored[node]; ++k)
+      for (std::size_t k = start[node]; k < upper_end[node]; ++k)
         result->blocks[next[column[k]]++] = {node, static_cast<unsigned int>(k)};
-    known_mirrors = std::move(result);
-    return *known_mirrors;
+    known_transposed = std::move(result);
+    return *known_transposed;
   }
 
 
@@ -203,7 +199,7 @@ namespace Touchstone
     std::vector<unsigned int> order, columns;
     const std::size_t         n_blocks = symmetric ? rows.n_blocks() * 11 / 20 : rows.n_blocks();
     made->start.reserve(n_owned + 1);
-    made->mirrored.reserve(n_owned);
+    made->upper_end.reserve(n_owned);
     made->column.reserve(n_blocks);
     entries.reserve(block * n_blocks + unused);
     for (unsigned int node = 0; node < n_owned; ++node)
@@ -301,17 +297,18 @@ namespace Touchstone
   {
     if (node == present_node)
       return present;
-    present_node                         = node;
-    const BlockPattern          &pattern = *matrix.pattern;
-    const BlockPattern::Mirrors &mirrors = pattern.mirrors();
-    const std::size_t begin = mirrors.start[node], n_mirrors = mirrors.start[node + 1] - begin,
+    present_node                                     = node;
+    const BlockPattern                   &pattern    = *matrix.pattern;
+    const BlockPattern::TransposedBlocks &transposed = pattern.transposed_blocks();
+    const std::size_t                     begin      = transposed.start[node],
+                      n_transposed                   = transposed.start[node + 1] - begin,
                       first = pattern.start[node], n_own = pattern.start[node + 1] - first,
-                      n_upper = pattern.mirrored[node] - first;
-    present.columns.resize(n_mirrors + n_own);
-    present.blocks.resize(n_mirrors + n_own);
-    for (std::size_t m = 0; m < n_mirrors; ++m)
+                      n_upper = pattern.upper_end[node] - first;
+    present.columns.resize(n_transposed + n_own);
+    present.blocks.resize(n_transposed + n_own);
+    for (std::size_t m = 0; m < n_transposed; ++m)
       {
-        const auto &[other, k] = mirrors.blocks[begin + m];
+        const auto &[other, k] = transposed.blocks[begin + m];
         const Number *a        = matrix.entries.data() + block * k;
         present.columns[m]     = other;
         for (unsigned int r = 0; r < dim; ++r)
@@ -326,9 +323,9 @@ namespace Touchstone
                   reinterpret_cast<Number *>(present.blocks.data() + to));
     };
     const std::size_t n_middle = n_upper > 0 ? 1 : 0;
-    copy(n_upper, n_middle, n_mirrors);
-    copy(0, n_upper, n_mirrors + n_middle);
-    copy(n_upper + n_middle, n_own - n_upper - n_middle, n_mirrors + n_upper + n_middle);
+    copy(n_upper, n_middle, n_transposed);
+    copy(0, n_upper, n_transposed + n_middle);
+    copy(n_upper + n_middle, n_own - n_upper - n_middle, n_transposed + n_upper + n_middle);
     return present;
   }
 

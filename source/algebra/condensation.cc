@@ -13,7 +13,7 @@ namespace Touchstone
 
   namespace
   {
-    /** Visit the entries of unknown @p i of a node's row: local numbers and values.
+    /** Visit the entries of dof @p i of a node's row: local indices and values.
      */
     template <class Visit>
     void
@@ -46,8 +46,8 @@ namespace Touchstone
   TransformationRows::row(const int local)
   {
     if (static_cast<std::size_t>(local) >= number.size())
-      number.resize(indices.global().size(), unknown);
-    if (number[local] == unknown)
+      number.resize(indices.global().size(), not_looked_up);
+    if (number[local] == not_looked_up)
       {
         number[local] = identity;
         if (const auto global = transformation.row(indices.global()[local]))
@@ -157,7 +157,7 @@ namespace Touchstone
         for (std::size_t k = pattern.start[node]; k < pattern.start[node + 1]; ++k)
           affected[node] |= !plain[pattern.column[k]];
         if (!plain[node])
-          for (std::size_t k = pattern.start[node]; k < pattern.mirrored[node]; ++k)
+          for (std::size_t k = pattern.start[node]; k < pattern.upper_end[node]; ++k)
             affected[pattern.column[k]] = 1;
       }
     return affected;

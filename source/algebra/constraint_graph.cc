@@ -13,12 +13,13 @@ namespace Touchstone
 
   namespace
   {
-    /** A condition whose direction shrinks below this after substitution adds
-     * nothing that a computation in double precision can rely on: 1e-3 lets
-     * go what is within 0.06 degrees of being determined already. */
+    /** A condition is refused as dependent if its direction, less what earlier conditions of the
+     * node determine, is shorter than this, of a length of one: it is within 0.06 degrees of
+     * their span, and its multiplier would be a difference of numbers a thousand times as
+     * large (doc/theory.md, section 6). */
     constexpr double dependent = 1e-3;
 
-    /** Coefficients of round-off are left out of lines: they could lead in a circle. */
+    /** Coefficients of round-off are left out of lines: they could close a cycle of references. */
     constexpr double negligible = 1e-12;
 
     /** side <- side - factor * other */
@@ -30,8 +31,8 @@ namespace Touchstone
         return;
       side.direction -= factor * other.direction;
       side.origin -= factor * other.origin;
-      for (const auto &[unknown, coefficient] : other.others)
-        side.others[unknown] -= factor * coefficient;
+      for (const auto &[dof, coefficient] : other.others)
+        side.others[dof] -= factor * coefficient;
       side.value -= factor * other.value;
     }
 
@@ -58,7 +59,7 @@ namespace Touchstone
       side.direction[pivot] = 1.;
     }
 
-    /** @p known and @p more unknowns. IndexSet takes single ones one by one into a sorted
+    /** @p known and @p more dofs. IndexSet takes single ones one by one into a sorted
      * list, which takes the square of their number. */
     IndexSet
     with(const IndexSet &known, std::vector<Index> more)
@@ -88,7 +89,7 @@ namespace Touchstone
       double coefficient;
     };
 
-    /** Add the lines that the owners of @p needed unknowns have. (deal.II's
+    /** Add the lines that the owners of @p needed dofs have. (deal.II's
      * make_consistent_in_parallel() looks for each one among all that there are, which takes
      * the square of their number.) Collective. */
     void
@@ -157,6 +158,7 @@ namespace Touchstone
 
 
 
+  // Gaussian elimination of the pivots of earlier conditions of the node, from both sides.
   void
   ConstraintGraph::reduce(const Index node, ReducedCondition &reduced) const
   {
@@ -166,8 +168,8 @@ namespace Touchstone
     // In the order of acceptance: each does not contain the pivots of those before.
     for (const ReducedCondition &earlier : found->second)
       {
-        substitute(reduced.motion, earlier.pivot, earlier.motion);
-        substitute(reduced.force, earlier.pivot, earlier.force);
+        substitute(reduced.trial, earlier.pivot, earlier.trial);
+        substitute(reduced.test, earlier.pivot, earlier.test);
       }
   }
 
@@ -185,7 +187,7 @@ namespace Touchstone
     std::vector<Tensor<1, dim>> basis;
     for (const ReducedCondition &condition : found->second)
       {
-        Tensor<1, dim> direction = condition.motion.direction;
+        Tensor<1, dim> direction = condition.trial.direction;
         for (const Tensor<1, dim> &earlier : basis)
           direction -= (direction * earlier) * earlier;
         basis.push_back(direction / direction.norm());
@@ -202,13 +204,13 @@ namespace Touchstone
     ReducedCondition reduced;
     reduced.treatment         = treatment;
     reduced.symmetric         = condition.symmetric();
-    reduced.motion            = Side(condition.node, condition.motion_form(), condition.value);
-    reduced.force             = Side(condition.node, condition.force_form(), 0.);
+    reduced.trial             = Side(condition.node, condition.motion_form(), condition.value);
+    reduced.test              = Side(condition.node, condition.force_form(), 0.);
     const auto         found  = nodes.find(condition.node);
     const unsigned int number = found == nodes.end() ? 0 : found->second.size();
     if (number >= dim)
       return false; // all directions are determined
-    reduced.motion.origin[number] = reduced.force.origin[number] = 1.;
+    reduced.trial.origin[number] = reduced.test.origin[number] = 1.;
     reduce(condition.node, reduced);
 
     // The pivot must do for both sides.
@@ -218,7 +220,7 @@ namespace Touchstone
         // Of components that are nearly equal the first: the choice should stay when
         // the direction turns a little.
         const double size =
-          std::min(std::abs(reduced.motion.direction[d]), std::abs(reduced.force.direction[d]));
+          std::min(std::abs(reduced.trial.direction[d]), std::abs(reduced.test.direction[d]));
         if (size > 1.3 * best)
           {
             best          = size;
@@ -228,18 +230,18 @@ namespace Touchstone
     if (best < dependent)
       return false;
 
-    normalise(reduced.motion, reduced.pivot);
-    normalise(reduced.force, reduced.pivot);
+    normalise(reduced.trial, reduced.pivot);
+    normalise(reduced.test, reduced.pivot);
     std::vector<ReducedCondition> &all = nodes[condition.node];
     // What is eliminated must not refer to another pivot of its own node, or the
-    // lines would depend on each other in a circle.
+    // lines would depend on each other in a cycle.
     if (treatment != Treatment::multiplier)
       for (ReducedCondition &earlier : all)
         {
           if (earlier.treatment != treatment)
             continue;
-          substitute(earlier.motion, reduced.pivot, reduced.motion);
-          substitute(earlier.force, reduced.pivot, reduced.force);
+          substitute(earlier.trial, reduced.pivot, reduced.trial);
+          substitute(earlier.test, reduced.pivot, reduced.test);
           earlier.symmetric = earlier.symmetric && reduced.symmetric;
         }
     all.push_back(std::move(reduced));
@@ -254,7 +256,9 @@ namespace Touchstone
   ConstraintGraph::forces(const Vector                        &residual,
                           const std::function<void(Vector &)> &condense) const
   {
-    // References between conditions are no longer than a few; more would be a cycle.
+    // r_p + sum_k mu_k F_kp = 0 for the eliminated dofs p (doc/theory.md, section 7) is solved by
+    // substitution, since F is triangular: a condition refers to dofs that others eliminate, but
+    // never back. Such chains have a few members; more would be a cycle.
     constexpr unsigned int longest   = 1000;
     constexpr double       round_off = 1e-14;
 
@@ -265,7 +269,7 @@ namespace Touchstone
     for (unsigned int pass = 0;; ++pass)
       {
         AssertThrow(pass < longest, ExcMessage("Conditions depend on each other in a cycle."));
-        std::vector<Index>  unknowns;
+        std::vector<Index>  dofs;
         std::vector<double> values;
         double              change = 0.;
         for (const auto &[node, reduced] : nodes)
@@ -273,19 +277,19 @@ namespace Touchstone
             {
               if (reduced[k].treatment != Treatment::eliminate)
                 continue;
-              const Side  &side  = reduced[k].force;
+              const Side  &side  = reduced[k].test;
               const double force = -rest(dim * node + reduced[k].pivot);
               by_pivot[node][k] += force;
               change  = std::max(change, std::abs(force));
               largest = std::max(largest, std::abs(by_pivot[node][k]));
               for (unsigned int d = 0; d < dim; ++d)
                 {
-                  unknowns.push_back(dim * node + d);
+                  dofs.push_back(dim * node + d);
                   values.push_back(force * side.direction[d]);
                 }
-              for (const auto &[unknown, coefficient] : side.others)
+              for (const auto &[dof, coefficient] : side.others)
                 {
-                  unknowns.push_back(unknown);
+                  dofs.push_back(dof);
                   values.push_back(force * coefficient);
                 }
             }
@@ -293,7 +297,7 @@ namespace Touchstone
         if (Utilities::MPI::max(change, communicator) <=
             round_off * Utilities::MPI::max(largest, communicator))
           break;
-        rest.add(unknowns, values);
+        rest.add(dofs, values);
         rest.compress(VectorOperation::add);
         condense(rest);
       }
@@ -304,7 +308,7 @@ namespace Touchstone
         const auto &reduced = nodes.at(conditions[i].node);
         for (unsigned int k = 0; k < reduced.size(); ++k)
           if (reduced[k].treatment == Treatment::eliminate)
-            result[i] += by_pivot.at(conditions[i].node)[k] * reduced[k].force.origin[numbers[i]];
+            result[i] += by_pivot.at(conditions[i].node)[k] * reduced[k].test.origin[numbers[i]];
       }
     return result;
   }
@@ -349,20 +353,20 @@ namespace Touchstone
           for (unsigned int d = 0; d < dim; ++d)
             if (d != condition.pivot && std::abs(known.direction[d]) > negligible)
               entries.emplace_back(dim * node + d, -known.direction[d]);
-          for (const auto &[unknown, coefficient] : known.others)
+          for (const auto &[dof, coefficient] : known.others)
             if (std::abs(coefficient) > negligible)
-              entries.emplace_back(unknown, -coefficient);
+              entries.emplace_back(dof, -coefficient);
           lines.back().inhomogeneity = known.value;
         }
 
-    // A rank needs the lines of the unknowns in its matrix rows, of those that
+    // A rank needs the lines of the dofs in its matrix rows, of those that
     // these lines refer to, of those that the latter refer to, and so on: until
-    // no rank meets an unknown that it has not asked for.
+    // no rank meets a dof that it has not asked for.
     std::vector<Index> far;
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
-        for (const auto &[unknown, coefficient] : (condition.*side).others)
-          far.push_back(unknown);
+        for (const auto &[dof, coefficient] : (condition.*side).others)
+          far.push_back(dof);
     IndexSet needed = with(relevant, far);
     while (true)
       {
@@ -405,15 +409,15 @@ namespace Touchstone
     if (Utilities::MPI::max(here, communicator) == 0)
       return AffineConstraints<double>();
 
-    // Two rounds: which unknowns are changed, then to what.
+    // Two rounds: which dofs are changed, then to what.
     std::vector<Index> far;
     for (const auto &line : constraints.get_lines())
       for (const auto &entry : line.entries)
         far.push_back(entry.first);
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
-        for (const auto &[unknown, coefficient] : (condition.*kind).others)
-          far.push_back(unknown);
+        for (const auto &[dof, coefficient] : (condition.*kind).others)
+          far.push_back(dof);
     const IndexSet            needed = with(relevant, far);
     AffineConstraints<double> known(needed);
     for (const bool with_entries : {false, true})
@@ -432,23 +436,23 @@ namespace Touchstone
               if (!with_entries)
                 continue;
               std::map<Index, double> entries;
-              const auto              add = [&](const Index unknown, const double factor) {
-                if (constraints.is_constrained(unknown))
+              const auto              add = [&](const Index dof, const double factor) {
+                if (constraints.is_constrained(dof))
                   {
-                    for (const auto &entry : *constraints.get_constraint_entries(unknown))
+                    for (const auto &entry : *constraints.get_constraint_entries(dof))
                       if (plain(entry.first))
                         entries[entry.first] += factor * entry.second;
                   }
-                else if (plain(unknown))
-                  entries[unknown] += factor;
+                else if (plain(dof))
+                  entries[dof] += factor;
               };
               const Side &side = condition.*kind;
               for (unsigned int d = 0; d < dim; ++d)
                 if (d != condition.pivot && side.direction[d] != 0.)
                   add(dim * node + d, -side.direction[d]);
-              for (const auto &[unknown, coefficient] : side.others)
+              for (const auto &[dof, coefficient] : side.others)
                 if (coefficient != 0.)
-                  add(unknown, -coefficient);
+                  add(dof, -coefficient);
               result.add_entries(index, {entries.begin(), entries.end()});
             }
         if (Utilities::MPI::n_mpi_processes(communicator) > 1)

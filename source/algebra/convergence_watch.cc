@@ -24,9 +24,9 @@ namespace Touchstone
 
 
   double
-  ConvergenceWatch::patience(const int n_unknowns)
+  ConvergenceWatch::patience(const int n_dofs)
   {
-    return std::clamp(n_unknowns / 130., 75., 300.);
+    return std::clamp(n_dofs / 130., 75., 300.);
   }
 
 

@@ -11,7 +11,7 @@ namespace Touchstone
     factors.factorise(*system.matrix(),
                       system.symmetric ? MumpsFactors::Kind::definite
                                        : MumpsFactors::Kind::unsymmetric);
-    factors.forget_matrix();
+    factors.release_matrix();
   }
 
 

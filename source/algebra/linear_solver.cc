@@ -61,7 +61,7 @@ namespace Touchstone
       }
     catch (const NonConvergence &)
       {
-        forget();
+        clear_cache();
         throw;
       }
     catch (const std::bad_alloc &)
@@ -79,7 +79,7 @@ namespace Touchstone
       {
         reason = "Epetra reports error " + std::to_string(error);
       }
-    forget();
+    clear_cache();
     throw LinearSolverFailure("the linear solver " + parameters.type + " failed: " + reason);
   }
 

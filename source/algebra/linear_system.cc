@@ -16,9 +16,9 @@ namespace Touchstone
       const IndexSet     owned = x.locally_owned_elements();
       std::vector<Index> far;
       for_each_form([&](const LinearForm &form) {
-        for (const auto &[unknown, value] : form)
-          if (unknown < x.size() && !owned.is_element(unknown))
-            far.push_back(unknown);
+        for (const auto &[dof, value] : form)
+          if (dof < x.size() && !owned.is_element(dof))
+            far.push_back(dof);
       });
       std::sort(far.begin(), far.end());
       IndexSet known(owned);
@@ -43,8 +43,8 @@ namespace Touchstone
     for (const LinearForm &form : forms)
       {
         double sum = 0.;
-        for (const auto &[unknown, value] : form)
-          sum += value * ghosted(unknown);
+        for (const auto &[dof, value] : form)
+          sum += value * ghosted(dof);
         result.push_back(sum);
       }
     return result;
@@ -69,7 +69,7 @@ namespace Touchstone
       for (const RankOneTerm &term : terms)
         visit(term.right);
     });
-    std::vector<Index>  unknowns;
+    std::vector<Index>  dofs;
     std::vector<double> values;
     for (const RankOneTerm &term : terms)
       {
@@ -79,11 +79,11 @@ namespace Touchstone
         for (const auto &[row, value] : term.left)
           if (row < rhs.size())
             {
-              unknowns.push_back(row);
+              dofs.push_back(row);
               values.push_back(-value * amount);
             }
       }
-    result.add(unknowns, values);
+    result.add(dofs, values);
     result.compress(VectorOperation::add);
     return result;
   }

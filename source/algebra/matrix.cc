@@ -26,7 +26,7 @@ namespace Touchstone
     const Index first   = n_nodes > 0 ? owned.nth_index_in_set(0) / dim : 0;
     const auto  mine    = [&](const Index node) { return node >= first && node < first + n_nodes; };
 
-    // Local numbers are those of this rank, then the others in ascending order.
+    // Local indices are those of this rank, then the others in ascending order.
     std::vector<Index> far;
     for (Index node = first; node < first + n_nodes; ++node)
       for (auto entry = couplings.begin(node); entry != couplings.end(node); ++entry)
@@ -49,7 +49,7 @@ namespace Touchstone
     made->partitioner = BlockRows::number(*row_map, numbers.data(), numbers.size());
     made->symmetric   = symmetric;
     made->start.reserve(n_nodes + 1);
-    made->mirrored.reserve(n_nodes);
+    made->upper_end.reserve(n_nodes);
     std::size_t n_blocks = 0;
     for (Index node = first; node < first + n_nodes; ++node)
       n_blocks += couplings.row_length(node);
@@ -162,7 +162,7 @@ namespace Touchstone
             {
               const double value = std::abs(entries[block_size * k + dim * c + r]);
               sums[dim * node + r] += value;
-              if (k < pattern->mirrored[node])
+              if (k < pattern->upper_end[node])
                 sums[dim * pattern->column[k] + c] += value;
             }
     return sums;
@@ -177,7 +177,7 @@ namespace Touchstone
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (std::size_t k = pattern->start[node]; k < pattern->start[node + 1]; ++k)
         for (unsigned int e = 0; e < block_size; ++e)
-          sum += (k < pattern->mirrored[node] ? 2. : 1.) * entries[block_size * k + e] *
+          sum += (k < pattern->upper_end[node] ? 2. : 1.) * entries[block_size * k + e] *
                  entries[block_size * k + e];
     return std::sqrt(Utilities::MPI::sum(sum, pattern->partitioner->get_mpi_communicator()));
   }

@@ -6,7 +6,7 @@ namespace Touchstone
   namespace
   {
     /** Keys of MUMPS. */
-    class MumpsOptions : public LinearSolverOptions
+    class MumpsOptions : public PluginParameters
     {
     public:
       /** Relative size of what is left out of the blocks of the factors; 0 keeps all; no
@@ -57,7 +57,7 @@ namespace Touchstone
       }
 
       void
-      forget() override
+      clear_cache() override
       {
         factors.clear();
       }

@@ -36,13 +36,13 @@ namespace Touchstone
         dmumps_c(&data);
       }
     initialised = factorised = false;
-    forget_matrix();
+    release_matrix();
   }
 
 
 
   void
-  MumpsFactors::forget_matrix()
+  MumpsFactors::release_matrix()
   {
     rows    = {};
     columns = {};
@@ -210,9 +210,9 @@ namespace Touchstone
     if (rank == 0)
       for (int i = 0; i < std::min(infog(28), 5); ++i)
         {
-          const int unknown = data.pivnul_list[i] - 1;
-          text += std::string(i == 0 ? "" : ", ") + "node " + std::to_string(unknown / 3) + " in " +
-                  "xyz"[unknown % 3];
+          const int dof = data.pivnul_list[i] - 1;
+          text += std::string(i == 0 ? "" : ", ") + "node " + std::to_string(dof / 3) + " in " +
+                  "xyz"[dof % 3];
         }
     text = dealii::Utilities::MPI::broadcast(communicator, text);
     throw SingularSystem("MUMPS found " + std::to_string(infog(28)) +

@@ -361,7 +361,7 @@ namespace Touchstone
 
 
 
-    class PetscKeys : public LinearSolverOptions
+    class PetscKeys : public PluginParameters
     {
     public:
       std::string text;
@@ -469,7 +469,7 @@ namespace Touchstone
       }
 
       void
-      forget() override
+      clear_cache() override
       {
         kept.reset();
       }

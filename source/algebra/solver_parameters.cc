@@ -14,7 +14,7 @@ namespace Touchstone
   {
     /** The lines "set KEY = VALUE" of the present values of options. */
     std::vector<std::string>
-    lines(LinearSolverOptions &options)
+    lines(PluginParameters &options)
     {
       ParameterHandler prm;
       options.declare(prm);
@@ -29,10 +29,10 @@ namespace Touchstone
 
     /** Refuse values other than the defaults of options that the scene does not use. */
     void
-    refuse_unused(const std::string   &section,
-                  const std::string   &type,
-                  const std::string   &name,
-                  LinearSolverOptions &options)
+    refuse_unused(const std::string &section,
+                  const std::string &type,
+                  const std::string &name,
+                  PluginParameters  &options)
     {
       const auto                     fresh = LinearSolverOptionsRegistry::make(name);
       const std::vector<std::string> given = lines(options), defaults = lines(*fresh);
@@ -45,9 +45,8 @@ namespace Touchstone
                              dealii::Utilities::trim(given[k].substr(equal + 1)),
                              "is an option of " + name + ", but 'Type' is '" + type + "'",
                              "remove it, or set '" +
-                               std::string(LinearSolverRegistry::records().count(name) > 0
-                                             ? "Type"
-                                             : "Preconditioner") +
+                               std::string(LinearSolverRegistry::knows(name) ? "Type"
+                                                                             : "Preconditioner") +
                                "' to '" + name + "'");
           }
     }
@@ -55,10 +54,10 @@ namespace Touchstone
 
 
 
-  std::map<std::string, std::shared_ptr<LinearSolverOptions>>
+  std::map<std::string, std::shared_ptr<PluginParameters>>
   LinearSolverParameters::all_options()
   {
-    std::map<std::string, std::shared_ptr<LinearSolverOptions>> result;
+    std::map<std::string, std::shared_ptr<PluginParameters>> result;
     for (const std::string &name : LinearSolverOptionsRegistry::names())
       result[name] = LinearSolverOptionsRegistry::make(name);
     return result;

@@ -1,14 +1,8 @@
-#include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact.h>
-#include <touchstone/contact/start_check.h>
-#include <touchstone/contact/unresolved_contact.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/numerics/vector_tools_interpolate.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
 
 namespace Touchstone
 {
@@ -16,302 +10,118 @@ namespace Touchstone
 
   namespace
   {
-    /** A surface that just touches, up to this fraction of a face, starts in
-     * contact: otherwise a body that only rests on another would have no support
-     * in the first iteration. */
-    constexpr double touching_gap = 1e-6;
-
     Tensor<1, dim>
-    part_of_force(const ContactRow &row, const Contact::Part part)
+    part_of_force(const ContactRow &row, const RowState &state, const ForcePart part)
     {
-      const Tensor<1, dim> normal = (row.force * row.normal) * row.normal;
+      const Tensor<1, dim> normal = (state.force * row.normal) * row.normal;
       switch (part)
         {
-          case Contact::Part::normal:
+          case ForcePart::normal:
             return normal;
-          case Contact::Part::tangential:
-            return row.force - normal;
+          case ForcePart::tangential:
+            return state.force - normal;
           default:
-            return row.force;
+            return state.force;
         }
     }
   } // namespace
 
 
 
-  Contact::Contact(const Scene   &scene,
-                   const Forest  &forest,
-                   const Solid   &solid,
-                   const Mirrors &mirrors)
+  Contact::Contact(const std::vector<ContactPairInput> &inputs,
+                   const ContactParameters             &parameters,
+                   const Solid                         &solid,
+                   const Mirrors                       &mirrors)
     : solid(solid)
-    , scene(scene)
+    , friction_rows(solid)
+    , method(parameters.enforcement.make(parameters))
+    , impulse_forces("impulse force")
     , ghosted(solid.owned, solid.relevant, solid.communicator)
-    , end_time(scene.load_stepping.end_time)
   {
-    for (const ContactPairParameters &parameters : scene.pairs)
+    std::vector<FrictionRow> frictions;
+    for (const ContactPairInput &input : inputs)
       {
-        const std::string section = "Contact pair " + parameters.name;
-        const bool        exact   = (parameters.contact_geometry == "manifold");
-        const auto        make    = [&](const std::string              &body,
-                              const std::vector<std::string> &boundaries,
-                              const std::string              &key) {
-          const auto ids = forest.boundary_ids(scene.body_index(body), boundaries, section, key);
-          auto       surface =
-            std::make_unique<Surface>(solid, forest, scene.body_index(body), ids, exact);
-          if (surface->largest_face() == 0.)
-            throw InputError(section, key, "", "these boundaries have no faces", "check the mesh.");
-          return surface;
-        };
-
-        Pair pair;
-        pair.parameters = &parameters;
-        pair.slave_body = scene.body_index(parameters.slave_body);
-        pair.modulus    = scene.bodies[pair.slave_body].material.young_modulus;
-        pair.tied       = parameters.tied();
-        pair.slave = make(parameters.slave_body, parameters.slave_boundaries, "Slave boundaries");
-        const ObstacleParameters *obstacle = nullptr;
-        for (const ObstacleParameters &o : scene.obstacles)
-          if (o.name == parameters.obstacle)
-            obstacle = &o;
-        pair.master_body = numbers::invalid_unsigned_int;
-        if (obstacle == nullptr)
-          {
-            pair.master_body = scene.body_index(parameters.master_body);
-            // A force is small or large by what the softer body makes of it.
-            pair.modulus =
-              std::min(pair.modulus, scene.bodies[pair.master_body].material.young_modulus);
-            pair.master =
-              make(parameters.master_body, parameters.master_boundaries, "Master boundaries");
-            for (const types::boundary_id id : pair.master->boundaries())
-              if (pair.slave->boundaries().count(id) > 0)
-                throw InputError(section,
-                                 "Master boundaries",
-                                 forest.boundary_name(id),
-                                 "this boundary of '" + parameters.master_body +
-                                   "' is slave and master at the same time",
-                                 "let different boundaries be slave and master");
-          }
-        pair.small   = pair.tied || (obstacle == nullptr && parameters.sliding == "small");
-        pair.pairing = make_pairing({&parameters,
-                                     obstacle,
-                                     &solid,
-                                     pair.slave.get(),
-                                     pair.master.get(),
-                                     parameters.search_distance});
-
-        std::vector<ContactRow> pair_rows;
-        for (const SurfaceNode &node : pair.slave->owned_nodes())
-          {
-            ContactRow row;
-            row.pair        = pairs.size();
-            row.slave       = node.node;
-            row.area        = node.area;
-            row.size        = node.size;
-            row.body        = pair.slave_body;
-            row.master_body = pair.master_body;
-            row.stiffness   = pair.modulus * node.area / node.size;
-            row.tied        = pair.tied;
-            if (parameters.friction)
-              {
-                row.friction.emplace();
-                row.friction->law = parameters.friction.get();
-                if (const auto found = mirrors.find(node.node); found != mirrors.end())
-                  row.friction->mirrors = found->second;
-                row.friction->exact = (scene.contact.friction == "exact");
-                row.friction->alpha = 10. * scene.contact.tangential_factor * row.stiffness;
-              }
-            pair_rows.push_back(row);
-          }
-        pair.overlap.assign(pair_rows.size(), 0.);
-        if (parameters.friction)
-          pair.tangents = pair.slave->tangents();
-        rows.push_back(pair_rows);
-        pairs.push_back(std::move(pair));
+        pairs.push_back(std::make_unique<ContactPair>(input));
+        pairs.back()->number_rows(frictions.size());
+        for (FrictionRow &row : pairs.back()->friction_rows(mirrors, parameters))
+          frictions.push_back(std::move(row));
       }
-    find_circles();
+    friction_rows.reinit(std::move(frictions));
     IndexSet seen = solid.relevant;
-    for (const Pair &pair : pairs)
-      seen.add_indices(pair.slave->far_unknowns().begin(), pair.slave->far_unknowns().end());
-    for (const Pair &pair : pairs)
-      if (pair.master)
-        seen.add_indices(pair.master->far_unknowns().begin(), pair.master->far_unknowns().end());
+    for (const auto &pair : pairs)
+      {
+        pair->set_friction([this](const std::size_t index) { return friction_rows.row(index); });
+        for (const ContactRow &row : pair->rows())
+          all_rows.push_back(row);
+        seen.add_indices(pair->slave().far_unknowns().begin(), pair->slave().far_unknowns().end());
+      }
+    for (const auto &pair : pairs)
+      if (pair->master())
+        seen.add_indices(pair->master()->far_unknowns().begin(),
+                         pair->master()->far_unknowns().end());
+    method->reinit(all_rows);
+    impulse_forces.reinit(all_rows);
+    cyclic.reinit(pairs, solid.communicator);
+    for (const auto &pair : pairs)
+      parts.push_back(pair.get());
+    for (Stateful *part : {static_cast<Stateful *>(&friction_rows),
+                           static_cast<Stateful *>(method.get()),
+                           static_cast<Stateful *>(&impulse_forces)})
+      parts.push_back(part);
     seen.compress();
     ghosted.reinit(solid.owned, seen, solid.communicator);
     import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
-    committed = rows;
-    if (scene.has_friction())
-      {
-        reference_positions.reinit(solid.owned, solid.communicator);
-        VectorTools::get_position_vector(solid.mapping, solid.dof_handler, reference_positions);
-        owned_start_positions = reference_positions;
-      }
   }
 
 
 
   void
-  Contact::make_reference(Pair &pair, std::vector<ContactRow> &pair_rows, const double time)
+  Contact::update(const Vector &u, const double time)
   {
-    Vector zero;
-    zero.reinit(ghosted);
-    pair.slave->move(zero);
-    if (pair.master)
-      pair.master->move(zero);
-    pair.pairing->update(zero, time, pair_rows);
-    ++searches;
-    check_start(pair, pair_rows, zero, time);
-    pair.reference = pair_rows;
-
-    // Stencils may refer to unknowns that are not in the ghost layer.
-    IndexSet needed = solid.relevant;
-    for (const Pair &p : pairs)
-      for (const ContactRow &row : p.reference)
-        for (const StencilEntry &entry : row.stencil)
-          needed.add_range(dim * entry.node, dim * entry.node + dim);
-    needed.compress();
-    stencil_values.reinit(solid.owned, needed, solid.communicator);
-  }
-
-
-
-  void
-  Contact::check_start(Pair                    &pair,
-                       std::vector<ContactRow> &pair_rows,
-                       const Vector            &u,
-                       const double             time)
-  {
-    const StartCheck check(solid,
-                           *pair.parameters,
-                           *pair.slave,
-                           pair.master.get(),
-                           pair.slave_body,
-                           pair.master_body,
-                           u,
-                           pair_rows);
-    // An interference deeper than the distance that the size of the faces suggests.
-    const double depth = pair.parameters->search_distance > 0. ? 0. : check.depth_of_overlap();
-    const double face =
-      pair.master ? std::max(pair.slave->largest_face(), pair.master->largest_face()) : 0.;
-    if (depth > face)
-      {
-        const double distance = std::max(depth + 2. * face, 4. * face);
-        pair.pairing          = make_pairing(
-          {pair.parameters, nullptr, &solid, pair.slave.get(), pair.master.get(), distance});
-        pair.pairing->update(u, time, pair_rows);
-        ++searches;
-      }
-    check.check_facing();
-  }
-
-
-
-  void
-  Contact::update_small(Pair &pair, std::vector<ContactRow> &pair_rows, const Vector &u)
-  {
-    stencil_values = u;
-    for (std::size_t k = 0; k < pair_rows.size(); ++k)
-      {
-        ContactRow &row = pair_rows[k];
-        if (row.status == ContactStatus::no_partner)
-          continue;
-        row.gap_vector = pair.tied ? Tensor<1, dim>() : pair.reference[k].gap_vector;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            row.gap_vector[d] += stencil_values(dim * row.slave + d);
-            for (const StencilEntry &entry : row.stencil)
-              row.gap_vector[d] -= entry.weight * stencil_values(dim * entry.node + d);
-          }
-        row.gap = row.gap_vector * row.normal;
-      }
-  }
-
-
-
-  void
-  Contact::update(const Vector &u, const double t)
-  {
-    time = t;
+    present_time = time;
     (*import_ghosts)(u, ghosted);
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      {
-        Pair &pair = pairs[p];
-        if (pair.small)
-          {
-            if (!started)
-              make_reference(pair, rows[p], time);
-          }
-        else
-          {
-            pair.slave->move(ghosted);
-            if (pair.master)
-              pair.master->move(ghosted);
-            pair.pairing->update(ghosted, time, rows[p]);
-            ++searches;
-            if (!started)
-              check_start(pair, rows[p], ghosted, time);
-          }
-      }
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      if (pairs[p].small)
-        update_small(pairs[p], rows[p], u);
-
-    for (auto &pair_rows : rows)
-      for (unsigned int k = 0; k < pair_rows.size(); ++k)
-        {
-          ContactRow &row  = pair_rows[k];
-          Pair       &pair = pairs[row.pair];
-          row.jump         = Tensor<1, dim>();
-          for (unsigned int d = 0; d < dim; ++d)
-            row.position[d] = ghosted(dim * row.slave + d);
-          row.position += pair.slave->owned_nodes()[k].reference;
-          if (!started && row.status == ContactStatus::open)
-            {
-              if (row.tied)
-                row.status = ContactStatus::tied;
-              else if (row.gap < touching_gap * row.size)
-                row.status = ContactStatus::slip;
-              if (pair.parameters->initial_overlap != "interference")
-                pair.overlap[k] = std::min(row.gap, 0.);
-            }
-          if (pair.overlap[k] < 0. && row.status != ContactStatus::no_partner)
-            {
-              const double part = pair.parameters->initial_overlap == "ramp"
-                                    ? std::max(0., 1. - time / end_time)
-                                    : 1.;
-              row.gap -= part * pair.overlap[k];
-              row.gap_vector -= part * pair.overlap[k] * row.normal;
-            }
-        }
+    for (const auto &pair : pairs)
+      pair->update(u, ghosted, time, [this](const ContactRow &row) { return state(row).active(); });
+    impulse_forces.reinit_present();
+    method->update_partners(all_rows, !started);
     started = true;
-    if (reference_positions.size() > 0)
-      update_slip(u);
+    friction_rows.update(all_rows, u, time);
   }
 
 
 
   void
-  Contact::add_forces(Vector &force, const Part part) const
+  Contact::differentiate()
   {
-    std::vector<Index>  unknowns;
+    for (const auto &pair : pairs)
+      pair->differentiate([this](const ContactRow &row) { return state(row).active(); });
+    friction_rows.differentiate(all_rows);
+  }
+
+
+
+  void
+  Contact::add_forces(Vector &force, const ForcePart part) const
+  {
+    std::vector<Index>  dofs;
     std::vector<double> values;
-    for (const auto &pair_rows : rows)
-      for (const ContactRow &row : pair_rows)
-        if (row.active())
-          {
-            const Tensor<1, dim> f = part_of_force(row, part);
-            for (unsigned int d = 0; d < dim; ++d)
-              if (f[d] != 0.)
-                {
-                  unknowns.push_back(dim * row.slave + d);
-                  values.push_back(f[d]);
-                  for (const StencilEntry &entry : row.stencil)
-                    {
-                      unknowns.push_back(dim * entry.node + d);
-                      values.push_back(-entry.weight * f[d]);
-                    }
-                }
-          }
-    force.add(unknowns, values);
+    for (const ContactRow &row : all_rows)
+      if (state(row).active())
+        {
+          const Tensor<1, dim> f = part_of_force(row, state(row), part);
+          for (unsigned int d = 0; d < dim; ++d)
+            if (f[d] != 0.)
+              {
+                dofs.push_back(dim * row.slave + d);
+                values.push_back(f[d]);
+                for (const StencilEntry &entry : row.stencil)
+                  {
+                    dofs.push_back(dim * entry.node + d);
+                    values.push_back(-entry.weight * f[d]);
+                  }
+              }
+        }
+    force.add(dofs, values);
     force.compress(VectorOperation::add);
     solid.condense(force); // master nodes can hang
   }
@@ -319,13 +129,12 @@ namespace Touchstone
 
 
   double
-  Contact::work_of_obstacles(const Part part) const
+  Contact::work_of_obstacles(const ForcePart part) const
   {
     double work = 0.;
-    for (unsigned int p = 0; p < rows.size(); ++p)
-      for (std::size_t k = 0; k < rows[p].size(); ++k)
-        if (rows[p][k].active())
-          work += part_of_force(rows[p][k], part) * (rows[p][k].shift - committed[p][k].shift);
+    for (const ContactRow &row : all_rows)
+      if (state(row).active())
+        work += part_of_force(row, state(row), part) * (row.shift - committed(row).shift);
     return Utilities::MPI::sum(work, solid.communicator);
   }
 
@@ -335,15 +144,24 @@ namespace Touchstone
   Contact::part_to_touch() const
   {
     double part = 1.;
-    for (unsigned int p = 0; p < rows.size(); ++p)
-      for (std::size_t k = 0; k < rows[p].size(); ++k)
-        {
-          const ContactRow &before = committed[p][k], &now = rows[p][k];
-          if (before.status == ContactStatus::open && now.status != ContactStatus::no_partner &&
-              before.gap > 0. && now.gap < 0.)
-            part = std::min(part, before.gap / (before.gap - now.gap));
-        }
+    for (const ContactRow &row : all_rows)
+      {
+        const double before = committed(row).gap;
+        if (method->states().of_committed(row).status == ContactStatus::open && row.has_partner &&
+            before > 0. && row.gap < 0.)
+          part = std::min(part, before / (before - row.gap));
+      }
     return Utilities::MPI::min(part, solid.communicator);
+  }
+
+
+
+  void
+  Contact::add_impulses(const std::vector<VelocityConstraint> &constraints, const double step)
+  {
+    for (const VelocityConstraint &constraint : constraints)
+      impulse_forces[all_rows[constraint.row]].force -=
+        constraint.impulse / step * constraint.condition.force();
   }
 
 
@@ -351,28 +169,9 @@ namespace Touchstone
   void
   Contact::commit()
   {
-    for (auto &pair_rows : rows)
-      for (ContactRow &row : pair_rows)
-        if (row.friction)
-          commit_friction(row);
-    for (Pair &pair : pairs)
-      if (!pair.small)
-        pair.pairing->commit_positions(ghosted);
-    // What belongs to the linearisation is made anew in each iteration.
-    for (auto &pair_rows : rows)
-      for (ContactRow &row : pair_rows)
-        {
-          row.derivative.reset();
-          if (row.friction)
-            {
-              row.friction->slip_gradient.clear();
-              row.friction->spin_gradient.clear();
-            }
-        }
-    if (positions.size() > 0)
-      start_step();
-    committed      = rows;
-    committed_time = time;
+    friction_rows.end_step(all_rows, method->states());
+    for (Stateful *part : parts)
+      part->commit();
   }
 
 
@@ -380,219 +179,107 @@ namespace Touchstone
   void
   Contact::rollback()
   {
-    rows = committed;
+    for (Stateful *part : parts)
+      part->rollback();
   }
 
 
 
-  std::vector<ContactPoint>
-  Contact::points(const Vector &u) const
+  void
+  Contact::save(ArchiveWriter &archive) const
   {
-    std::vector<ContactPoint> result;
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      for (unsigned int k = 0; k < rows[p].size(); ++k)
-        {
-          const ContactRow &row = rows[p][k];
-          ContactPoint      point;
-          point.pair               = p;
-          point.node               = row.slave;
-          point.reference_position = pairs[p].slave->owned_nodes()[k].reference;
+    for (const Stateful *part : parts)
+      part->save(archive);
+  }
+
+
+
+  void
+  Contact::load(const ArchiveReader &archive)
+  {
+    present_time = archive.get<double>("committed time");
+    (*import_ghosts)(archive.field("displacement"), ghosted);
+    for (const auto &pair : pairs)
+      pair->set_displacement(ghosted);
+    for (Stateful *part : parts)
+      part->load(archive);
+  }
+
+
+
+  std::vector<Vector>
+  Contact::fields(const bool of_committed) const
+  {
+    std::vector<Vector> result(n_fields * pairs.size(), Vector(solid.owned, solid.communicator));
+    for (const ContactRow &present : all_rows)
+      {
+        const ContactRow &row   = of_committed ? committed(present) : present;
+        const RowState   &now   = of_committed ? method->states().of_committed(row) : state(row);
+        Vector *const     field = &result[n_fields * row.pair];
+        if (now.active() && row.area > 0.)
           for (unsigned int d = 0; d < dim; ++d)
-            point.displacement[d] = u(dim * row.slave + d);
-          point.normal = row.normal;
-          // What round-off leaves of positions is none.
-          point.gap      = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
-          point.area     = row.area * row.share;
-          point.pressure = (row.lambda + row.jump * row.normal) / row.area;
-          point.traction = (row.force + row.jump) / row.area;
-          point.lever    = row.lever;
-          point.status   = row.status;
-          if (row.friction)
-            {
-              point.slip          = row.friction->slip;
-              point.slip_length   = row.friction->slip_length;
-              point.friction_work = row.friction->work;
-            }
-          result.push_back(point);
-        }
-    return result;
-  }
-
-
-
-  std::vector<ContactFace>
-  Contact::faces() const
-  {
-    std::vector<ContactFace> result;
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      for (const Face &face : pairs[p].slave->owned_faces())
-        {
-          result.push_back({p, face.degree, face.nodes});
-          if (const TraceBasis *basis = pairs[p].slave->trace(face))
-            for (unsigned int m = 0; m < face.n_nodes(); ++m)
-              {
-                const Stencil follows = basis->stencil(m);
-                if (follows.size() != 1 || follows[0].node != face.nodes[m])
-                  result.back().hanging.push_back({face.nodes[m], face.reference[m], follows});
-              }
-        }
-    return result;
-  }
-
-
-
-  std::vector<PairResult>
-  Contact::results(const Vector &u) const
-  {
-    std::vector<PairResult> all(pairs.size());
-    for (const ContactPoint &point : points(u))
-      {
-        PairResult &result = all[point.pair];
-        result.friction_work += point.friction_work;
-        if (point.status != ContactStatus::no_partner && point.status != ContactStatus::tied)
-          result.max_penetration = std::max(result.max_penetration, -point.gap);
-        if (point.status < ContactStatus::slip)
-          continue;
-        const Tensor<1, dim> force = point.area * point.traction;
-        result.force += force;
-        result.moment +=
-          cross_product_3d(point.reference_position + point.displacement + point.lever, force);
-        result.area += point.area;
-        result.max_pressure = std::max(result.max_pressure, point.pressure);
-        ++result.active;
-        ++(point.status == ContactStatus::slip ? result.slip : result.stick);
-      }
-    for (PairResult &result : all)
-      {
-        result.force           = Utilities::MPI::sum(result.force, solid.communicator);
-        result.moment          = Utilities::MPI::sum(result.moment, solid.communicator);
-        result.area            = Utilities::MPI::sum(result.area, solid.communicator);
-        result.max_pressure    = Utilities::MPI::max(result.max_pressure, solid.communicator);
-        result.max_penetration = Utilities::MPI::max(result.max_penetration, solid.communicator);
-        result.active          = Utilities::MPI::sum(result.active, solid.communicator);
-        result.slip            = Utilities::MPI::sum(result.slip, solid.communicator);
-        result.friction_work   = Utilities::MPI::sum(result.friction_work, solid.communicator);
-        result.stick           = Utilities::MPI::sum(result.stick, solid.communicator);
-      }
-    return all;
-  }
-
-
-
-  Contact::Work
-  Contact::work() const
-  {
-    Work sum;
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      {
-        sum.slave_rows += rows[p].size();
-        if (pairs[p].master)
-          sum.master_faces += pairs[p].master->owned_faces().size();
-        sum.search += pairs[p].pairing->search_work();
-      }
-    return sum;
-  }
-
-
-
-  std::string
-  Contact::unresolved() const
-  {
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      if (const std::string text = pairs[p].tied ? "" : unresolved(p); !text.empty())
-        return "contact pair '" + pairs[p].parameters->name + "': " + text +
-               ". Rows of slave nodes cannot describe this contact: refine the slave surface" +
-               (pairs[p].master ? ", exchange slave and master, or round the edges" : "");
-    return "";
-  }
-
-
-
-  std::string
-  Contact::unresolved(const unsigned int p) const
-  {
-    const Pair &pair = pairs[p];
-    Vector      owned(solid.owned, solid.communicator), forces;
-    for (const ContactRow &row : rows[p])
-      if (row.active() && row.lambda > 0.)
-        for (unsigned int d = 0; d < dim; ++d)
-          owned(dim * row.slave + d) = row.lambda * row.normal[d];
-    owned.compress(VectorOperation::insert);
-    forces.reinit(ghosted);
-    (*import_ghosts)(owned, forces);
-    // Overlaps can be meant.
-    const bool overlaps = pair.parameters->initial_overlap == "interference";
-    if (!pair.master)
-      return overlaps ? obstacle_within_face(solid,
-                                             *pair.parameters,
-                                             *pair.slave,
-                                             forces,
-                                             [&](const Point<dim> &x) {
-                                               return pair.pairing->distance(x, time);
-                                             })
-                      : "";
-    const UnresolvedContact check(solid,
-                                  *pair.parameters,
-                                  *pair.slave,
-                                  *pair.master,
-                                  pair.slave_body,
-                                  pair.master_body,
-                                  ghosted,
-                                  forces);
-    // Surfaces of small sliding stay where they are.
-    const std::string text = overlaps && !pair.small ? check.overlap() : "";
-    return text.empty() ? check.oblique_force() : text;
-  }
-
-
-
-  std::vector<std::string>
-  Contact::start_report() const
-  {
-    std::vector<std::string> lines;
-    for (unsigned int p = 0; p < pairs.size(); ++p)
-      {
-        double       lowest = std::numeric_limits<double>::max(), size = 0.;
-        unsigned int partner = 0, overlapping = 0;
-        for (std::size_t k = 0; k < rows[p].size(); ++k)
+            field[0](dim * row.slave + d) = now.force[d] / row.area;
+        field[1](dim * row.slave)     = now.active();
+        field[1](dim * row.slave + 1) = (now.status == ContactStatus::stick);
+        if (row.friction && row.area > 0.)
           {
-            const ContactRow &row = rows[p][k];
-            if (row.status == ContactStatus::no_partner)
-              continue;
-            // As the bodies are placed.
-            const double gap = (row.gap + pairs[p].overlap[k]) / row.share;
-            ++partner;
-            lowest = std::min(lowest, gap);
-            size   = std::max(size, row.size);
-            overlapping += (gap < -touching_gap * row.size);
+            const FrictionHistory &history =
+              of_committed ? friction_rows.committed_history(row) : row.friction->history;
+            field[2](dim * row.slave)     = history.slip_length;
+            field[2](dim * row.slave + 1) = history.work / row.area;
           }
-        const unsigned int total     = Utilities::MPI::sum(rows[p].size(), solid.communicator);
-        lowest                       = Utilities::MPI::min(lowest, solid.communicator);
-        size                         = Utilities::MPI::max(size, solid.communicator);
-        partner                      = Utilities::MPI::sum(partner, solid.communicator);
-        overlapping                  = Utilities::MPI::sum(overlapping, solid.communicator);
-        const std::string &treatment = pairs[p].parameters->initial_overlap;
-        const std::string  overlap   = std::string(": an initial overlap") +
-                                    (lowest < -size ? " larger than a face" : "") + ", " +
-                                    (treatment == "adjust" ? "adjusted to no gap"
-                                     : treatment == "ramp" ? "an interference that grows with time"
-                                                           : "taken as interference");
-        char text[300];
-        if (partner == 0)
-          std::snprintf(text,
-                        sizeof(text),
-                        "no master face within reach of any of %u slave nodes",
-                        total);
-        else
-          std::snprintf(text,
-                        sizeof(text),
-                        "%u slave nodes, %u face the master surface, smallest gap %.4g%s",
-                        total,
-                        partner,
-                        lowest,
-                        overlapping == 0 ? "" : overlap.c_str());
-        lines.push_back("contact pair " + pairs[p].parameters->name + ": " + text);
       }
-    return lines;
+    for (Vector &field : result)
+      field.compress(VectorOperation::insert);
+    return result;
+  }
+
+
+
+  void
+  Contact::adopt(const std::vector<Vector> &fields, const bool history)
+  {
+    for (const ContactRow &row : all_rows)
+      {
+        const Vector *const field = &fields[n_fields * row.pair];
+        Tensor<1, dim>      force;
+        for (unsigned int d = 0; d < dim; ++d)
+          force[d] = row.area * field[0](dim * row.slave + d);
+        const ContactStatus status = field[1](dim * row.slave) < 0.5 ? ContactStatus::open
+                                     : row.friction && field[1](dim * row.slave + 1) >= 0.5
+                                       ? ContactStatus::stick
+                                       : ContactStatus::slip;
+        method->adopt(row, status, force);
+        if (row.friction && history)
+          friction_rows.adopt(row,
+                              state(row).force - state(row).lambda * row.normal,
+                              field[2](dim * row.slave),
+                              row.area * field[2](dim * row.slave + 1));
+      }
+    if (history)
+      for (Stateful *part : parts)
+        part->commit();
+  }
+
+
+
+  Vector
+  Contact::with_ghosts(const Vector &owned) const
+  {
+    Vector result;
+    result.reinit(ghosted);
+    (*import_ghosts)(owned, result);
+    return result;
+  }
+
+
+
+  unsigned int
+  Contact::n_searches() const
+  {
+    unsigned int sum = 0;
+    for (const auto &pair : pairs)
+      sum += pair->n_searches();
+    return sum;
   }
 } // namespace Touchstone

@@ -1,4 +1,3 @@
-#include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/enforcement/enforcement.h>
@@ -66,33 +65,30 @@ namespace Touchstone
         behaviour.declare_own_keys(prm);
         prm.leave_subsection();
       }
-    prm.add_parameter("Initial overlap",
-                      initial_overlap,
-                      "An overlap of the bodies as they are placed is an 'interference' that "
-                      "presses them apart, or a fault of the mesh to 'adjust': gaps count from "
-                      "it, and it leads to no stress. 'ramp' is an interference that grows "
-                      "with time until the end of the run. Tied pairs are always adjusted.",
-                      Patterns::Selection("interference|adjust|ramp"));
-    prm.add_parameter("Sliding",
-                      sliding,
-                      "'finite' searches the partners in each iteration, 'small' "
-                      "keeps those of the reference state. Tied pairs are small; an "
-                      "obstacle is always met where it is.",
-                      Patterns::Selection("finite|small"));
-    prm.add_parameter("Contact geometry",
-                      contact_geometry,
-                      "Gaps and normals come from the exact surfaces where the "
-                      "geometry knows them ('manifold'), or from the faces of the "
-                      "mesh ('faceted').",
-                      Patterns::Selection("manifold|faceted"));
-    prm.add_parameter("Master normal",
-                      master_normal,
-                      "The normal of the master surface: that of the 'face' at the contact "
-                      "point; interpolated from normals 'averaged' at the nodes, except "
-                      "across sharp edges; or 'smoothed': gap and normal of a smooth patch "
-                      "over each face of degree 1. Where the exact surface is known "
-                      "'smoothed' is the same as 'averaged'.",
-                      Patterns::Selection("face|averaged|smoothed"));
+    initial_overlap.declare(
+      prm,
+      "Initial overlap",
+      "An overlap of the bodies as they are placed is an 'interference' that "
+      "presses them apart, or a fault of the mesh to 'adjust': gaps count from "
+      "it, and it leads to no stress. 'ramp' is an interference that grows "
+      "with time until the end of the run. Tied pairs are always adjusted.");
+    sliding.declare(prm,
+                    "Sliding",
+                    "'finite' searches the partners in each iteration, 'small' "
+                    "keeps those of the reference state. Tied pairs are small; an "
+                    "obstacle is always met where it is.");
+    contact_geometry.declare(prm,
+                             "Contact geometry",
+                             "Gaps and normals come from the exact surfaces where the "
+                             "geometry knows them ('manifold'), or from the faces of the "
+                             "mesh ('faceted').");
+    master_normal.declare(prm,
+                          "Master normal",
+                          "The normal of the master surface: that of the 'face' at the contact "
+                          "point; interpolated from normals 'averaged' at the nodes, except "
+                          "across sharp edges; or 'smoothed': gap and normal of a smooth patch "
+                          "over each face of degree 1. Where the exact surface is known "
+                          "'smoothed' is the same as 'averaged'.");
     prm.add_parameter("Search distance",
                       search_distance,
                       "Farthest distance at which a slave node looks for a "
@@ -189,30 +185,28 @@ namespace Touchstone
                       "modulus times tributary area over face size, times 100 for 'penalty' "
                       "and 20 for 'augmented lagrange'. [no unit]",
                       Patterns::Double());
-    prm.add_parameter("Augmentation",
-                      augmentation,
-                      "Forces of 'augmented lagrange' grow in each Newton iteration "
-                      "('merged'), or each time that Newton has found a balance ('outer').",
-                      Patterns::Selection("merged|outer"));
-    prm.add_parameter("Friction",
-                      friction,
-                      "Nodes that stick are held without any slip ('exact'), or slip "
-                      "elastically on springs ('regularised'), as they always do with "
-                      "'penalty'.",
-                      Patterns::Selection("exact|regularised"));
+    augmentation.declare(prm,
+                         "Augmentation",
+                         "Forces of 'augmented lagrange' grow in each Newton iteration "
+                         "('merged'), or each time that Newton has found a balance ('outer').");
+    friction.declare(prm,
+                     "Friction",
+                     "Nodes that stick are held without any slip ('exact'), or slip "
+                     "elastically on springs ('regularised'), as they always do with "
+                     "'penalty'.");
     prm.add_parameter("Tangential factor",
                       tangential_factor,
                       "Multiplies the automatic stiffness of these springs, which is ten times "
                       "Young's modulus times tributary area over face size. [no unit]",
                       Patterns::Double());
-    prm.add_parameter("Linearisation",
-                      linearisation,
-                      "Within a Newton iteration, normals, contact points and slip directions "
-                      "change with the bodies ('consistent', quadratic convergence), or not "
-                      "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
-                      "where a direct solver takes unsymmetric systems, and for the rest of a step "
-                      "in which a frozen iteration has gained little.",
-                      Patterns::Selection("automatic|consistent|frozen"));
+    linearisation.declare(
+      prm,
+      "Linearisation",
+      "Within a Newton iteration, normals, contact points and slip directions "
+      "change with the bodies ('consistent', quadratic convergence), or not "
+      "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
+      "where a direct solver takes unsymmetric systems, and for the rest of a step "
+      "in which a frozen iteration has gained little.");
     enforcement.declare_own_keys(prm);
   }
 

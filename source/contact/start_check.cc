@@ -141,7 +141,7 @@ namespace Touchstone
   {
     unsigned int found = 0;
     for (const ContactRow &row : rows)
-      found += row.status != ContactStatus::no_partner;
+      found += row.has_partner;
     return Utilities::MPI::sum(found, solid.communicator) == 0;
   }
 
@@ -154,7 +154,7 @@ namespace Touchstone
       return 0.;
     std::set<Index> nodes;
     for (const ContactRow &row : rows)
-      if (row.status == ContactStatus::no_partner)
+      if (!row.has_partner)
         nodes.insert(row.slave);
     std::vector<Place> alone, masters;
     for (const Face &face : slave.owned_faces())

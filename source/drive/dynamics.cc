@@ -19,8 +19,7 @@ namespace Touchstone
   {
     /** Three formulas for each body, at its nodes; empty ones are zero. */
     Vector
-    interpolate(const Scene               &scene,
-                const Solid               &solid,
+    interpolate(const Solid               &solid,
                 const std::string         &key,
                 std::array<std::string, 3> BodyParameters::*const formulas)
     {
@@ -28,14 +27,14 @@ namespace Touchstone
       Vector                        result(solid.owned, solid.communicator);
       const std::vector<Point<dim>> unit = solid.fe.get_unit_support_points();
       std::vector<Index>            dofs(solid.fe.n_dofs_per_cell());
-      for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      for (unsigned int b = 0; b < solid.bodies.size(); ++b)
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const std::string &formula = (scene.bodies[b].*formulas)[d];
+            const std::string &formula = (solid.bodies[b].*formulas)[d];
             if (formula.empty())
               continue;
             const auto function =
-              all.add(scene.bodies[b].section(), key + std::string(1, "xyz"[d]), formula);
+              all.add(solid.bodies[b].section(), key + std::string(1, "xyz"[d]), formula);
             for (const auto &cell : solid.dof_handler.active_cell_iterators())
               if (cell->is_locally_owned() && cell->material_id() == b)
                 {
@@ -57,16 +56,18 @@ namespace Touchstone
 
 
 
-  Dynamics::Dynamics(const Scene           &scene,
-                     const Solid           &solid,
-                     const std::set<Index> &slaves,
-                     const Vector          &committed_u)
-    : scene(scene)
-    , solid(solid)
+  Dynamics::Dynamics(const TimeIntegrationParameters &parameters,
+                     const double                     step,
+                     const Solid                     &solid,
+                     const std::set<Index>           &slaves,
+                     const Vector                    &committed_u)
+    : solid(solid)
     , committed_u(committed_u)
-    , scheme(scene.time_integration.coefficients())
-    , massless(scene.time_integration.scheme == "contact_stabilized" ? slaves : std::set<Index>())
-    , mass(scene, solid, massless, scene.load_stepping.end_time / scene.load_stepping.steps)
+    , scheme(parameters.coefficients())
+    , massless(parameters.scheme == TimeIntegrationParameters::Scheme::contact_stabilized
+                 ? slaves
+                 : std::set<Index>())
+    , mass(parameters.mass, solid, massless, step)
     , body(bodies_of_unknowns(solid))
     , damping_mass(solid.owned, solid.communicator)
     , damping_stiffness(damping_mass)
@@ -84,7 +85,7 @@ namespace Touchstone
   {
     for (std::size_t i = 0; i < body.size(); ++i)
       {
-        const MaterialParameters &material = scene.bodies[body[i]].material;
+        const MaterialParameters &material = solid.bodies[body[i]].material;
         damping_mass.begin()[i]            = material.rayleigh_mass;
         damping_stiffness.begin()[i]       = material.rayleigh_stiffness;
       }
@@ -98,10 +99,7 @@ namespace Touchstone
   Vector
   Dynamics::initial_displacement() const
   {
-    return interpolate(scene,
-                       solid,
-                       "Initial displacement ",
-                       &BodyParameters::initial_displacement);
+    return interpolate(solid, "Initial displacement ", &BodyParameters::initial_displacement);
   }
 
 
@@ -109,7 +107,7 @@ namespace Touchstone
   void
   Dynamics::start(const Vector &external, const Vector &internal, const Supports &supports)
   {
-    v = interpolate(scene, solid, "Initial velocity ", &BodyParameters::initial_velocity);
+    v = interpolate(solid, "Initial velocity ", &BodyParameters::initial_velocity);
     supports.set_velocity(v);
     // With all mass at the nodes the acceleration needs no solve, and is the same up to
     // the mesh size.
@@ -287,11 +285,11 @@ namespace Touchstone
         }
     end_v.compress(VectorOperation::insert);
     end_a.compress(VectorOperation::insert);
-    if (forces.pressing != nullptr)
+    if (forces.velocity_constraints != nullptr)
       lose_rebound(forces, result);
     result.kinetic = kinetic_energy(end_v);
     result.strain  = solid.strain_energy(u);
-    result.plastic = solid.has_history() ? solid.plastic_dissipation() : 0.;
+    result.plastic = solid.dissipation();
     result.contact += forces.obstacles_normal - work(old_normal, *forces.normal, at_end);
     result.friction +=
       forces.obstacles_tangential - work(old_tangential, *forces.tangential, at_end);
@@ -307,7 +305,7 @@ namespace Touchstone
   void
   Dynamics::lose_rebound(const StepForces &forces, Energies &energies)
   {
-    Impact             impact(*forces.pressing, mass, solid, forces.remove_support);
+    Impact             impact(*forces.velocity_constraints, mass, solid, forces.remove_support);
     const Impact::Loss of_acceleration = impact.stop(end_a, false);
     end_normal -= of_acceleration.normal;
     end_tangential -= of_acceleration.tangential;
@@ -380,7 +378,7 @@ namespace Touchstone
       }
     const auto now = momenta_of(v);
     for (unsigned int b = 0; b < before.size(); ++b)
-      if (!scene.bodies[b].supported())
+      if (!solid.bodies[b].supported())
         {
           dealii::Vector<double> missing = numbers(before[b]), part(n);
           missing -= numbers(now[b]);
@@ -437,7 +435,7 @@ namespace Touchstone
     mass.multiply(velocity, momentum);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, position);
     position += committed_u;
-    std::vector<BodyMomentum> result(scene.bodies.size());
+    std::vector<BodyMomentum> result(solid.bodies.size());
     for (std::size_t i = 0; i < body.size(); i += dim)
       {
         Tensor<1, dim> p, x;

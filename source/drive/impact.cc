@@ -89,23 +89,23 @@ namespace Touchstone
 
 
 
-  Impact::Impact(std::vector<PressingNode>           &pressing,
+  Impact::Impact(std::vector<VelocityConstraint>     &constraints,
                  const Mass                          &mass,
                  const Solid                         &solid,
                  const std::function<void(Vector &)> &remove_support)
     : mass(mass)
     , solid(solid)
     , remove_support(remove_support)
-    , pressing(pressing)
+    , constraints(constraints)
     , rows(Utilities::MPI::create_ascending_partitioning(
         solid.communicator,
-        pressing.size())[Utilities::MPI::this_mpi_process(solid.communicator)])
+        constraints.size())[Utilities::MPI::this_mpi_process(solid.communicator)])
   {
     if (rows.size() == 0)
       return;
     std::vector<NodalForm> motions, forces;
     std::set<Index>        used;
-    for (const PressingNode &node : pressing)
+    for (const VelocityConstraint &node : constraints)
       {
         motions.push_back(node.condition.motion_form());
         forces.push_back(node.condition.force_form());
@@ -126,7 +126,7 @@ namespace Touchstone
     Vector mobility(solid.owned, needed, solid.communicator);
     mobility = inverse_mass;
     scale.reinit(rows, solid.communicator);
-    for (std::size_t k = 0; k < pressing.size(); ++k)
+    for (std::size_t k = 0; k < constraints.size(); ++k)
       {
         double sum = 0.;
         for (const auto &[at, coefficients] : motions[k])
@@ -170,8 +170,8 @@ namespace Touchstone
       return loss;
     Vector excess(rows, solid.communicator), impulses(excess), on_nodes(v);
     apply(*motion, v, excess);
-    for (std::size_t k = 0; moving && k < pressing.size(); ++k)
-      excess.begin()[k] -= pressing[k].condition.value;
+    for (std::size_t k = 0; moving && k < constraints.size(); ++k)
+      excess.begin()[k] -= constraints[k].condition.value;
     Operator response{[&](Vector &y, const Vector &p) {
       apply_transposed(*force, p, on_nodes);
       respond(on_nodes);
@@ -183,11 +183,11 @@ namespace Touchstone
     loss.tangential = on_nodes;
     respond(on_nodes);
     v -= on_nodes;
-    for (std::size_t k = 0; k < pressing.size(); ++k)
+    for (std::size_t k = 0; k < constraints.size(); ++k)
       {
-        pressing[k].impulse = impulses.begin()[k];
-        loss.of_obstacles += impulses.begin()[k] * pressing[k].condition.value;
-        if (!pressing[k].normal)
+        constraints[k].impulse = impulses.begin()[k];
+        loss.of_obstacles += impulses.begin()[k] * constraints[k].condition.value;
+        if (!constraints[k].normal)
           impulses.begin()[k] = 0.;
       }
     loss.of_obstacles = Utilities::MPI::sum(loss.of_obstacles, solid.communicator);

@@ -23,7 +23,7 @@ namespace Touchstone
     public:
       explicit LineSearch(const NewtonParameters &parameters)
         : parameters(parameters)
-        , on(parameters.line_search == "automatic")
+        , on(parameters.line_search == NewtonParameters::LineSearch::automatic)
       {
       }
 
@@ -58,20 +58,20 @@ namespace Touchstone
       /** Halve the increment until the force is not above the highest before; all of it, for the
        * rest of the step, if no part is: then its direction is wrong and not its length. */
       NewtonState
-      shorten(NonlinearProblem &problem, const unsigned int caution)
+      shorten(NonlinearProblem &problem, const unsigned int damping)
       {
         NewtonState state;
         for (double fraction : {0.5, 0.25, 0.125, 0.0625})
           {
             problem.shorten(fraction);
-            state          = problem.residual(caution);
+            state          = problem.residual(damping);
             state.fraction = fraction;
             if (!failed(state, 1.))
               return state;
           }
         on = false;
         problem.shorten(1.);
-        return problem.residual(caution);
+        return problem.residual(damping);
       }
 
     private:
@@ -91,7 +91,7 @@ namespace Touchstone
   Newton::solve(NonlinearProblem &problem, const Observer &observer) const
   {
     std::set<std::uint64_t> seen;
-    unsigned int            caution = 0;
+    unsigned int            damping = 0;
     int                     linear  = 0;
     NewtonState             state;
     double                  best  = std::numeric_limits<double>::max();
@@ -102,10 +102,10 @@ namespace Touchstone
     const unsigned int longest = 2 * parameters.maximum_iterations;
     for (unsigned int iteration = 0; iteration <= longest; ++iteration)
       {
-        state        = problem.residual(caution);
+        state        = problem.residual(damping);
         n_iterations = iteration;
         if (iteration > 0 && line_search.failed(state))
-          state = line_search.shorten(problem, caution);
+          state = line_search.shorten(problem, damping);
         if (iteration > 0)
           observer(iteration, state, linear);
         if (!std::isfinite(state.residual) || !std::isfinite(state.gap))
@@ -129,7 +129,7 @@ namespace Touchstone
         // A set that was left and comes back would come back for ever. Changing
         // only the rows that ask most strongly leads elsewhere.
         if (state.changes > 0 && !seen.insert(state.signature).second &&
-            ++caution > 2 + parameters.maximum_iterations / 4)
+            ++damping > 2 + parameters.maximum_iterations / 4)
           throw ActiveSetCycle("the active set goes in circles: " + std::to_string(state.changes) +
                                " rows keep changing their state");
         line_search.start_from(state);

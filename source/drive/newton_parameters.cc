@@ -24,12 +24,12 @@ namespace Touchstone
                       maximum_iterations,
                       "A step that needs more Newton iterations is cut.",
                       Patterns::Integer(1));
-    prm.add_parameter("Line search",
-                      line_search,
-                      "'automatic' halves an increment that leaves the forces much further out of "
-                      "balance than they were while no contact row changes; 'none' takes "
-                      "every increment in full.",
-                      Patterns::Selection("automatic|none"));
+    line_search.declare(
+      prm,
+      "Line search",
+      "'automatic' halves an increment that leaves the forces much further out of "
+      "balance than they were while no contact row changes; 'none' takes "
+      "every increment in full.");
   }
 
 

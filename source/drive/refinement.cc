@@ -1,3 +1,4 @@
+#include <touchstone/contact/results.h>
 #include <touchstone/drive/refinement.h>
 #include <touchstone/solid/error_estimator.h>
 #include <touchstone/solid/state_transfer.h>
@@ -75,12 +76,12 @@ namespace Touchstone
 
 
 
-  Refinement::Refinement(const Scene &scene, Forest &forest, Solid &solid)
-    : scene(scene)
+  Refinement::Refinement(const RefinementParameters &parameters, Forest &forest, Solid &solid)
+    : parameters(parameters)
     , forest(forest)
     , solid(solid)
   {
-    region = formulas.add("Refinement", "Region", scene.refinement.region);
+    region = formulas.add("Refinement", "Region", parameters.region);
   }
 
 
@@ -88,7 +89,7 @@ namespace Touchstone
   int
   Refinement::finest_level() const
   {
-    return std::min<int>(10, forest.first_level() + scene.refinement.maximum_level);
+    return std::min<int>(10, forest.first_level() + parameters.maximum_level);
   }
 
 
@@ -118,8 +119,8 @@ namespace Touchstone
 
 
   Refinement::Values
-  Refinement::pressure_variation(const std::vector<Vector>                  &fields,
-                                 const std::vector<Contact::PairBoundaries> &pairs) const
+  Refinement::pressure_variation(const std::vector<Vector>         &fields,
+                                 const std::vector<PairBoundaries> &pairs) const
   {
     Values result(forest.triangulation.n_active_cells());
     for (unsigned int p = 0; p < pairs.size(); ++p)
@@ -151,11 +152,11 @@ namespace Touchstone
 
 
   Vector
-  Refinement::faces_at_masters(const StepProblem             &problem,
-                               const unsigned int             pair,
-                               const Contact::PairBoundaries &boundaries,
-                               const double                   length,
-                               const bool                     refined_only) const
+  Refinement::faces_at_masters(const Step           &problem,
+                               const unsigned int    pair,
+                               const PairBoundaries &boundaries,
+                               const double          length,
+                               const bool            refined_only) const
   {
     Vector at_slaves(solid.owned, solid.communicator), at_masters(at_slaves);
     for_each_face(solid,
@@ -170,8 +171,8 @@ namespace Touchstone
                   });
     at_slaves.compress(VectorOperation::add);
     solid.condense(at_slaves);
-    for (const ContactRow &row : problem.contact_state().rows[pair])
-      if (row.active())
+    for (const ContactRow &row : problem.contact_state().pair(pair).rows())
+      if (problem.contact_state().state(row).active())
         if (const double value = at_slaves(dim * row.slave); value > 0.)
           for (const StencilEntry &entry : row.stencil)
             if (entry.weight > 0.)
@@ -183,10 +184,10 @@ namespace Touchstone
 
 
   bool
-  Refinement::follow_slaves(const StepProblem &problem)
+  Refinement::follow_slaves(const Step &problem)
   {
     int        changes = 0;
-    const auto pairs   = problem.contact_state().boundaries();
+    const auto pairs   = pair_boundaries(problem.contact_state());
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         if (pairs[p].master.empty())
@@ -233,17 +234,18 @@ namespace Touchstone
 
 
   double
-  Refinement::estimate(const StepProblem &problem)
+  Refinement::estimate(const Step &problem)
   {
-    const std::string &estimator = scene.refinement.estimator;
-    const Vector       u         = problem.ghosted_displacement();
+    using Estimator = RefinementParameters::Estimator;
+    const Vector u  = problem.ghosted_displacement();
     errors.reinit(forest.triangulation.n_active_cells());
     variation.reinit(forest.triangulation.n_active_cells());
-    if (estimator == "region")
+    if (parameters.estimator == Estimator::region)
       return 0.;
-    errors = estimator == "Kelly" ? jump_errors(scene, solid, u) : recovery_errors(scene, solid, u);
+    errors =
+      parameters.estimator == Estimator::kelly ? jump_errors(solid, u) : recovery_errors(solid, u);
     variation           = pressure_variation(problem.contact_state().fields(false),
-                                   problem.contact_state().boundaries());
+                                   pair_boundaries(problem.contact_state()));
     const double energy = problem.strain_energy();
     // A body in free flight: what round-off makes of no stress says nothing of the mesh.
     if (energy <= solid.round_off(problem.displacement()) * problem.displacement().l2_norm())
@@ -304,10 +306,9 @@ namespace Touchstone
 
 
   bool
-  Refinement::mark(const StepProblem &problem, const double time)
+  Refinement::mark(const Step &problem, const double time)
   {
-    const RefinementParameters &parameters = scene.refinement;
-    auto                       &mesh       = forest.triangulation;
+    auto &mesh = forest.triangulation;
 
     const double high  = bulk_threshold(variation, parameters.contact_fraction),
                  large = bulk_threshold(errors, parameters.refine_fraction);

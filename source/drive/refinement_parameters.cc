@@ -10,13 +10,12 @@ namespace Touchstone
   void
   RefinementParameters::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Estimator",
-                      estimator,
+    estimator.declare(prm,
+                      "Estimator",
                       "Where the mesh is refined: 'none' leaves it as it is; 'Kelly' looks at the "
                       "jumps of stress between cells, 'recovered stress' at the distance from "
                       "stress to averaged stress (Zienkiewicz-Zhu), both also at the contact; "
-                      "'region' takes what 'Region' says alone.",
-                      Patterns::Selection("none|region|Kelly|recovered stress"));
+                      "'region' takes what 'Region' says alone.");
     prm.add_parameter("Cycles",
                       cycles,
                       "How often the first load step is solved, the mesh refined by what came out, "
@@ -68,7 +67,7 @@ namespace Touchstone
   void
   RefinementParameters::check(const std::string &section) const
   {
-    if (estimator == "region" && region.empty())
+    if (estimator == Estimator::region && region.empty())
       throw InputError(section,
                        "Region",
                        region,

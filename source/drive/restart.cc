@@ -12,71 +12,18 @@
 
 /**
  * @file
- * What a checkpoint holds of the problem and of the run. Contact adds its rows in
- * contact/history.cc.
+ * What a checkpoint holds of the problem and of the run. What contact adds is listed beside each
+ * struct: ContactRow, RowState, FrictionHistory, SlipKinematics.
  */
 
 namespace Touchstone
 {
   using namespace dealii;
 
-  template <class Archive>
-  void
-  serialize(Archive &archive, PairResult &result, const unsigned int)
-  {
-    archive &result.force &result.moment &result.area &result.max_pressure &result
-      .max_penetration &result.active &result.stick &result.slip &result.friction_work;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, RunSummary::Mesh &mesh, const unsigned int)
-  {
-    archive &mesh.step &mesh.cells &mesh.unknowns &mesh.estimated_error;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, Energies &energies, const unsigned int)
-  {
-    archive &energies.kinetic &energies.strain &energies.plastic &energies.contact &energies
-      .friction &energies.damping &energies.external &energies.initial &energies.largest;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, Motion::Impact &impact, const unsigned int)
-  {
-    archive &impact.begin &impact.end &impact.openings &impact.touching &impact.touched &impact
-      .impulse &impact.peak_force;
-  }
-
-  template <class Archive>
-  void
-  serialize(Archive &archive, Motion &motion, const unsigned int)
-  {
-    archive &motion.impacts &motion.velocities &motion.energies;
-  }
-
-  /** What is counted or known step by step; the rest is found out at the end. */
-  template <class Archive>
-  void
-  serialize(Archive &archive, RunSummary &summary, const unsigned int)
-  {
-    RunSummary::Iterations &iterations = summary.iterations;
-    RunSummary::Seconds    &seconds    = summary.seconds;
-    archive &summary.steps &summary.meshes &summary.contact &summary.reactions;
-    archive &iterations.newton &iterations.contact &iterations.damped &iterations.linear_total;
-    archive &seconds.wall &seconds.cpu &seconds.assembly &seconds.linear_solver &seconds
-      .search                                                                   &seconds.output;
-  }
-
-
-
   void
   StepProblem::forget()
   {
-    solver->forget();
+    solver->clear_cache();
     // The tangent tells how large round-off is in the forces of finite strains.
     if (!solid.linear())
       solid.assemble(u);
@@ -85,8 +32,9 @@ namespace Touchstone
 
 
   void
-  StepProblem::save(ArchiveWriter &archive) const
+  StepProblem::save(ArchiveWriter &archive)
   {
+    forget();
     const LinearSolverCounts counts = linear_counts();
     archive.put("committed time", committed_time);
     archive.put("linear solver counts", counts);
@@ -121,7 +69,7 @@ namespace Touchstone
             solid.set_cell_state(cell, states[cell]);
         solid.exchange_cell_states();
       }
-    contact.load(archive, u, time);
+    contact.load(archive);
     remember_contact();
     if (archive.has("largest force scale")) // not in checkpoints of earlier versions
       largest_force_scale = archive.get<double>("largest force scale");
@@ -177,9 +125,8 @@ namespace Touchstone
   Simulation::write_checkpoint(const Position &position)
   {
     TimerOutput::Scope scope(timer, "output");
-    problem->forget();
-    RunSummary now = summary;
-    now.seconds    = seconds_so_far();
+    RunSummary         now = summary;
+    now.seconds            = seconds_so_far();
     ArchiveWriter archive(solid);
     archive.put("position", position);
     archive.put("end time", scene.load_stepping.end_time);
@@ -191,9 +138,11 @@ namespace Touchstone
     if (summary.motion)
       archive.put("motion", *summary.motion);
     archive.put("statistics", statistics.rows());
+    archive.put("quantities", statistics.memories());
+    archive.put("last quantities", statistics.for_summary());
     archive.put("volume pictures", volume_output.series().list());
     archive.put("contact pictures", contact_output.series().list());
-    archive.put("last picture", last_picture);
+    archive.put("last picture", last_vtu_step);
     problem->save(archive);
     const std::string name = checkpoints.write(archive.piece(),
                                                position.step - 1,
@@ -246,7 +195,7 @@ namespace Touchstone
         forest.refine(refined);
         solid.reinit();
         volume_output.reinit();
-        problem = std::make_unique<StepProblem>(scene, forest, solid, timer);
+        problem = Step::make(scene, forest, solid, timer);
       }
     try
       {
@@ -287,10 +236,16 @@ namespace Touchstone
     if (summary.motion)
       summary.motion = archive.get<Motion>("motion");
 
-    statistics.restore(archive.get<TableHandler>("statistics"));
-    volume_output.series().restore(archive.get<PictureSeries::List>("volume pictures"));
-    contact_output.series().restore(archive.get<PictureSeries::List>("contact pictures"));
-    last_picture = archive.get<unsigned int>("last picture");
+    // Checkpoints of earlier versions have no quantities but the table.
+    const bool any_quantities = archive.has("quantities");
+    statistics.restore(archive.get<TableHandler>("statistics"),
+                       any_quantities ? archive.get<Statistics::Memories>("quantities")
+                                      : Statistics::Memories(),
+                       any_quantities ? archive.get<std::vector<StepValue>>("last quantities")
+                                      : std::vector<StepValue>());
+    volume_output.series().restore(archive.get<VtuSeries::List>("volume pictures"));
+    contact_output.series().restore(archive.get<VtuSeries::List>("contact pictures"));
+    last_vtu_step = archive.get<unsigned int>("last picture");
     if (archive.has("warnings")) // not in checkpoints of earlier versions
       {
         warnings.restore(archive.get<std::vector<std::string>>("warnings"));

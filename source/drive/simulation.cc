@@ -1,5 +1,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/contact_counts.h>
+#include <touchstone/contact/results.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/output/resources.h>
@@ -20,13 +22,14 @@ namespace Touchstone
     std::shared_ptr<ReferenceSolution>
     make_reference(const Scene &scene)
     {
-      if (ReferenceRegistry::records().count(scene.reference.type) == 0)
+      const std::shared_ptr<ReferenceSolution> result = scene.reference.type.make(scene);
+      if (!result)
         throw InputError("Reference solution",
                          "Type",
-                         scene.reference.type,
+                         scene.reference.type.name,
                          "there is no such reference solution",
                          "choose one of " + ReferenceRegistry::selection() + ".");
-      return ReferenceRegistry::make(scene.reference.type, scene);
+      return result;
     }
 
     std::string
@@ -57,10 +60,10 @@ namespace Touchstone
     , folder(scene.output.directory, communicator)
     , log(folder, terminal, resume)
     , warnings(log)
-    , forest(scene, folder_of_scene, communicator)
-    , solid(scene, forest, communicator)
-    , problem(std::make_unique<StepProblem>(scene, forest, solid, timer))
-    , refinement(scene, forest, solid)
+    , forest(scene.forest_input(), folder_of_scene, communicator)
+    , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
+    , problem(Step::make(scene, forest, solid, timer))
+    , refinement(scene.refinement, forest, solid)
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
     , volume_output(solid, folder)
@@ -88,11 +91,11 @@ namespace Touchstone
   {
     last_state          = NewtonState();
     last_state.residual = std::numeric_limits<double>::quiet_NaN();
-    problem->begin_step(time);
-    const Newton newton(scene.newton);
     // Iterations of attempts that fail count as well.
-    return newton.solve(
-      *problem, [&](const unsigned int iteration, const NewtonState &state, const int linear) {
+    return problem->solve(
+      time,
+      scene.newton,
+      [&](const unsigned int iteration, const NewtonState &state, const int linear) {
         last_state = state;
         progress.iteration(
           {iteration, state.residual, state.gap, state.active, state.changes, linear});
@@ -119,8 +122,7 @@ namespace Touchstone
       return 0;
     for (unsigned int cycle = 0;; ++cycle)
       {
-        std::vector<Vector>       fields;
-        std::vector<BodyMomentum> momenta;
+        StepTransfer transfer;
         {
           TimerOutput::Scope scope(timer, "refinement");
           const double       error = refinement.estimate(*problem);
@@ -128,15 +130,13 @@ namespace Touchstone
           if (cycle == cycles || error < scene.refinement.tolerance ||
               !refinement.mark(*problem, time))
             return newton;
-          momenta = problem->time_integration().momenta();
-          fields  = refinement.execute(problem->carry_over());
+          transfer        = problem->transfer();
+          transfer.fields = refinement.execute(transfer.fields);
           volume_output.reinit();
         }
-        auto next = std::make_unique<StepProblem>(scene, forest, solid, timer);
-        next->start();
-        next->count_on(*problem);
-        problem = std::move(next);
-        problem->adopt(fields, momenta, committed_time, time);
+        problem = Step::make(scene, forest, solid, timer);
+        problem->start();
+        problem->adopt(transfer, time);
         summary.cells    = forest.triangulation.n_global_active_cells();
         summary.unknowns = solid.dof_handler.n_dofs();
         log.line("  mesh " + std::to_string(summary.meshes.size() + 1) + ": " +
@@ -149,20 +149,20 @@ namespace Touchstone
 
 
   void
-  Simulation::write_pictures(const unsigned int step, const double time)
+  Simulation::write_vtu(const unsigned int step, const double time)
   {
-    if (last_picture == step)
+    if (last_vtu_step == step)
       return;
     TimerOutput::Scope scope(timer, "output");
-    last_picture       = step;
+    last_vtu_step      = step;
     const Vector u     = problem->ghosted_displacement();
     const auto   rates = problem->time_integration().rates();
     Vector       velocity;
     if (!rates.empty())
       velocity = solid.ghosted(*rates.front());
     volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time);
-    contact_output.write(problem->contact_state().faces(),
-                         problem->contact_state().points(u),
+    contact_output.write(contact_faces(problem->contact_state()),
+                         contact_points(problem->contact_state(), u),
                          step,
                          time);
   }
@@ -176,17 +176,20 @@ namespace Touchstone
                           const unsigned int newton,
                           const unsigned int cuts)
   {
-    const Vector u       = problem->ghosted_displacement();
-    const auto   results = problem->contact_state().results(u);
-    StepRecord   record;
-    record.step              = step;
+    const Vector  u       = problem->ghosted_displacement();
+    const auto    results = pair_results(problem->contact_state(), u);
+    ConvergedStep record;
+    record.solid             = &solid;
+    record.displacement      = &u;
+    record.points            = contact_points(problem->contact_state(), u);
+    record.number            = step;
     record.time              = time;
     record.step_size         = size;
     record.newton_iterations = newton;
     record.linear_iterations =
-      problem->linear_counts().iterations - summary.iterations.linear_total;
+      problem->state().counts.linear.iterations - summary.iterations.linear_total;
     record.cuts                     = cuts;
-    summary.iterations.linear_total = problem->linear_counts().iterations;
+    summary.iterations.linear_total = problem->state().counts.linear.iterations;
     for (unsigned int p = 0; p < results.size(); ++p)
       {
         const std::string &pair = scene.pairs[p].name;
@@ -203,7 +206,7 @@ namespace Touchstone
     const Energies &energies  = problem->time_integration().committed_energies();
     record.energies["strain"] = energies.strain;
     if (solid.has_history())
-      record.energies["plastic"] = energies.plastic;
+      record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
     if (problem->time_integration().dynamic())
       {
         record.energies["kinetic"]       = energies.kinetic;
@@ -233,9 +236,11 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);
     }
+    for (const auto &observer : observers)
+      observer(record);
     const unsigned int interval = scene.output.vtu_interval;
     if (interval > 0 && step % interval == 0)
-      write_pictures(step, time);
+      write_vtu(step, time);
   }
 
 
@@ -246,9 +251,10 @@ namespace Touchstone
     std::string text = failure.what();
     if (!failure.shorter_step_may_help())
       return text;
-    if (const std::string place = problem->worst_place(); !place.empty())
-      text += "; farthest from a solution: " + place;
-    text += problem->suspicion();
+    const StepDifficulty difficulty = problem->difficulty();
+    if (!difficulty.position.empty())
+      text += "; farthest from a solution: " + difficulty.position;
+    text += difficulty.suspicion;
     if (!repeated)
       return text;
     std::ostringstream more;
@@ -269,7 +275,7 @@ namespace Touchstone
   Simulation::stop(const std::string &reason, const Position &position)
   {
     summary.failure = reason;
-    write_pictures(position.step - 1, position.time);
+    write_vtu(position.step - 1, position.time);
     write_last_checkpoint(position);
   }
 
@@ -314,9 +320,7 @@ namespace Touchstone
           {
             unsigned int newton = solve_step(next);
             newton += adapt(step, next);
-            const std::string remarks = problem->remarks();
-            const auto        loose   = problem->check_loose_bodies();
-            problem->check_contact();
+            const StepFindings findings = problem->findings();
             part = problem->try_commit(scene.time_integration.smallest_step * nominal / now);
             if (part < 1.)
               {
@@ -325,12 +329,12 @@ namespace Touchstone
                 progress.shorten_step(part * size);
                 continue;
               }
-            if (!remarks.empty())
-              log.line("  " + remarks);
+            if (!findings.remarks.empty())
+              log.line("  " + findings.remarks);
             committed_time = time = next;
             repeated_failure.forget();
             progress.end_step(newton);
-            for (const std::string &text : loose)
+            for (const std::string &text : findings.warnings)
               warnings.add(text);
             record_step(step, time, now, newton, cuts);
             log.check();
@@ -347,9 +351,10 @@ namespace Touchstone
           }
         catch (const NonConvergence &failure)
           {
-            const bool repeated = repeated_failure.add(failure, last_state, problem->worst_place());
-            const bool hopeless = repeated || !failure.shorter_step_may_help();
-            const std::string reason = describe(failure, repeated);
+            const bool repeated =
+              repeated_failure.add(failure, last_state, problem->difficulty().position);
+            const bool        hopeless = repeated || !failure.shorter_step_may_help();
+            const std::string reason   = describe(failure, repeated);
             problem->rollback();
             part = 1.;
             if (cuts >= parameters.maximum_cuts || hopeless)
@@ -373,7 +378,7 @@ namespace Touchstone
           }
       }
     if (scene.output.vtu_interval > 0)
-      write_pictures(step - 1, time);
+      write_vtu(step - 1, time);
     write_last_checkpoint({time, size, step, cuts});
     summary.converged = true;
   }
@@ -411,6 +416,12 @@ namespace Touchstone
         log.line("The run did not converge: " + summary.failure);
         log.line("The last converged state is in " + folder.path("solution.pvd") +
                  ". Try more load steps, a finer mesh at the contact, or another enforcement.");
+        // Bodies that friction holds until they snap, or that buckle, leave no static equilibrium
+        // nearby. A block pushed along with a coefficient of 2 does so (doc/robustness.md).
+        if (!scene.time_integration.dynamic() && summary.steps > 0)
+          log.line("Steps that are cut again and again where all went well before can mean that "
+                   "there is no equilibrium to go on with, because a body snaps or buckles: with "
+                   "inertia ('Time integration/Scheme') the run goes on.");
       }
     log.check();
     return summary;
@@ -423,7 +434,8 @@ namespace Touchstone
   {
     check_lost_contact();
     finish_summary();
-    summary.warnings = warnings.list();
+    summary.quantities = statistics.for_summary();
+    summary.warnings   = warnings.list();
     if (summary.ranks > 1)
       log.line(summary.balance_line());
     TimerOutput::Scope scope(timer, "output");
@@ -435,7 +447,7 @@ namespace Touchstone
   void
   Simulation::measure_balance()
   {
-    const Contact::Work                               work   = problem->contact_state().work();
+    const ContactCounts work = contact_counts(problem->contact_state());
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
@@ -481,8 +493,8 @@ namespace Touchstone
         ReferenceInput input;
         input.solid                      = &solid;
         input.displacement               = &u;
-        input.points                     = problem->contact_state().points(u);
-        input.pair_results               = problem->contact_state().results(u);
+        input.points                     = contact_points(problem->contact_state(), u);
+        input.pair_results               = pair_results(problem->contact_state(), u);
         input.motion                     = summary.motion ? &*summary.motion : nullptr;
         input.communicator               = communicator;
         const ReferenceComparison result = reference->compare(input);
@@ -491,14 +503,14 @@ namespace Touchstone
       }
     for (const auto &[body, strain] : solid.largest_plastic_strain())
       summary.plastic_strain[scene.bodies[body].name] = strain;
-    const LinearSolverCounts counts = problem->linear_counts();
+    const LinearSolverCounts counts = problem->state().counts.linear;
     summary.iterations.linear_total = counts.iterations;
     summary.iterations.linear_mean =
       counts.solves > 0 ? double(counts.iterations) / counts.solves : 0.;
-    summary.counts.assemblies            = problem->n_assemblies();
+    summary.counts.assemblies            = problem->state().counts.assemblies;
     summary.counts.factorisations        = counts.factorisations;
     summary.counts.preconditioner_setups = counts.preconditioner_setups;
-    summary.counts.searches              = problem->n_searches();
+    summary.counts.searches              = problem->state().counts.searches;
 
     summary.seconds        = seconds_so_far();
     summary.peak_memory_mb = peak_memory_mb(communicator);
@@ -510,14 +522,15 @@ namespace Touchstone
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
-    const Forest forest(scene, folder_of_scene, communicator);
-    Solid        solid(scene, forest, communicator);
+    const Forest forest(scene.forest_input(), folder_of_scene, communicator);
+    Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     StepProblem  problem(scene, forest, solid, timer);
     // Up to the first linear system: finds bodies that nothing holds.
     problem.start();
     problem.begin_step(scene.load_stepping.end_time / scene.load_stepping.steps);
-    problem.residual(0);
-    problem.linearize();
+    NonlinearProblem &newton = problem;
+    newton.residual(0);
+    newton.linearize();
   }
 } // namespace Touchstone

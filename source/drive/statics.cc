@@ -83,7 +83,7 @@ namespace Touchstone
       {
         Energies result = committed;
         result.strain   = solid.strain_energy(u);
-        result.plastic  = solid.has_history() ? solid.plastic_dissipation() : 0.;
+        result.plastic  = solid.dissipation();
         return result;
       }
 
@@ -136,13 +136,14 @@ namespace Touchstone
 
 
   std::unique_ptr<TimeIntegration>
-  TimeIntegration::make(const Scene           &scene,
-                        const Solid           &solid,
-                        const std::set<Index> &slaves,
-                        const Vector          &committed_u)
+  TimeIntegration::make(const TimeIntegrationParameters &parameters,
+                        const double                     step,
+                        const Solid                     &solid,
+                        const std::set<Index>           &slaves,
+                        const Vector                    &committed_u)
   {
-    if (scene.time_integration.dynamic())
-      return std::make_unique<Dynamics>(scene, solid, slaves, committed_u);
+    if (parameters.dynamic())
+      return std::make_unique<Dynamics>(parameters, step, solid, slaves, committed_u);
     return std::make_unique<Statics>(solid, committed_u);
   }
 } // namespace Touchstone

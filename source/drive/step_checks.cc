@@ -1,4 +1,5 @@
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/contact_checks.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/solid/bodies.h>
 
@@ -54,10 +55,9 @@ namespace Touchstone
   std::vector<unsigned int>
   StepProblem::active_rows() const
   {
-    std::vector<unsigned int> result(contact.rows.size(), 0);
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (const ContactRow &row : contact.rows[p])
-        result[p] += row.active();
+    std::vector<unsigned int> result(contact.n_pairs(), 0);
+    for (const ContactRow &row : contact.rows())
+      result[row.pair] += contact.state(row).active();
     Utilities::MPI::sum(result, solid.communicator, result);
     return result;
   }
@@ -67,14 +67,14 @@ namespace Touchstone
   std::vector<Tensor<1, dim>>
   StepProblem::obstacle_shifts() const
   {
-    std::vector<Tensor<1, dim>> result(contact.rows.size());
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
+    std::vector<Tensor<1, dim>> result(contact.n_pairs());
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         {
           // The same in all rows of the pair, but not all ranks have one.
           double high = std::numeric_limits<double>::lowest();
-          if (!contact.rows[p].empty())
-            high = contact.rows[p].front().shift[d];
+          if (!contact.pair(p).rows().empty())
+            high = contact.pair(p).rows().front().shift[d];
           result[p][d] = Utilities::MPI::max(high, solid.communicator);
         }
     return result;
@@ -108,9 +108,8 @@ namespace Touchstone
     const auto shifts = obstacle_shifts();
     for (unsigned int p = 0; p < shifts.size(); ++p)
       pushed = std::max(pushed, (shifts[p] - committed_shift[p]).norm());
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        size = std::max(size, row.size);
+    for (const ContactRow &row : contact.rows())
+      size = std::max(size, row.size);
     const double limit = Utilities::MPI::max(size, solid.communicator) +
                          10. * Utilities::MPI::max(pushed, solid.communicator);
 
@@ -155,7 +154,7 @@ namespace Touchstone
   void
   StepProblem::check_contact() const
   {
-    if (const std::string text = contact.unresolved(); !text.empty())
+    if (const std::string text = unresolved_contact(contact); !text.empty())
       throw UnresolvedContactFailure(text);
   }
 
@@ -219,14 +218,14 @@ namespace Touchstone
     // The pair that the node belongs to: as a slave rather than as a master.
     const auto node     = static_cast<Index>(worst[5]);
     int        pairs[2] = {-1, -1};
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (const ContactRow &row : contact.rows[p])
-        if (row.slave == node && row.status != ContactStatus::no_partner)
-          pairs[0] = p;
-        else if (row.active() && std::any_of(row.stencil.begin(),
-                                             row.stencil.end(),
-                                             [&](const StencilEntry &e) { return e.node == node; }))
-          pairs[1] = p;
+    for (const ContactRow &row : contact.rows())
+      if (row.slave == node && row.has_partner)
+        pairs[0] = row.pair;
+      else if (contact.state(row).active() &&
+               std::any_of(row.stencil.begin(), row.stencil.end(), [&](const StencilEntry &e) {
+                 return e.node == node;
+               }))
+        pairs[1] = row.pair;
     std::string text = "body '" + scene.bodies[static_cast<unsigned int>(worst[4])].name + "' at " +
                        readable(worst.data() + 1);
     for (unsigned int role = 0; role < 2; ++role)

@@ -1,7 +1,9 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/drive/step_problem.h>
+#include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
 
 #include <deal.II/grid/grid_tools.h>
@@ -23,8 +25,9 @@ namespace Touchstone
     bool
     consistent(const Scene &scene, const bool iterates)
     {
-      return scene.contact.linearisation == "consistent" ||
-             (scene.contact.linearisation == "automatic" && scene.has_friction() && !iterates);
+      return scene.contact.linearisation == ContactParameters::Linearisation::consistent ||
+             (scene.contact.linearisation == ContactParameters::Linearisation::automatic &&
+              scene.has_friction() && !iterates);
     }
   } // namespace
 
@@ -37,9 +40,11 @@ namespace Touchstone
     : scene(scene)
     , solid(solid)
     , timer(timer)
-    , boundary_conditions(scene, forest, solid)
-    , contact(scene, forest, solid, boundary_conditions.mirrors())
-    , enforcement(scene.contact.enforcement.make(scene.contact))
+    , boundary_conditions(forest, solid)
+    , contact(pair_inputs(scene, forest, solid),
+              scene.contact,
+              solid,
+              boundary_conditions.mirrors())
     , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
     , u(solid.owned, solid.communicator)
     , committed_u(u)
@@ -50,26 +55,32 @@ namespace Touchstone
     , increment(u)
     , solved_increment(u)
     , before_increment(u)
+    , forcing_term(scene.linear_solver.tolerance,
+                   scene.newton.residual_tolerance,
+                   scene.has_friction())
   {
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.assemble();
       ++assemblies;
     }
-    modes = std::make_unique<RigidBodyModes>(scene, solid);
+    modes = std::make_unique<RigidBodyModes>(solid);
     std::set<Index> slaves;
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        if (!row.tied)
-          slaves.insert(dim * row.slave);
-    integration = TimeIntegration::make(scene, solid, slaves, committed_u);
+    for (const ContactRow &row : contact.rows())
+      if (!row.tied)
+        slaves.insert(dim * row.slave);
+    integration = TimeIntegration::make(scene.time_integration,
+                                        scene.load_stepping.end_time / scene.load_stepping.steps,
+                                        solid,
+                                        slaves,
+                                        committed_u);
     length      = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
     length      = Utilities::MPI::min(length, solid.communicator);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
     extent                 = Utilities::MPI::max(extent, solid.communicator);
-    const auto       boxes = body_boxes(scene, solid);
+    const auto       boxes = body_boxes(solid);
     BoundingBox<dim> all(boxes.front());
     for (const auto &box : boxes)
       all.merge_with(box);
@@ -91,7 +102,9 @@ namespace Touchstone
       contact.commit();
       remember_contact();
     }
-    if (integration->dynamic())
+    if (!integration->dynamic())
+      check_bodies_without_support();
+    else
       {
         solid.internal_force(u, internal);
         graph.clear();
@@ -114,7 +127,7 @@ namespace Touchstone
                                                   remove_supported(force);
                                                 }});
       }
-    return contact.start_report();
+    return start_report(contact);
   }
 
 
@@ -140,22 +153,26 @@ namespace Touchstone
   StepProblem::begin_step(const double t)
   {
     time = t;
-    enforcement->begin_step();
+    contact.enforcement().begin_step();
     integration->begin_step(time, u);
     touch_unknown = integration->dynamic();
-    last_residual = 0.;
-    slow          = false;
+    forcing_term.begin_step();
     loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
+    // Last: what came before looked at the committed state.
+    solid.begin_step(time - committed_time);
   }
 
 
 
-  void
-  StepProblem::commit()
+  unsigned int
+  StepProblem::solve(const double            t,
+                     const NewtonParameters &parameters,
+                     const Newton::Observer &observer)
   {
-    with_forces([&](const StepForces &forces) { keep(forces, integration->end_step(u, forces)); });
+    begin_step(t);
+    return Newton(parameters).solve(*this, observer);
   }
 
 
@@ -166,7 +183,8 @@ namespace Touchstone
     double part = 1.;
     with_forces([&](const StepForces &forces) {
       const Energies end = integration->end_step(u, forces);
-      part               = acceptable_part(end);
+      if (smallest_part <= 1.)
+        part = acceptable_part(end);
       if (part < smallest_part)
         part = 1.;
       if (part == 1.)
@@ -181,8 +199,8 @@ namespace Touchstone
   StepProblem::keep(const StepForces &forces, const Energies &end)
   {
     integration->commit(u, forces, end);
-    if (forces.pressing != nullptr)
-      contact.add_jumps(*forces.pressing, time - committed_time);
+    if (forces.velocity_constraints != nullptr)
+      contact.add_impulses(*forces.velocity_constraints, time - committed_time);
     committed_u    = u;
     committed_time = time;
     solid.commit();
@@ -200,22 +218,22 @@ namespace Touchstone
     if (!integration->dynamic())
       return use(StepForces());
     Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
-    contact.add_forces(normal, Contact::Part::normal);
-    contact.add_forces(tangential, Contact::Part::tangential);
+    contact.add_forces(normal, ForcePart::normal);
+    contact.add_forces(tangential, ForcePart::tangential);
     support *= -1.;
-    std::vector<PressingNode> pressing;
-    const bool                plastic = scene.time_integration.plastic_impacts();
+    std::vector<VelocityConstraint> constraints;
+    const bool                      plastic = scene.time_integration.plastic_impacts();
     if (plastic && time > committed_time)
-      pressing = contact.pressing(graph, time - committed_time);
+      constraints = velocity_constraints(contact, graph, time - committed_time);
     use({&external,
          &internal,
          &normal,
          &tangential,
          &support,
-         plastic ? &pressing : nullptr,
+         plastic ? &constraints : nullptr,
          [this](Vector &force) { remove_supported(force); },
-         contact.work_of_obstacles(Contact::Part::normal),
-         contact.work_of_obstacles(Contact::Part::tangential)});
+         contact.work_of_obstacles(ForcePart::normal),
+         contact.work_of_obstacles(ForcePart::tangential)});
   }
 
 
@@ -249,67 +267,63 @@ namespace Touchstone
 
 
 
-  std::vector<Vector>
-  StepProblem::carry_over() const
+  StepTransfer
+  StepProblem::transfer() const
   {
-    std::vector<Vector> result;
+    StepTransfer result;
     for (const bool of_committed : {true, false})
       {
-        result.push_back(of_committed ? committed_u : u);
+        result.fields.push_back(of_committed ? committed_u : u);
         for (Vector &field : contact.fields(of_committed))
-          result.push_back(std::move(field));
+          result.fields.push_back(std::move(field));
       }
     for (const Vector *field : integration->rates())
-      result.push_back(*field);
+      result.fields.push_back(*field);
+    result.momenta             = integration->momenta();
+    result.committed_time      = committed_time;
+    result.energies            = integration->committed_energies();
+    result.largest_force_scale = largest_force_scale;
+    result.counts              = {linear_counts(), assemblies, n_searches()};
     return result;
   }
 
 
 
   void
-  StepProblem::adopt(const std::vector<Vector>       &fields,
-                     const std::vector<BodyMomentum> &momenta,
-                     const double                     start_time,
-                     const double                     t)
+  StepProblem::adopt(const StepTransfer &before, const double t)
   {
-    const std::size_t n_rates = integration->rates().size();
-    const auto        middle  = fields.begin() + (fields.size() - n_rates) / 2;
-    const auto        rates   = fields.end() - n_rates;
+    earlier             = before.counts.linear;
+    earlier_searches    = before.counts.searches;
+    largest_force_scale = before.largest_force_scale;
+    committed_time      = before.committed_time;
+    assemblies += before.counts.assemblies;
+    // At time 0 the energies are those that the first velocities mean on this mesh.
+    if (committed_time > 0.)
+      integration->resume(committed_time, before.energies);
+
+    const std::vector<Vector> &fields  = before.fields;
+    const std::size_t          n_rates = integration->rates().size();
+    const auto                 middle  = fields.begin() + (fields.size() - n_rates) / 2;
+    const auto                 rates   = fields.end() - n_rates;
     // Before the first step there is no history but what start() makes.
-    if (start_time > 0.)
+    if (committed_time > 0.)
       {
         committed_u = u = fields.front();
-        contact.update(u, start_time);
+        contact.update(u, committed_time);
         contact.adopt({fields.begin() + 1, middle}, true);
         if (integration->dynamic())
           {
-            boundary_conditions.external_force(start_time, u, external);
+            boundary_conditions.external_force(committed_time, u, external);
             solid.internal_force(u, internal);
             unbalanced = 0.;
           }
         with_forces([&](const StepForces &forces) {
-          integration->adopt({rates, fields.end()}, forces, momenta);
+          integration->adopt({rates, fields.end()}, forces, before.momenta);
         });
-        committed_time = start_time;
       }
     u = *middle;
     contact.update(u, t);
     contact.adopt({middle + 1, rates}, false);
-  }
-
-
-
-  void
-  StepProblem::count_on(const StepProblem &before)
-  {
-    earlier             = before.linear_counts();
-    largest_force_scale = before.largest_force_scale;
-    committed_time      = before.committed_time;
-    // At time 0 the energies are those that the first velocities mean on this mesh.
-    if (committed_time > 0.)
-      integration->resume(committed_time, before.integration->committed_energies());
-    earlier_searches = before.n_searches();
-    assemblies += before.assemblies;
   }
 
 
@@ -329,7 +343,25 @@ namespace Touchstone
 
 
   NewtonState
-  StepProblem::residual(const unsigned int caution)
+  StepProblem::residual(const unsigned int damping)
+  {
+    NewtonState state;
+    update_geometry(state);
+    Vector without_contact(solid.owned, solid.communicator);
+    balance(without_contact);
+    contact.enforcement().recover(contact, without_contact, graph);
+    judge_balance(without_contact, state);
+    update_active_set(damping, state);
+    if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
+      contact.enforcement().balanced(contact);
+    forcing_term.update(state, solver->symmetric_only() && solid.linear());
+    return state;
+  }
+
+
+
+  void
+  StepProblem::update_geometry(NewtonState &state)
   {
     {
       TimerOutput::Scope scope(timer, "search");
@@ -338,12 +370,16 @@ namespace Touchstone
     if (touch_unknown)
       touch = contact.part_to_touch();
     touch_unknown = false;
-    NewtonState state;
     graph.clear();
     missed           = boundary_conditions.prescribe(time, u, graph);
     state.prescribed = missed <= scene.newton.gap_tolerance * length;
-    if (scene.has_friction())
-      contact.find_shared_nodes(graph);
+  }
+
+
+
+  void
+  StepProblem::balance(Vector &without_contact)
+  {
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
@@ -351,10 +387,15 @@ namespace Touchstone
         boundary_conditions.external_force(time, u, external);
     }
     integration->balance(u, external, internal, applied);
-    Vector without_contact(applied);
+    without_contact = applied;
     solid.condense(without_contact);
-    enforcement->recover(contact, without_contact, graph);
+  }
 
+
+
+  void
+  StepProblem::judge_balance(const Vector &without_contact, NewtonState &state)
+  {
     Vector contact_force(solid.owned, solid.communicator);
     contact.add_forces(contact_force);
     unbalanced = without_contact;
@@ -367,8 +408,8 @@ namespace Touchstone
       {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
     const double round_off =
       solid.round_off(u) + integration->round_off(u) +
-      std::sqrt(
-        Utilities::MPI::sum(enforcement->round_off_squared(contact, extent), solid.communicator));
+      std::sqrt(Utilities::MPI::sum(contact.enforcement().round_off_squared(contact.rows(), extent),
+                                    solid.communicator));
     // Where forces vanish, at the end of contact for example, what is left of them is
     // round-off, and no scale: then a small part of the forces that have acted before is.
     // Those of a body in free flight are round-off from the start, and no such forces.
@@ -381,63 +422,23 @@ namespace Touchstone
     // Only before the first forces act round-off can be as large as they are.
     if (largest_force_scale > 0.)
       state.round_off = std::min(state.round_off, largest_round_off);
+  }
 
-    std::vector<std::vector<ContactStatus>> before(contact.rows.size());
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (const ContactRow &row : contact.rows[p])
-        before[p].push_back(row.status);
-    const Contact::ActiveSetUpdate set =
-      contact.update_active_set(scene.newton.gap_tolerance, caution);
+
+
+  void
+  StepProblem::update_active_set(const unsigned int damping, NewtonState &state)
+  {
+    const ActiveSetUpdate set =
+      contact.enforcement().update_active_set(contact, scene.newton.gap_tolerance, damping);
     changed_rows.clear();
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (std::size_t k = 0; k < before[p].size(); ++k)
-        if (const ContactRow &row = contact.rows[p][k]; row.status != before[p][k])
-          {
-            std::array<double, dim + 1> place;
-            for (unsigned int d = 0; d < dim; ++d)
-              place[d] = row.position[d] - u(dim * row.slave + d);
-            place[dim] = p;
-            changed_rows.push_back(place);
-          }
+    for (const ContactRow *row : set.changed)
+      changed_rows.push_back(
+        {{row->reference[0], row->reference[1], row->reference[2], double(row->pair)}});
     state.gap       = set.gap;
     state.active    = set.active;
     state.changes   = set.changes;
     state.signature = set.signature;
-
-    if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
-      enforcement->balanced(contact);
-
-    // A solve that goes far below what Newton needs in the end is wasted. But one
-    // that moves supports has a right-hand side much larger than the forces that
-    // it leads to, and one that leads to wrong signs of contact forces costs
-    // further iterations: these get two digits more, three where stick and slip are
-    // told apart by small differences. One that can be the last should be: it aims well
-    // below the residual that Newton asks for, with two digits more if it takes them.
-    const double usual = scene.linear_solver.tolerance;
-    const double last  = 0.03 * scene.newton.residual_tolerance / state.residual;
-    linear_tolerance   = usual;
-    if (!state.prescribed || state.changes > 0)
-      linear_tolerance *= scene.has_friction() ? 1e-3 : 1e-2;
-    else
-      {
-        // Symmetric systems leave out how normals change, and Newton converges linearly: to
-        // solve much better than what that left of the last residual is wasted. A tenth of it
-        // and more would cost another solve now and then.
-        // Eisenstat and Walker (1996), SIAM J. Sci. Comput. 17, the first of their choices.
-        double left = 0.;
-        if (last_residual > 0. && solver->symmetric_only() && solid.linear())
-          left = 0.03 * state.residual / last_residual;
-        if (state.residual > 0. && last >= 1e-2 * usual)
-          linear_tolerance = std::min(last, std::max(usual, 0.1));
-        linear_tolerance = std::max(linear_tolerance, std::min(left, 1e-2));
-      }
-    // Frozen normals and contact points usually leave a hundredth of the residual. Where they leave
-    // more than this part of it, they would take longer than a system that is not symmetric.
-    constexpr double much = 0.3;
-    slow =
-      slow || (last_residual > 0. && state.changes == 0 && state.residual > much * last_residual);
-    last_residual = state.changes == 0 && state.prescribed ? state.residual : 0.;
-    return state;
   }
 
 
@@ -451,40 +452,65 @@ namespace Touchstone
         solid.assemble(u, solver->symmetric_only());
         ++assemblies;
       }
+    begin_system();
+    if (!system->keep_symmetric &&
+        (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
+         (forcing_term.slow() &&
+          scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
+      contact.differentiate();
+    contact.enforcement().enforce(contact, graph, *system);
+    add_follower_pressure();
+    contact.enforcement().add_friction(contact, *system);
+    if (!integration->dynamic())
+      check_supports();
+    const IndexSet needed = dofs_of_system();
+    constrain_system(needed);
+    if (solver->wants_basis_change(static_cast<int>(u.size())))
+      change_basis(needed);
+    condensed =
+      std::make_unique<CondensedSystem>(*system,
+                                        solver->applies_operator(static_cast<int>(u.size())));
+  }
+
+
+
+  void
+  StepProblem::begin_system()
+  {
     system            = std::make_unique<LinearSystem>();
     system->stiffness = &integration->stiffness();
     system->rhs.reinit(solid.owned, solid.communicator);
     system->rhs               = applied;
     system->first_extra       = system->rhs.size();
-    system->tolerance         = linear_tolerance;
+    system->tolerance         = forcing_term.tolerance();
     system->keep_symmetric    = solver->symmetric_only();
     system->symmetric         = system->keep_symmetric || solid.symmetric();
     system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
-    if (!system->keep_symmetric &&
-        (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (slow && scene.contact.linearisation == "automatic")))
-      contact.differentiate();
-    contact.drop_circles(graph, enforcement->smallest_circle());
-    enforcement->enforce(contact, graph, *system);
-    if (!boundary_conditions.follower_pressure().empty())
-      {
-        const std::size_t before = system->terms.size();
-        boundary_conditions.follower_pressure().add_stiffness(time,
-                                                              u,
-                                                              system->keep_symmetric,
-                                                              system->terms);
-        for (std::size_t k = before; k < system->terms.size(); ++k)
-          for (auto &entry : system->terms[k].left)
-            entry.second *= integration->weight();
-        system->symmetric = system->symmetric && system->keep_symmetric;
-      }
-    RowTerms terms(*system);
-    for (auto &rows : contact.rows)
-      for (ContactRow &row : rows)
-        terms.add_row(row);
-    terms.finish();
-    if (!integration->dynamic())
-      check_supports();
+  }
+
+
+
+  void
+  StepProblem::add_follower_pressure()
+  {
+    if (boundary_conditions.follower_pressure().empty())
+      return;
+    const std::size_t before = system->terms.size();
+    boundary_conditions.follower_pressure().add_stiffness(time,
+                                                          u,
+                                                          system->keep_symmetric,
+                                                          system->terms);
+    for (std::size_t k = before; k < system->terms.size(); ++k)
+      for (auto &entry : system->terms[k].left)
+        entry.second *= integration->weight();
+    system->symmetric = system->symmetric && system->keep_symmetric;
+  }
+
+
+
+  IndexSet
+  StepProblem::dofs_of_system() const
+  {
     // Contact terms may refer to nodes that are far from this rank's cells, and to
     // components of them that no condition knows of.
     std::set<Index> far;
@@ -495,10 +521,23 @@ namespace Touchstone
             far.insert(i);
     IndexSet needed = solid.relevant;
     needed.add_indices(far.begin(), far.end());
+    return needed;
+  }
+
+
+
+  bool
+  StepProblem::everywhere(const bool here) const
+  {
+    return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
+  }
+
+
+
+  void
+  StepProblem::constrain_system(const IndexSet &needed)
+  {
     system->constraints = graph.constraints(solid.hanging, solid.owned, needed, solid.communicator);
-    const auto everywhere = [&](const bool here) {
-      return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
-    };
     if (!everywhere(graph.symmetric()))
       {
         system->test_constraints =
@@ -506,47 +545,39 @@ namespace Touchstone
         system->symmetric = false;
       }
     system->symmetric = everywhere(system->symmetric);
-    if (solver->wants_basis_change(static_cast<int>(u.size())))
-      {
-        // After all conditions, for these decide nothing.
-        for (const auto &rows : contact.rows)
-          for (const ContactRow &row : rows)
-            for (const Condition &spring : friction_springs(row))
-              graph.accept(spring, ConstraintGraph::Treatment::spring);
-        system->basis_change =
-          graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
-        if (!system->keep_symmetric &&
-            !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
-          {
-            system->test_basis_change =
-              graph.test_basis_change(system->test_constraints ? *system->test_constraints
-                                                               : system->constraints,
-                                      solid.owned,
-                                      needed,
-                                      solid.communicator);
-            system->symmetric = false;
-          }
-      }
-    condensed =
-      std::make_unique<CondensedSystem>(*system,
-                                        solver->applies_operator(static_cast<int>(u.size())));
   }
 
 
 
   void
-  StepProblem::check_supports()
+  StepProblem::change_basis(const IndexSet &needed)
   {
-    std::vector<Condition> supports = graph.accepted();
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        {
-          const auto springs = elastic_stick(row);
-          supports.insert(supports.end(), springs.begin(), springs.end());
-        }
-    const FreeMotion motion = modes->free_motion(supports);
-    if (motion.n_modes == 0)
-      return;
+    // After all conditions, for these determine nothing.
+    for (const ContactRow &row : contact.rows())
+      for (const Condition &spring : friction_springs(row, contact.state(row)))
+        graph.accept(spring, ConstraintGraph::Treatment::spring);
+    system->basis_change =
+      graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
+    if (!system->keep_symmetric && !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
+      {
+        system->test_basis_change =
+          graph.test_basis_change(system->test_constraints ? *system->test_constraints
+                                                           : system->constraints,
+                                  solid.owned,
+                                  needed,
+                                  solid.communicator);
+        system->symmetric = false;
+      }
+  }
+
+
+
+  void
+  StepProblem::check_bodies_without_support()
+  {
+    graph.clear();
+    boundary_conditions.prescribe(0., u, graph);
+    const FreeMotion motion = modes->free_motion(graph.accepted());
     for (const unsigned int body : motion.bodies)
       {
         const std::string &name  = scene.bodies[body].name;
@@ -561,7 +592,22 @@ namespace Touchstone
                            "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
                            "contact pair.");
       }
+  }
 
+
+
+  void
+  StepProblem::check_supports()
+  {
+    std::vector<Condition> supports = graph.accepted();
+    for (const ContactRow &row : contact.rows())
+      {
+        const auto springs = elastic_stick(row, contact.state(row));
+        supports.insert(supports.end(), springs.begin(), springs.end());
+      }
+    const FreeMotion motion = modes->free_motion(supports);
+    if (motion.n_modes == 0)
+      return;
     // Before contact, not farther than the nearest gap, so that contact can catch
     // the body. In contact the body is left to slide: there, the springs must
     // outweigh the geometric stiffness of the contact forces, which is about the
@@ -570,15 +616,15 @@ namespace Touchstone
     double       distance = std::numeric_limits<double>::max();
     double       size     = 0.;
     unsigned int active   = 0;
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        if (row.status != ContactStatus::no_partner)
-          {
-            size = std::max(size, row.size);
-            active += row.active();
-            if (!row.active() && row.gap > 0.)
-              distance = std::min(distance, row.gap);
-          }
+    for (const ContactRow &row : contact.rows())
+      if (row.has_partner)
+        {
+          const bool is_active = contact.state(row).active();
+          size                 = std::max(size, row.size);
+          active += is_active;
+          if (!is_active && row.gap > 0.)
+            distance = std::min(distance, row.gap);
+        }
     distance = Utilities::MPI::min(distance, solid.communicator);
     size     = Utilities::MPI::max(size, solid.communicator);
     active   = Utilities::MPI::sum(active, solid.communicator);
@@ -605,7 +651,7 @@ namespace Touchstone
     check_increment();
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
     condensed.reset();
-    enforcement->take(
+    contact.enforcement().take(
       {*system, graph, solved_increment, extra, [this](Vector &force) { solid.condense(force); }});
     const unsigned int iterations = solver->counts().iterations - before;
     return iterations == 0 ? -1 : static_cast<int>(iterations);
@@ -618,8 +664,6 @@ namespace Touchstone
   {
     // What turns a cell inside out has no energy. The multipliers are those of the
     // end of the increment and stay.
-    if (scene.newton.line_search != "none")
-      before_rows = contact.rows;
     admissible_part = 1.;
     increment       = solved_increment;
     Vector trial(u);
@@ -636,7 +680,8 @@ namespace Touchstone
       }
     before_increment = u;
     u                = trial;
-    enforcement->update(contact);
+    contact.enforcement().update(contact,
+                                 scene.newton.line_search != NewtonParameters::LineSearch::none);
   }
 
 
@@ -646,42 +691,53 @@ namespace Touchstone
   {
     u = before_increment;
     u.add(fraction, increment);
-    // Forces that are unknowns go the same part of their way. Springs and
-    // elimination make forces from the displacement, from the rows as they were.
-    contact.rows = before_rows;
-    enforcement->update(contact);
-    const double part =
-      fraction < 1. ? fraction * admissible_part : 1.; // all of it: as update() had it
-    for (unsigned int p = 0; p < contact.rows.size(); ++p)
-      for (std::size_t k = 0; k < contact.rows[p].size(); ++k)
-        {
-          ContactRow       &row    = contact.rows[p][k];
-          const ContactRow &before = before_rows[p][k];
-          row.force                = before.force + part * (row.force - before.force);
-          row.lambda               = before.lambda + part * (row.lambda - before.lambda);
-          if (row.friction)
-            row.friction->base =
-              before.friction->base + part * (row.friction->base - before.friction->base);
-        }
+    contact.enforcement().shorten(contact,
+                                  fraction < 1. ? fraction * admissible_part
+                                                : 1.); // all of it: as update() had it
   }
 
 
 
-  Vector
-  StepProblem::ghosted_displacement() const
+  StepState
+  StepProblem::state() const
   {
-    return solid.ghosted(u);
+    return {u, contact, *integration, solid, {linear_counts(), assemblies, n_searches()}, [this]() {
+              // What the supports must add for the nodes to be in balance.
+              Vector support(unbalanced);
+              support *= -1.;
+              return boundary_conditions.reactions(support);
+            }};
   }
 
 
 
-  std::vector<Reaction>
-  StepProblem::reactions() const
+  StepFindings
+  StepProblem::findings() const
   {
-    // What the supports must add for the nodes to be in balance.
-    Vector support(unbalanced);
-    support *= -1.;
-    return boundary_conditions.reactions(support);
+    StepFindings result;
+    result.remarks  = remarks();
+    result.warnings = check_loose_bodies();
+    check_contact();
+    return result;
+  }
+
+
+
+  StepDifficulty
+  StepProblem::difficulty() const
+  {
+    return {worst_place(),
+            stabilised.empty()
+              ? ""
+              : "; held by contact alone, perhaps against no resistance: " + stabilised};
+  }
+
+
+
+  std::unique_ptr<Step>
+  Step::make(const Scene &scene, const Forest &forest, Solid &solid, TimerOutput &timer)
+  {
+    return std::make_unique<StepProblem>(scene, forest, solid, timer);
   }
 
 
@@ -691,9 +747,8 @@ namespace Touchstone
   {
     std::string  text;
     unsigned int dropped = 0;
-    for (const auto &rows : contact.rows)
-      for (const ContactRow &row : rows)
-        dropped += (row.active() && row.dropped());
+    for (const ContactRow &row : contact.rows())
+      dropped += (contact.state(row).active() && contact.state(row).dropped());
     dropped = Utilities::MPI::sum(dropped, solid.communicator);
     if (dropped > 0)
       text = std::to_string(dropped) +

@@ -13,22 +13,18 @@ namespace Touchstone
   void
   TimeIntegrationParameters::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("Scheme",
-                      scheme,
-                      "'static': no inertia, t only orders the loads. 'newmark'; 'hht' (Hilber, "
-                      "Hughes and Taylor 1977); 'generalized_alpha' (Chung and Hulbert 1993); "
-                      "'contact_stabilized': the same, with the mass of slave nodes moved to "
-                      "their neighbours, for impacts without chatter: with spectral radius 1 it "
-                      "conserves the energy of linear bodies and contact only takes from it.",
-                      Patterns::Selection(
-                        "static|newmark|hht|generalized_alpha|contact_stabilized"));
-    prm.add_parameter(
-      "Mass",
-      mass,
-      "'consistent'; 'lumped' to the nodes; 'dispersion corrected': integrated such "
-      "that errors of mesh and step cancel in the speed of waves, all of them where "
-      "a wave passes a cell in a step (degree 1).",
-      Patterns::Selection("consistent|lumped|dispersion corrected"));
+    scheme.declare(prm,
+                   "Scheme",
+                   "'static': no inertia, t only orders the loads. 'newmark'; 'hht' (Hilber, "
+                   "Hughes and Taylor 1977); 'generalized_alpha' (Chung and Hulbert 1993); "
+                   "'contact_stabilized': the same, with the mass of slave nodes moved to "
+                   "their neighbours, for impacts without chatter: with spectral radius 1 it "
+                   "conserves the energy of linear bodies and contact only takes from it.");
+    mass.declare(prm,
+                 "Mass",
+                 "'consistent'; 'lumped' to the nodes; 'dispersion corrected': integrated such "
+                 "that errors of mesh and step cancel in the speed of waves, all of them where "
+                 "a wave passes a cell in a step (degree 1).");
     prm.add_parameter("Newmark gamma",
                       newmark_gamma,
                       "Of 'newmark': 0.5 for no numerical damping, up to 1. [no unit]",
@@ -48,22 +44,20 @@ namespace Touchstone
       "Part of an infinitely fast oscillation that a step of 'generalized_alpha' or "
       "'contact_stabilized' leaves: 0 to 1, or 'automatic': 0.8 and 1. [no unit]",
       Patterns::Anything());
-    prm.add_parameter("Impact",
-                      impact,
-                      "What becomes of nodes that meet. 'elastic': contact forces alone decide; "
-                      "no energy is lost in steps that end where bodies meet, and single nodes "
-                      "rebound. 'plastic': nodes that press lose their relative velocity, so that "
-                      "contact does not chatter, at the price of the kinetic energy of these "
-                      "nodes. 'automatic': 'elastic' for 'contact_stabilized' and 'Spectral "
-                      "radius' 1, which conserve energy, and for the dispersion-corrected mass; "
-                      "'plastic' for others.",
-                      Patterns::Selection("automatic|elastic|plastic"));
-    prm.add_parameter("Adapt steps",
-                      adapt,
-                      "'impacts': a step in which contact takes or gives much energy is repeated "
-                      "with a size that ends where the bodies meet; 'none'; 'automatic': "
-                      "'impacts' where impacts are elastic.",
-                      Patterns::Selection("automatic|none|impacts"));
+    impact.declare(prm,
+                   "Impact",
+                   "What becomes of nodes that meet. 'elastic': contact forces alone decide; "
+                   "no energy is lost in steps that end where bodies meet, and single nodes "
+                   "rebound. 'plastic': nodes that press lose their relative velocity, so that "
+                   "contact does not chatter, at the price of the kinetic energy of these "
+                   "nodes. 'automatic': 'elastic' for 'contact_stabilized' and 'Spectral "
+                   "radius' 1, which conserve energy, and for the dispersion-corrected mass; "
+                   "'plastic' for others.");
+    adapt.declare(prm,
+                  "Adapt steps",
+                  "'impacts': a step in which contact takes or gives much energy is repeated "
+                  "with a size that ends where the bodies meet; 'none'; 'automatic': "
+                  "'impacts' where impacts are elastic.");
     prm.add_parameter("Impact tolerance",
                       impact_tolerance,
                       "Energy that contact may take or give in a step, relative to the "
@@ -118,19 +112,20 @@ namespace Touchstone
   TimeIntegrationParameters::coefficients() const
   {
     Coefficients c;
-    if (scheme == "newmark")
+    if (scheme == Scheme::newmark)
       {
         c.gamma = newmark_gamma;
         c.beta  = number_or(newmark_beta, std::pow(c.gamma + 0.5, 2) / 4.);
         return c;
       }
-    if (scheme == "hht")
+    if (scheme == Scheme::hht)
       c.alpha_f = hht_alpha;
     else
       {
-        const double rho = number_or(spectral_radius, scheme == "contact_stabilized" ? 1. : 0.8);
-        c.alpha_m        = (2. * rho - 1.) / (rho + 1.);
-        c.alpha_f        = rho / (rho + 1.);
+        const double rho =
+          number_or(spectral_radius, scheme == Scheme::contact_stabilized ? 1. : 0.8);
+        c.alpha_m = (2. * rho - 1.) / (rho + 1.);
+        c.alpha_f = rho / (rho + 1.);
       }
     // Second order, and most damping of what is fast.
     c.gamma = 0.5 - c.alpha_m + c.alpha_f;
@@ -143,12 +138,12 @@ namespace Touchstone
   bool
   TimeIntegrationParameters::plastic_impacts() const
   {
-    if (!dynamic() || impact == "elastic")
+    if (!dynamic() || impact == Impact::elastic)
       return false;
     const Coefficients c = coefficients();
     // Spectral radius 1 is the midpoint rule.
-    return impact == "plastic" ||
-           !(mass == "dispersion corrected" || (c.alpha_m == 0.5 && c.alpha_f == 0.5));
+    return impact == Impact::plastic ||
+           !(mass == MassKind::dispersion_corrected || (c.alpha_m == 0.5 && c.alpha_f == 0.5));
   }
 
 
@@ -163,16 +158,16 @@ namespace Touchstone
                  newmark_gamma / 2.,
                  1.,
                  "take 'automatic': below gamma/2 large steps are not stable");
-    if (impact == "plastic" && scheme == "contact_stabilized")
+    if (impact == Impact::plastic && scheme == Scheme::contact_stabilized)
       throw InputError(section,
                        "Impact",
-                       impact,
+                       impact.word(),
                        "nodes without mass have no velocity to lose",
                        "take 'elastic', or another 'Scheme'");
-    if (impact == "plastic" && mass == "dispersion corrected")
+    if (impact == Impact::plastic && mass == MassKind::dispersion_corrected)
       throw InputError(section,
                        "Impact",
-                       impact,
+                       impact.word(),
                        "the dispersion-corrected mass gives some motions of nodes no inertia",
                        "take 'elastic', or another 'Mass'");
     check_number(section, "Spectral radius", spectral_radius, 0., 1., "take 'automatic'");

@@ -1,4 +1,5 @@
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/keyword.h>
 #include <touchstone/mesh/body_mesh.h>
 
 #include <cmath>
@@ -109,10 +110,33 @@ namespace Touchstone
         y_side
       };
 
-      Point<3>    apex;
-      double      radius = 0., width = 1., height = 1., depth = 1.;
-      std::string shape = "sphere", side = "bottom", part = "quarter";
-      double      fine = 0.25;
+      Point<3> apex;
+      double   radius = 0., width = 1., height = 1., depth = 1.;
+      enum class Part
+      {
+        quarter,
+        half,
+        whole
+      };
+      enum class Shape
+      {
+        sphere,
+        cylinder
+      };
+      enum class Side
+      {
+        bottom,
+        top
+      };
+      Keyword<Shape> shape{Shape::sphere,
+                           {{"sphere", Shape::sphere}, {"cylinder", Shape::cylinder}}};
+      /** Where the contact face is. */
+      Keyword<Side> side{Side::bottom, {{"bottom", Side::bottom}, {"top", Side::top}}};
+      Keyword<Part> part{Part::quarter,
+                         {{"quarter", Part::quarter},
+                          {"half", Part::half},
+                          {"whole", Part::whole}}};
+      double        fine = 0.25;
 
       unsigned int fine_cells = 4, outer_cells = 4, fine_layers = 4, outer_layers = 4,
                    depth_cells = 1;
@@ -120,7 +144,7 @@ namespace Touchstone
       bool
       is_cylinder() const
       {
-        return shape == "cylinder";
+        return shape == Shape::cylinder;
       }
     };
 
@@ -130,26 +154,23 @@ namespace Touchstone
     Cap::declare(ParameterHandler &prm)
     {
       prm.add_parameter("Apex", apex, "Point of first contact, x, y, z; length.");
-      prm.add_parameter("Shape",
-                        shape,
-                        "The contact face is part of a sphere, or of a cylinder with its axis "
-                        "along y: then the body is a slice, which 'Symmetry = y cut, y side' "
-                        "puts into plane strain.",
-                        Patterns::Selection("sphere|cylinder"));
+      shape.declare(prm,
+                    "Shape",
+                    "The contact face is part of a sphere, or of a cylinder with its axis "
+                    "along y: then the body is a slice, which 'Symmetry = y cut, y side' "
+                    "puts into plane strain.");
       prm.add_parameter("Radius",
                         radius,
                         "Radius of the contact face; length; 0 makes it flat.",
                         Patterns::Double(0.));
-      prm.add_parameter("Contact side",
-                        side,
-                        "Whether the contact face is the bottom, with the body above it, "
-                        "or the top.",
-                        Patterns::Selection("bottom|top"));
-      prm.add_parameter("Part",
-                        part,
-                        "The quarter where x and y are not less than at the apex, for a "
-                        "cylinder the half where x is not less, or the whole block.",
-                        Patterns::Selection("quarter|half|whole"));
+      side.declare(prm,
+                   "Contact side",
+                   "Whether the contact face is the bottom, with the body above it, "
+                   "or the top.");
+      part.declare(prm,
+                   "Part",
+                   "The quarter where x and y are not less than at the apex, for a "
+                   "cylinder the half where x is not less, or the whole block.");
       prm.add_parameter("Width",
                         width,
                         "Extent in x and y from the apex, for a cylinder in x; length.",
@@ -200,11 +221,11 @@ namespace Touchstone
                          text(fine),
                          "it does not lie between 0 and the smaller of 'Width' and 'Height'",
                          "take about two radii of the contact area that you expect");
-      if (part == (is_cylinder() ? "quarter" : "half"))
+      if (part == (is_cylinder() ? Part::quarter : Part::half))
         throw InputError(section,
                          "Part",
-                         part,
-                         "a block with 'Shape = " + shape + "' has no such part",
+                         part.word(),
+                         "a block with 'Shape = " + shape.word() + "' has no such part",
                          is_cylinder() ? "take half or whole" : "take quarter or whole");
       if (is_cylinder() && !(depth > 0.))
         throw InputError(section,
@@ -282,7 +303,7 @@ namespace Touchstone
       std::vector<double> across;
       if (is_cylinder())
         across = graded_positions(0., depth, scaled_cells(depth_cells, factor), 1.);
-      const bool whole = part == "whole";
+      const bool whole = part == Part::whole;
       if (whole)
         {
           std::vector<double> mirrored;
@@ -293,7 +314,7 @@ namespace Touchstone
       if (!is_cylinder())
         across = plan;
 
-      const bool top = side == "top";
+      const bool top = side == Side::top;
       const auto manifold =
         std::make_shared<CapManifold>(apex, is_cylinder(), radius, height, top ? -1. : 1.);
       const unsigned int n = plan.size() - 1, m = across.size() - 1, layers = down.size() - 1;

@@ -1,4 +1,5 @@
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/keyword.h>
 #include <touchstone/mesh/axes.h>
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/round_lattice.h>
@@ -34,9 +35,17 @@ namespace Touchstone
         second_cut
       };
 
-      std::string axis = "z", part = "full";
-      Point<3>    origin;
-      double      start = 0., end = 1., radius = 1.;
+      enum class Part
+      {
+        full,
+        half,
+        quarter
+      };
+      Keyword<Part> part{Part::full,
+                         {{"full", Part::full}, {"half", Part::half}, {"quarter", Part::quarter}}};
+      std::string   axis = "z";
+      Point<3>      origin;
+      double        start = 0., end = 1., radius = 1.;
 
       std::vector<unsigned int> cells   = {2, 2, 2};
       double                    grading = 1.;
@@ -58,12 +67,11 @@ namespace Touchstone
       prm.add_parameter("Start", start, "Where it starts along the axis; length.");
       prm.add_parameter("End", end, "Where it ends along the axis; length.");
       prm.add_parameter("Radius", radius, "Radius; length.", Patterns::Double(0.));
-      prm.add_parameter("Part",
-                        part,
-                        "The full cylinder, the half between the angles 0 and 180 degrees, "
-                        "or the quarter between 0 and 90 degrees, where angles go from y to "
-                        "z for axis x, from z to x for axis y, from x to y for axis z.",
-                        Patterns::Selection("full|half|quarter"));
+      part.declare(prm,
+                   "Part",
+                   "The full cylinder, the half between the angles 0 and 180 degrees, "
+                   "or the quarter between 0 and 90 degrees, where angles go from y to "
+                   "z for axis x, from z to x for axis y, from x to y for axis z.");
       prm.add_parameter("Cells",
                         cells,
                         "Number of cells from the axis to the side of the square core, "
@@ -102,8 +110,8 @@ namespace Touchstone
     BodyMesh
     Cylinder::create(const double factor, const std::string &, const std::string &) const
     {
-      const std::vector<std::string> keep = {part == "quarter" ? "+" : "both",
-                                             part == "full" ? "both" : "+"};
+      const std::vector<std::string> keep = {part == Part::quarter ? "+" : "both",
+                                             part == Part::full ? "both" : "+"};
       const unsigned int layers = scaled_cells(cells[2], factor);
       const RoundLattice lattice(
         2, keep, scaled_cells(cells[0], factor), scaled_cells(cells[1], factor), layers);
@@ -138,9 +146,9 @@ namespace Touchstone
       });
 
       mesh.boundary_names = {{"side", side}, {"start", start_face}, {"end", end_face}};
-      if (part != "full")
+      if (part != Part::full)
         mesh.boundary_names["first cut"] = first_cut;
-      if (part == "quarter")
+      if (part == Part::quarter)
         mesh.boundary_names["second cut"] = second_cut;
 
       mesh.manifolds[0]   = std::make_shared<CylindricalManifold<3>>(axes.direction(), origin);

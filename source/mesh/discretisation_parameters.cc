@@ -20,16 +20,15 @@ namespace Touchstone
                       "geometries; powers of two refine the mesh with its "
                       "manifolds. Meshes from files accept only those.",
                       Patterns::Double(0.));
-    prm.add_parameter(
+    partitioner.declare(
+      prm,
       "Partitioner",
-      partitioner,
       "How cells are spread over ranks: 'coordinates' cuts across the longest side, "
       "and the halves again; 'p4est' cuts its space-filling curve, which goes "
       "through one body after the other, and can refine the mesh; 'automatic' is "
       "'p4est' where the run refines, 'coordinates' elsewhere; 'METIS' cuts the "
       "graph of cells and faces, with cells and contact work balanced each for "
-      "itself; 'METIS, cells only' leaves contact out. The results are the same.",
-      Patterns::Selection("automatic|coordinates|p4est|METIS|METIS, cells only"));
+      "itself; 'METIS, cells only' leaves contact out. The results are the same.");
     prm.add_parameter("Contact weight",
                       contact_weight,
                       "Work of a slave face over that of a cell, for 'coordinates' and 'p4est'; "
@@ -47,10 +46,10 @@ namespace Touchstone
                    refinement_factor,
                    "1 takes the cells as they are given, 2 halves their size");
 #ifndef TOUCHSTONE_WITH_METIS
-    if (partitioner == "METIS" || partitioner == "METIS, cells only")
+    if (partitioner == Partitioner::metis || partitioner == Partitioner::metis_cells_only)
       throw InputError(section,
                        "Partitioner",
-                       partitioner,
+                       partitioner.word(),
                        "this program was built without METIS",
                        "set it to 'automatic', or install libmetis-dev and build again");
 #endif

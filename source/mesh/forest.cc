@@ -121,8 +121,8 @@ namespace Touchstone
 
 
 
-  Forest::Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator)
-    : mesh(make(scene, scene_folder, communicator))
+  Forest::Forest(const ForestInput &input, const std::string &scene_folder, MPI_Comm communicator)
+    : mesh(make(input, scene_folder, communicator))
     , triangulation(*mesh)
   {
   }
@@ -130,20 +130,21 @@ namespace Touchstone
 
 
   std::unique_ptr<parallel::TriangulationBase<dim>>
-  Forest::make(const Scene &scene, const std::string &scene_folder, const MPI_Comm communicator)
+  Forest::make(const ForestInput &input,
+               const std::string &scene_folder,
+               const MPI_Comm     communicator)
   {
     // Whole powers of two are left to the manifolds, which refine any mesh.
-    double factor = scene.discretisation.refinement_factor;
+    double factor = input.discretisation.refinement_factor;
     for (; factor >= 2.; factor /= 2.)
       ++level;
 
     BodyMesh all;
-    for (unsigned int body = 0; body < scene.bodies.size(); ++body)
+    for (unsigned int body = 0; body < input.bodies.size(); ++body)
       {
-        const BodyParameters &parameters = scene.bodies[body];
-        const std::string     section    = "Body " + parameters.name + "/Geometry";
+        const std::string section = "Body " + input.bodies[body].name + "/Geometry";
 
-        const BodyMesh mesh = create(*parameters.geometry, factor, section, scene_folder);
+        const BodyMesh mesh = create(*input.bodies[body].geometry, factor, section, scene_folder);
         check_cells(mesh, section);
         const auto ids = append(mesh, body, all);
 
@@ -164,47 +165,40 @@ namespace Touchstone
           if (ids.count(own) > 0)
             surfaces[ids.at(own)] = surface;
       }
-    check_refined(all.cells.size(), level, scene.discretisation);
+    check_refined(all.cells.size(), level, input.discretisation);
 
     const auto contact_work = std::make_shared<ContactWork>();
-    for (const ContactPairParameters &pair : scene.pairs)
-      {
-        const auto ids = [&](const std::string              &body,
-                             const std::vector<std::string> &boundaries,
-                             const std::string              &key) {
-          return boundary_ids(scene.body_index(body), boundaries, pair.section(), key);
-        };
-        const auto slaves = ids(pair.slave_body, pair.slave_boundaries, "Slave boundaries");
-        contact_work->add_pair(all,
-                               slaves,
-                               pair.master_body.empty() ? std::set<types::boundary_id>()
-                                                        : ids(pair.master_body,
-                                                              pair.master_boundaries,
-                                                              "Master boundaries"));
-      }
+    for (const ForestInput::Pair &pair : input.pairs)
+      contact_work->add_pair(
+        all,
+        boundary_ids(pair.slave_body, pair.slave_boundaries, pair.section, "Slave boundaries"),
+        boundary_ids(pair.master_body, pair.master_boundaries, pair.section, "Master boundaries"));
     const CellWork work = [contact_work](const Triangulation<dim>::cell_iterator &cell) {
       return (*contact_work)(cell);
     };
     std::vector<unsigned int> work_of_body;
-    for (const BodyParameters &body : scene.bodies)
-      work_of_body.push_back(body.material.linear() ? 1 : 3);
+    for (const ForestInput::Body &body : input.bodies)
+      work_of_body.push_back(body.work);
     const bool alike = std::set<unsigned int>(work_of_body.begin(), work_of_body.end()).size() == 1;
     if (alike)
       work_of_body.assign(work_of_body.size(), 1);
     const CellWork cell_work = [work_of_body](const Triangulation<dim>::cell_iterator &cell) {
       return work_of_body[cell->material_id()];
     };
-    const DiscretisationParameters &parameters = scene.discretisation;
-    const std::string partitioner = parameters.partitioner != "automatic" ? parameters.partitioner
-                                    : scene.refinement.active()           ? "p4est"
-                                                                          : "coordinates";
-    if (partitioner != "p4est" && Utilities::MPI::n_mpi_processes(communicator) == 1)
+    const DiscretisationParameters &parameters = input.discretisation;
+    using Partitioner                          = DiscretisationParameters::Partitioner;
+    const Partitioner partitioner              = parameters.partitioner != Partitioner::automatic
+                                                   ? Partitioner(parameters.partitioner)
+                                                 : input.refines ? Partitioner::p4est
+                                                                 : Partitioner::coordinates;
+    if (partitioner != Partitioner::p4est && Utilities::MPI::n_mpi_processes(communicator) == 1)
       return whole_mesh(all, level, communicator);
-    if (partitioner == "coordinates")
+    if (partitioner == Partitioner::coordinates)
       return partition_by_coordinates(
         all, level, cell_work, work, parameters.contact_weight, communicator);
-    if (partitioner != "p4est")
-      return partition_by_graph(all, level, cell_work, work, partitioner == "METIS", communicator);
+    if (partitioner != Partitioner::p4est)
+      return partition_by_graph(
+        all, level, cell_work, work, partitioner == Partitioner::metis, communicator);
     has_weights = parameters.contact_weight > 0. || !alike;
     return partition_by_curve(
       all, level, cell_work, work, has_weights, parameters.contact_weight, communicator);

@@ -1,6 +1,7 @@
 #include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/mesh/obstacle_parameters.h>
+#include <touchstone/mesh/obstacle_shape.h>
 
 namespace Touchstone
 {
@@ -16,31 +17,13 @@ namespace Touchstone
 
 
   void
-  ObstacleParameters::declare(ParameterHandler &prm)
+  ObstacleParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
-    prm.add_parameter("Shape",
-                      shape,
-                      "The rigid surface: a 'plane', 'sphere' or 'cylinder'.",
-                      Patterns::Selection("plane|sphere|cylinder"));
-    prm.add_parameter("Point",
-                      point,
-                      "A point of the plane, the centre of the sphere, or a point "
-                      "of the cylinder's axis: x, y, z. [length]");
-    prm.add_parameter("Direction",
-                      direction,
-                      "The plane's normal, pointing to where the bodies are, or "
-                      "the direction of the cylinder's axis: x, y, z; its length "
-                      "does not count.");
-    prm.add_parameter("Radius",
-                      radius,
-                      "Radius of the sphere or cylinder, greater than zero. "
-                      "[length]",
-                      Patterns::Double());
-    prm.add_parameter("Side",
-                      side,
-                      "The bodies are 'outside' or 'inside' of the sphere or "
-                      "cylinder.",
-                      Patterns::Selection("outside|inside"));
+    shape.declare_key(prm,
+                      values,
+                      "Shape",
+                      "The rigid surface, which decides on the other keys here.");
+    shape.declare_own_keys(prm);
     const std::string motion = " component of the rigid motion, a formula in t (time). [length]";
     prm.add_parameter("Motion x", motion_x, "The x" + motion, Patterns::Anything());
     prm.add_parameter("Motion y", motion_y, "The y" + motion, Patterns::Anything());
@@ -52,18 +35,7 @@ namespace Touchstone
   void
   ObstacleParameters::check(const std::string &section) const
   {
-    if (shape != "sphere" && direction.norm() == 0.)
-      throw InputError(section,
-                       "Direction",
-                       Patterns::Tools::to_string(direction),
-                       "must not be zero",
-                       "give the normal of the plane or the axis of the cylinder");
-    if (shape != "plane" && radius <= 0.)
-      throw InputError(section,
-                       "Radius",
-                       Patterns::Tools::to_string(radius),
-                       "must be positive",
-                       "give the radius of the " + shape);
+    shape.check(section);
     check_expression(section, "Motion x", motion_x, "t");
     check_expression(section, "Motion y", motion_y, "t");
     check_expression(section, "Motion z", motion_z, "t");

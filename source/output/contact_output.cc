@@ -1,6 +1,7 @@
 #include <touchstone/output/contact_output.h>
 
-#include <array>
+#include <boost/serialization/utility.hpp>
+#include <boost/serialization/vector.hpp>
 #include <optional>
 #include <set>
 
@@ -8,40 +9,6 @@ namespace Touchstone
 {
   namespace
   {
-    /** Values at a node: 5 scalars, then 4 vectors. */
-    constexpr unsigned int n_scalars = 5, n_vectors = 4;
-    constexpr unsigned int n_values = n_scalars + dim * n_vectors;
-
-    const std::array<std::string, n_scalars + n_vectors> names = {{"status",
-                                                                   "gap",
-                                                                   "pressure",
-                                                                   "pair",
-                                                                   "slip_length",
-                                                                   "normal",
-                                                                   "traction",
-                                                                   "slip",
-                                                                   "displacement"}};
-
-    std::array<double, n_values>
-    values_at(const ContactPoint &point)
-    {
-      std::array<double, n_values> values = {{static_cast<double>(static_cast<int>(point.status)),
-                                              point.gap,
-                                              point.pressure,
-                                              static_cast<double>(point.pair),
-                                              point.slip_length}};
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          values[n_scalars + d]           = point.normal[d];
-          values[n_scalars + dim + d]     = point.traction[d];
-          values[n_scalars + 2 * dim + d] = point.slip[d];
-          values[n_scalars + 3 * dim + d] = point.displacement[d];
-        }
-      return values;
-    }
-
-
-
     unsigned int
     nodes_per_face(const ContactFace &face)
     {
@@ -50,90 +17,49 @@ namespace Touchstone
 
 
 
-    /** What MPI::all_gather can send: position, area and values of a point. */
-    using Parcel = std::array<double, n_values + dim + 1>;
-
-    Parcel
-    pack(const ContactPoint &point)
+    /** The values at a hanging node, if those of the nodes that constrain it are known. */
+    std::optional<ContactNode>
+    interpolate(const ContactFieldList         &fields,
+                const unsigned int              pair,
+                const ContactFace::HangingNode &hanging,
+                const ContactNodeMap           &map)
     {
-      Parcel     parcel;
-      const auto values = values_at(point);
-      std::copy(values.begin(), values.end(), parcel.begin());
-      for (unsigned int d = 0; d < dim; ++d)
-        parcel[n_values + d] = point.reference_position[d];
-      parcel[n_values + dim] = point.area;
-      return parcel;
-    }
-
-
-
-    ContactPoint
-    unpack(const Index node, const Parcel &parcel)
-    {
-      ContactPoint point;
-      point.node        = node;
-      point.status      = static_cast<ContactStatus>(static_cast<int>(parcel[0]));
-      point.gap         = parcel[1];
-      point.pressure    = parcel[2];
-      point.pair        = static_cast<unsigned int>(parcel[3]);
-      point.slip_length = parcel[4];
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          point.normal[d]             = parcel[n_scalars + d];
-          point.traction[d]           = parcel[n_scalars + dim + d];
-          point.slip[d]               = parcel[n_scalars + 2 * dim + d];
-          point.displacement[d]       = parcel[n_scalars + 3 * dim + d];
-          point.reference_position[d] = parcel[n_values + d];
-        }
-      point.area = parcel[n_values + dim];
-      return point;
-    }
-    /** The result at a hanging node, if those that it follows are known. */
-    std::optional<ContactPoint>
-    followed(const unsigned int              pair,
-             const ContactFace::HangingNode &hanging,
-             const ContactPointMap          &map)
-    {
-      ContactPoint result{};
-      double       largest = 0.;
+      ContactNode result{hanging.reference_position, std::vector<double>(fields.n_values())};
+      double      largest = 0.;
       for (const auto &[node, weight] : hanging.follows)
         {
           const auto found = map.find({pair, node});
           if (found == map.end())
             return {};
-          const ContactPoint &point = found->second;
-          result.displacement += weight * point.displacement;
-          result.normal += weight * point.normal;
-          result.gap += weight * point.gap;
-          result.pressure += weight * point.pressure;
-          result.traction += weight * point.traction;
-          result.slip += weight * point.slip;
-          if (weight > largest)
-            result.status = point.status;
+          for (const ContactFieldList::Entry &entry : fields.entries())
+            for (unsigned int i = entry.first; i < entry.first + entry.field->n_components(); ++i)
+              if (entry.field->interpolated())
+                result.values[i] += weight * found->second.values[i];
+              else if (weight > largest)
+                result.values[i] = found->second.values[i];
           largest = std::max(largest, weight);
         }
-      result.pair               = pair;
-      result.node               = hanging.node;
-      result.reference_position = hanging.reference_position;
       return result;
     }
   } // namespace
 
 
 
-  ContactPointMap
-  collect_contact_points(const std::vector<ContactFace>  &faces,
-                         const std::vector<ContactPoint> &points,
-                         const MPI_Comm                   communicator)
+  ContactNodeMap
+  collect_contact_nodes(const ContactFieldList          &fields,
+                        const std::vector<ContactFace>  &faces,
+                        const std::vector<ContactPoint> &points,
+                        const MPI_Comm                   communicator)
   {
-    ContactPointMap map;
+    using Key = ContactNodeMap::key_type;
+    ContactNodeMap map;
     for (const ContactPoint &point : points)
-      map[{point.pair, point.node}] = point;
+      map[{point.pair, point.node}] = {point.reference_position, fields.values_at(point)};
 
-    // Only nodes at the edges of the partitions are missing, so that it does not
-    // hurt to ask everybody and to tell everybody.
-    std::set<std::pair<unsigned int, Index>> missing;
-    const auto                               want = [&](const unsigned int pair, const Index node) {
+    // Only nodes at the edges of the partitions are missing: few enough for a message from
+    // everybody to everybody.
+    std::set<Key> missing;
+    const auto    want = [&](const unsigned int pair, const Index node) {
       if (map.find({pair, node}) == map.end())
         missing.insert({pair, node});
     };
@@ -145,50 +71,46 @@ namespace Touchstone
           for (const StencilEntry &entry : hanging.follows)
             want(face.pair, entry.node);
       }
-
-    const auto requests = dealii::Utilities::MPI::all_gather(
-      communicator, std::vector<std::pair<unsigned int, Index>>(missing.begin(), missing.end()));
-
-    std::set<std::pair<unsigned int, Index>> requested;
+    const auto requests =
+      dealii::Utilities::MPI::all_gather(communicator,
+                                         std::vector<Key>(missing.begin(), missing.end()));
+    std::set<Key> requested;
     for (const auto &of_rank : requests)
       requested.insert(of_rank.begin(), of_rank.end());
 
-    std::vector<std::pair<Index, Parcel>> answer;
+    std::vector<std::pair<Key, ContactNode>> answer;
     for (const ContactPoint &point : points)
-      if (requested.count({point.pair, point.node}) > 0)
-        answer.emplace_back(point.node, pack(point));
-
+      if (const Key key = {point.pair, point.node}; requested.count(key) > 0)
+        answer.emplace_back(key, map.at(key));
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, answer))
-      for (const auto &[node, parcel] : of_rank)
-        {
-          const ContactPoint point = unpack(node, parcel);
-          if (missing.count({point.pair, node}) > 0)
-            map[{point.pair, node}] = point;
-        }
+      for (const auto &[key, node] : of_rank)
+        if (missing.count(key) > 0)
+          map[key] = node;
+
     for (const ContactFace &face : faces)
       for (const ContactFace::HangingNode &hanging : face.hanging)
-        {
-          const auto result = followed(face.pair, hanging, map);
-          if (result)
-            map[{face.pair, hanging.node}] = *result;
-        }
+        if (const auto result = interpolate(fields, face.pair, hanging, map))
+          map[{face.pair, hanging.node}] = *result;
     return map;
   }
 
 
 
-  ContactPicture::ContactPicture(const std::vector<ContactFace> &faces,
-                                 const ContactPointMap          &points)
+  ContactSurfaceData::ContactSurfaceData(const ContactFieldList         &fields,
+                                         const std::vector<ContactFace> &faces,
+                                         const ContactNodeMap           &all_nodes)
+    : fields(fields)
   {
-    bool curved = false;
+    const unsigned int n_values = fields.n_values();
+    bool               curved   = false;
     for (const ContactFace &face : faces)
       {
-        const unsigned int                n = face.degree + 1;
-        std::vector<const ContactPoint *> nodes;
+        const unsigned int               n = face.degree + 1;
+        std::vector<const ContactNode *> nodes;
         for (unsigned int i = 0; i < nodes_per_face(face); ++i)
           {
-            const auto found = points.find({face.pair, face.nodes[i]});
-            if (found != points.end())
+            const auto found = all_nodes.find({face.pair, face.nodes[i]});
+            if (found != all_nodes.end())
               nodes.push_back(&found->second);
           }
         if (nodes.size() < nodes_per_face(face))
@@ -209,9 +131,8 @@ namespace Touchstone
         patch.data.reinit(n_values + (patch.points_are_available ? dim : 0), n * n);
         for (unsigned int i = 0; i < n * n; ++i)
           {
-            const auto values = values_at(*nodes[i]);
             for (unsigned int c = 0; c < n_values; ++c)
-              patch.data(c, i) = values[c];
+              patch.data(c, i) = nodes[i]->values[c];
             if (patch.points_are_available)
               for (unsigned int d = 0; d < dim; ++d)
                 patch.data(n_values + d, i) = nodes[i]->reference_position[d];
@@ -229,7 +150,7 @@ namespace Touchstone
 
 
   const std::vector<dealii::DataOutBase::Patch<2, 3>> &
-  ContactPicture::get_patches() const
+  ContactSurfaceData::get_patches() const
   {
     return patches;
   }
@@ -237,11 +158,11 @@ namespace Touchstone
 
 
   std::vector<std::string>
-  ContactPicture::get_dataset_names() const
+  ContactSurfaceData::get_dataset_names() const
   {
-    std::vector<std::string> all(names.begin(), names.begin() + n_scalars);
-    for (unsigned int v = 0; v < n_vectors; ++v)
-      all.insert(all.end(), dim, names[n_scalars + v]);
+    std::vector<std::string> all;
+    for (const ContactFieldList::Entry &entry : fields.entries())
+      all.insert(all.end(), entry.field->n_components(), entry.name);
     return all;
   }
 
@@ -251,18 +172,19 @@ namespace Touchstone
                          unsigned int,
                          std::string,
                          dealii::DataComponentInterpretation::DataComponentInterpretation>>
-  ContactPicture::get_nonscalar_data_ranges() const
+  ContactSurfaceData::get_nonscalar_data_ranges() const
   {
     std::vector<std::tuple<unsigned int,
                            unsigned int,
                            std::string,
                            dealii::DataComponentInterpretation::DataComponentInterpretation>>
       ranges;
-    for (unsigned int v = 0; v < n_vectors; ++v)
-      ranges.emplace_back(n_scalars + dim * v,
-                          n_scalars + dim * v + dim - 1,
-                          names[n_scalars + v],
-                          dealii::DataComponentInterpretation::component_is_part_of_vector);
+    for (const ContactFieldList::Entry &entry : fields.entries())
+      if (entry.field->n_components() == dim)
+        ranges.emplace_back(entry.first,
+                            entry.first + dim - 1,
+                            entry.name,
+                            dealii::DataComponentInterpretation::component_is_part_of_vector);
     return ranges;
   }
 
@@ -270,7 +192,7 @@ namespace Touchstone
 
   ContactOutput::ContactOutput(const OutputFolder &folder)
     : folder(folder)
-    , pictures(folder, "contact")
+    , files(folder, "contact")
   {
   }
 
@@ -282,12 +204,11 @@ namespace Touchstone
                        const unsigned int               step,
                        const double                     time)
   {
-    const auto map = collect_contact_points(faces, points, folder.communicator);
-
-    const ContactPicture picture(faces, map);
-    const std::size_t    n_patches =
-      dealii::Utilities::MPI::sum(picture.get_patches().size(), folder.communicator);
+    const ContactNodeMap nodes = collect_contact_nodes(fields, faces, points, folder.communicator);
+    const ContactSurfaceData data(fields, faces, nodes);
+    const std::size_t        n_patches =
+      dealii::Utilities::MPI::sum(data.get_patches().size(), folder.communicator);
     if (n_patches > 0)
-      pictures.write(picture, step, time);
+      files.write(data, step, time);
   }
 } // namespace Touchstone

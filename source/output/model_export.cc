@@ -66,7 +66,7 @@ namespace Touchstone
           const BodyParameters &body = scene.bodies[b];
           bodies.append(Json::object()
                           .set("name", body.name)
-                          .set("element", body.element_name)
+                          .set("element", body.element_type.word())
                           .set("law", body.material.law.name)
                           .set("young_modulus", body.material.young_modulus)
                           .set("poisson_ratio", body.material.poisson_ratio)
@@ -189,16 +189,16 @@ namespace Touchstone
                        path,
                        "a model is exported by one rank",
                        "start touchstone without mpirun");
-    const Forest             forest(scene, folder_of_scene, communicator);
-    const Solid              solid(scene, forest, communicator);
-    const BoundaryConditions conditions(scene, forest, solid);
+    const Forest             forest(scene.forest_input(), folder_of_scene, communicator);
+    const Solid              solid(scene.bodies, scene.discretisation.degree, forest, communicator);
+    const BoundaryConditions conditions(forest, solid);
 
     Json model = Json::object();
     model.set("title", scene.title)
       .set("degree", scene.discretisation.degree)
       .set("reference",
            Json::object()
-             .set("type", scene.reference.type)
+             .set("type", scene.reference.type.name)
              .set("pair", scene.reference.pair)
              .set("values", scene.reference.values));
     export_mesh(scene, solid, model);

@@ -1,5 +1,6 @@
 #include <touchstone/output/statistics.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace Touchstone
@@ -9,6 +10,11 @@ namespace Touchstone
   {
     // A pair or energy that turns up later gets empty cells in the rows before.
     table.set_auto_fill_mode(true);
+    for (const auto &[name, record] : StepQuantityRegistry::records())
+      quantities.emplace_back(name, record.make());
+    std::stable_sort(quantities.begin(), quantities.end(), [](const auto &a, const auto &b) {
+      return a.second->order() < b.second->order();
+    });
   }
 
 
@@ -24,56 +30,61 @@ namespace Touchstone
 
 
   void
-  Statistics::add(const std::string &column, const dealii::Tensor<1, dim> &value)
+  Statistics::add(const StepValue &value)
   {
-    const char *const components[dim] = {" x", " y", " z"};
-    for (unsigned int d = 0; d < dim; ++d)
-      add(column + components[d], value[d]);
+    const std::string column = value.pair.empty() ? value.name : value.pair + ": " + value.name;
+    if (value.kind == StepValue::count)
+      table.add_value(column, static_cast<unsigned int>(value.components[0]));
+    else if (value.kind == StepValue::number)
+      add(column, value.components[0]);
+    else
+      for (unsigned int d = 0; d < dim; ++d)
+        add(column + ' ' + "xyz"[d], value.components[d]);
   }
 
 
 
   void
-  Statistics::add_step(const StepRecord &record)
+  Statistics::add_step(const ConvergedStep &step)
   {
-    if (folder.rank == 0)
+    last_values.clear();
+    for (const auto &[name, quantity] : quantities)
       {
-        table.add_value("step", record.step);
-        add("time", record.time);
-        add("step size", record.step_size);
-        table.add_value("Newton iterations", record.newton_iterations);
-        table.add_value("linear iterations", record.linear_iterations);
-        table.add_value("cuts", record.cuts);
-        for (const auto &[name, result] : record.pairs)
-          {
-            add(name + ": force", result.force);
-            add(name + ": moment", result.moment);
-            add(name + ": area", result.area);
-            add(name + ": max pressure", result.max_pressure);
-            add(name + ": max penetration", result.max_penetration);
-            table.add_value(name + ": active nodes", result.active);
-            table.add_value(name + ": stick nodes", result.stick);
-            table.add_value(name + ": slip nodes", result.slip);
-          }
-        for (const auto &[name, force] : record.reactions)
-          add(name + ": reaction", force);
-        for (const auto &[name, energy] : record.energies)
-          add("energy: " + name, energy);
-        if (record.momentum)
-          {
-            add("momentum", *record.momentum);
-            add("angular momentum", *record.angular_momentum);
-          }
+        StepValues values;
+        quantity->evaluate(step, values); // collective, though only rank 0 writes
+        if (folder.rank == 0)
+          for (const StepValue &value : values.entries)
+            add(value);
+        if (quantity->in_summary())
+          last_values.insert(last_values.end(), values.entries.begin(), values.entries.end());
       }
     write();
   }
 
 
 
-  void
-  Statistics::restore(const dealii::TableHandler &rows)
+  Statistics::Memories
+  Statistics::memories() const
   {
-    table = rows;
+    Memories result;
+    for (const auto &[name, quantity] : quantities)
+      if (const StepQuantity::Memory memory = quantity->memory(); !memory.empty())
+        result[name] = memory;
+    return result;
+  }
+
+
+
+  void
+  Statistics::restore(const dealii::TableHandler   &rows,
+                      const Memories               &memories,
+                      const std::vector<StepValue> &values)
+  {
+    table       = rows;
+    last_values = values;
+    for (const auto &[name, quantity] : quantities)
+      if (const auto memory = memories.find(name); memory != memories.end())
+        quantity->restore(memory->second);
     write();
   }
 

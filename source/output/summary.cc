@@ -53,6 +53,51 @@ namespace Touchstone
         out << ' ' << std::setw(12) << rounded(value[d], scale);
       return out.str();
     }
+
+
+
+    Json
+    to_json(const StepValue &value)
+    {
+      if (value.kind == StepValue::count)
+        return Json(static_cast<unsigned int>(value.components[0]));
+      if (value.kind == StepValue::number)
+        return Json(value.components[0]);
+      return Json(
+        dealii::Tensor<1, dim>({value.components[0], value.components[1], value.components[2]}));
+    }
+
+    /** Names of members have no blanks. */
+    std::string
+    member_name(std::string name)
+    {
+      std::replace(name.begin(), name.end(), ' ', '_');
+      return name;
+    }
+
+
+
+    /** Results of the contact pairs by their names, with the registered quantities. */
+    Json
+    contact_results(const RunSummary &summary)
+    {
+      Json pairs = Json::object();
+      for (const auto &[name, result] : summary.contact)
+        {
+          Json pair = Json::object()
+                        .set("force", result.force)
+                        .set("moment", result.moment)
+                        .set("area", result.area)
+                        .set("max_pressure", result.max_pressure)
+                        .set("max_penetration", result.max_penetration)
+                        .set("active", result.active);
+          for (const StepValue &value : summary.quantities)
+            if (value.pair == name)
+              pair.set(member_name(value.name), to_json(value));
+          pairs.set(name, pair);
+        }
+      return pairs;
+    }
   } // namespace
 
 
@@ -60,17 +105,6 @@ namespace Touchstone
   Json
   RunSummary::to_json() const
   {
-    Json pairs = Json::object();
-    for (const auto &[name, result] : contact)
-      pairs.set(name,
-                Json::object()
-                  .set("force", result.force)
-                  .set("moment", result.moment)
-                  .set("area", result.area)
-                  .set("max_pressure", result.max_pressure)
-                  .set("max_penetration", result.max_penetration)
-                  .set("active", result.active));
-
     Json bodies = Json::object();
     for (const auto &[body, boundaries] : reactions)
       {
@@ -119,9 +153,12 @@ namespace Touchstone
       result.set("meshes", all_meshes);
     if (motion)
       result.set("motion", motion->to_json());
-    Json results = Json::object().set("contact", pairs).set("reactions", bodies);
+    Json results = Json::object().set("contact", contact_results(*this)).set("reactions", bodies);
     if (!plastic_strain.empty())
       results.set("plastic_strain", plastic);
+    for (const StepValue &value : quantities)
+      if (value.pair.empty())
+        results.set(member_name(value.name), Touchstone::to_json(value));
     return result.set("steps", steps)
       .set("iterations",
            Json::object()

@@ -3,15 +3,21 @@
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/numerics/data_out.h>
 
-#include <cmath>
+#include <algorithm>
+#include <list>
 
 namespace Touchstone
 {
   VolumeOutput::VolumeOutput(const Solid &solid, const OutputFolder &folder)
     : solid(solid)
     , node_fe(solid.fe.degree)
-    , pictures(folder, "solution")
+    , files(folder, "solution")
   {
+    for (const auto &[name, record] : VolumeFieldRegistry::records())
+      fields.emplace_back(name, record.make());
+    std::stable_sort(fields.begin(), fields.end(), [](const auto &a, const auto &b) {
+      return a.second->order() < b.second->order();
+    });
   }
 
 
@@ -22,15 +28,27 @@ namespace Touchstone
     node_dofs.reinit(solid.dof_handler.get_triangulation());
     node_dofs.distribute_dofs(node_fe);
     node_volume = make_node_field();
+    node_in_solid.resize(node_volume.locally_owned_size());
 
-    std::vector<Index> nodes(node_fe.n_dofs_per_cell());
-    for (const auto &cell : node_dofs.active_cell_iterators())
-      if (cell->is_locally_owned())
+    const dealii::IndexSet &owned = node_dofs.locally_owned_dofs();
+    std::vector<Index>      nodes(node_fe.n_dofs_per_cell()), dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
         {
-          cell->get_dof_indices(nodes);
-          const double volume = cell->measure();
-          for (const Index node : nodes)
-            node_volume(node) += volume;
+          const dealii::DoFHandler<dim>::active_cell_iterator node_cell(
+            &node_dofs.get_triangulation(), cell->level(), cell->index(), &node_dofs);
+          node_cell->get_dof_indices(nodes);
+          cell->get_dof_indices(dofs);
+          const double volume = cell->is_locally_owned() ? cell->measure() : 0.;
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            {
+              if (cell->is_locally_owned())
+                node_volume(nodes[a]) += volume;
+              if (owned.is_element(nodes[a]))
+                node_in_solid[owned.index_within_set(nodes[a])] =
+                  solid.owned.index_within_set(dofs[solid.fe.component_to_system_index(0, a)]) /
+                  dim;
+            }
         }
     node_volume.compress(dealii::VectorOperation::add);
   }
@@ -47,16 +65,14 @@ namespace Touchstone
 
 
 
-  std::array<VolumeOutput::NodeField, 8>
+  std::vector<dealii::SymmetricTensor<2, dim>>
   VolumeOutput::node_stress(const Vector &displacement) const
   {
-    static const unsigned int row[6]    = {0, 1, 2, 0, 1, 0};
-    static const unsigned int column[6] = {0, 1, 2, 1, 2, 2};
+    constexpr unsigned int n = dealii::SymmetricTensor<2, dim>::n_independent_components;
 
-    std::array<NodeField, 8> fields;
-    for (NodeField &field : fields)
-      field = make_node_field();
-
+    std::array<NodeField, n> sums;
+    for (NodeField &sum : sums)
+      sum = make_node_field();
     const auto         cell_stress = solid.cell_stress(displacement);
     std::vector<Index> nodes(node_fe.n_dofs_per_cell());
     for (const auto &cell : node_dofs.active_cell_iterators())
@@ -66,26 +82,40 @@ namespace Touchstone
           const double volume = cell->measure();
           const auto  &stress = cell_stress[cell->active_cell_index()];
           for (const Index node : nodes)
-            for (unsigned int c = 0; c < 6; ++c)
-              fields[c](node) += volume * stress[row[c]][column[c]];
+            for (unsigned int c = 0; c < n; ++c)
+              sums[c](node) += volume * stress.access_raw_entry(c);
         }
-    for (unsigned int c = 0; c < 6; ++c)
-      fields[c].compress(dealii::VectorOperation::add);
+    for (NodeField &sum : sums)
+      sum.compress(dealii::VectorOperation::add);
 
-    for (unsigned int i = 0; i < node_volume.locally_owned_size(); ++i)
-      {
-        dealii::SymmetricTensor<2, dim> stress;
-        for (unsigned int c = 0; c < 6; ++c)
-          {
-            fields[c].local_element(i) /= node_volume.local_element(i);
-            stress[row[c]][column[c]] = fields[c].local_element(i);
-          }
-        fields[6].local_element(i) = std::sqrt(1.5) * dealii::deviator(stress).norm();
-        fields[7].local_element(i) = -dealii::trace(stress) / 3.;
-      }
-    for (NodeField &field : fields)
-      field.update_ghost_values();
-    return fields;
+    std::vector<dealii::SymmetricTensor<2, dim>> result(node_in_solid.size());
+    for (std::size_t i = 0; i < result.size(); ++i)
+      for (unsigned int c = 0; c < n; ++c)
+        result[node_in_solid[i]].access_raw_entry(c) =
+          sums[c].local_element(i) / node_volume.local_element(i);
+    return result;
+  }
+
+
+
+  VolumeOutput::NodeField
+  VolumeOutput::scalar_field(const std::vector<double> &values) const
+  {
+    NodeField field = make_node_field();
+    for (std::size_t i = 0; i < node_in_solid.size(); ++i)
+      field.local_element(i) = values[node_in_solid[i]];
+    field.update_ghost_values();
+    return field;
+  }
+
+
+
+  Vector
+  VolumeOutput::vector_field(const std::vector<double> &values) const
+  {
+    Vector field(solid.owned, solid.communicator);
+    std::copy(values.begin(), values.end(), field.begin());
+    return solid.ghosted(field);
   }
 
 
@@ -96,52 +126,45 @@ namespace Touchstone
                       const unsigned int step,
                       const double       time)
   {
-    static const std::string names[8] = {"stress_xx",
-                                         "stress_yy",
-                                         "stress_zz",
-                                         "stress_xy",
-                                         "stress_yz",
-                                         "stress_xz",
-                                         "von_mises",
-                                         "hydrostatic_pressure"};
-
     if (!node_dofs.has_active_dofs())
       number_nodes();
-    const auto             fields        = node_stress(displacement);
-    const auto            &triangulation = node_dofs.get_triangulation();
-    dealii::Vector<double> body(triangulation.n_active_cells());
-    dealii::Vector<double> rank(triangulation.n_active_cells());
-    for (const auto &cell : triangulation.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          body(cell->active_cell_index()) = cell->material_id();
-          rank(cell->active_cell_index()) = cell->subdomain_id();
-        }
+    const auto        stress = node_stress(displacement);
+    const VolumeState state{solid, displacement, velocity, time, stress};
+    const std::size_t n_nodes = node_in_solid.size();
+    const std::size_t n_cells = node_dofs.get_triangulation().n_active_cells();
 
-    dealii::DataOut<dim> data_out;
-    const auto           add_vectors = [&](const Vector &field, const std::string &name) {
-      data_out.add_data_vector(
-        solid.dof_handler,
-        field,
-        std::vector<std::string>(dim, name),
-        std::vector<dealii::DataComponentInterpretation::DataComponentInterpretation>(
-          dim, dealii::DataComponentInterpretation::component_is_part_of_vector));
-    };
-    add_vectors(displacement, "displacement");
-    if (velocity != nullptr)
-      add_vectors(*velocity, "velocity");
-    for (unsigned int c = 0; c < fields.size(); ++c)
-      data_out.add_data_vector(node_dofs, fields[c], names[c]);
-    dealii::Vector<double> plastic_strain;
-    if (solid.has_history())
-      {
-        plastic_strain = solid.cell_plastic_strain();
-        data_out.add_data_vector(plastic_strain,
-                                 "equivalent_plastic_strain",
-                                 dealii::DataOut<dim>::type_cell_data);
-      }
-    data_out.add_data_vector(body, "body", dealii::DataOut<dim>::type_cell_data);
-    data_out.add_data_vector(rank, "rank", dealii::DataOut<dim>::type_cell_data);
+    // The writer keeps pointers to these.
+    std::list<NodeField>              scalars;
+    std::list<Vector>                 vectors;
+    std::list<dealii::Vector<double>> cells;
+    dealii::DataOut<dim>              data_out;
+    for (const auto &[name, field] : fields)
+      if (field->available(state))
+        {
+          const bool          at_nodes = field->location() == VolumeField::Location::nodes;
+          std::vector<double> values(at_nodes ? n_nodes * field->n_components() : n_cells);
+          field->evaluate(state, values);
+          if (!at_nodes)
+            {
+              cells.emplace_back(values.begin(), values.end());
+              data_out.add_data_vector(cells.back(), name, dealii::DataOut<dim>::type_cell_data);
+            }
+          else if (field->n_components() == 1)
+            {
+              scalars.push_back(scalar_field(values));
+              data_out.add_data_vector(node_dofs, scalars.back(), name);
+            }
+          else
+            {
+              using namespace dealii::DataComponentInterpretation;
+              vectors.push_back(vector_field(values));
+              data_out.add_data_vector(
+                solid.dof_handler,
+                vectors.back(),
+                std::vector<std::string>(dim, name),
+                std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
+            }
+        }
 
     dealii::DataOutBase::VtkFlags flags;
     flags.time                     = time;
@@ -154,6 +177,6 @@ namespace Touchstone
                            solid.fe.degree,
                            dealii::DataOut<dim>::curved_inner_cells);
 
-    pictures.write(data_out, step, time);
+    files.write(data_out, step, time);
   }
 } // namespace Touchstone

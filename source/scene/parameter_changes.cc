@@ -108,7 +108,7 @@ namespace Touchstone
                        "the checkpoint is at the later time " + dealii::Utilities::to_string(time),
                        "set a later end, or run the scene from its beginning without --resume");
     for (const ContactPairParameters &pair : scene.pairs)
-      if (pair.initial_overlap == "ramp" && !same(old_end, end))
+      if (pair.initial_overlap == ContactPairParameters::Overlap::ramp && !same(old_end, end))
         throw InputError(end_key.first,
                          end_key.second,
                          end,

@@ -152,7 +152,7 @@ namespace Touchstone
         declare_choices_in(body.section(), body);
       }
     for (ObstacleParameters &obstacle : obstacles)
-      declare_in(obstacle.section(), obstacle);
+      declare_choices_in(obstacle.section(), obstacle);
     for (ContactPairParameters &pair : pairs)
       declare_choices_in(pair.section(), pair);
     declare_choices_in("Contact", contact);
@@ -164,7 +164,7 @@ namespace Touchstone
     declare_in("Linear solver", linear_solver);
     declare_in("Output", output);
     declare_in("Checkpoints", checkpoints);
-    declare_in("Reference solution", reference);
+    declare_choices_in("Reference solution", reference);
   }
 
 
@@ -173,8 +173,8 @@ namespace Touchstone
   Scene::resolve(const SceneText &text, const std::string &file_name)
   {
     for (BodyParameters &body : bodies)
-      if (body.element_name == "automatic")
-        body.element_name = body.automatic_element(discretisation.degree);
+      if (body.element_type == ElementType::automatic)
+        body.element_type = body.automatic_element(discretisation.degree);
 
     for (ContactPairParameters &pair : pairs)
       if (pair.tied() && !text.is_set(pair.section(), "Sliding"))
@@ -215,6 +215,26 @@ namespace Touchstone
                          dealii::ParameterHandler::ShortPRM |
                            dealii::ParameterHandler::KeepDeclarationOrder);
     return text.str();
+  }
+
+
+
+  ForestInput
+  Scene::forest_input() const
+  {
+    ForestInput input;
+    input.discretisation = discretisation;
+    input.refines        = refinement.active();
+    // A cell of a nonlinear law is evaluated in each iteration.
+    for (const BodyParameters &body : bodies)
+      input.bodies.push_back({body.name, body.geometry, body.material.linear() ? 1U : 3U});
+    for (const ContactPairParameters &pair : pairs)
+      input.pairs.push_back({pair.section(),
+                             body_index(pair.slave_body),
+                             pair.slave_boundaries,
+                             pair.master_body.empty() ? 0 : body_index(pair.master_body),
+                             pair.master_boundaries});
+    return input;
   }
 
 

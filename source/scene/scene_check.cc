@@ -1,6 +1,7 @@
 #include <touchstone/base/formula.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
+#include <touchstone/scene/combinations.h>
 #include <touchstone/scene/scene.h>
 
 #include <algorithm>
@@ -45,42 +46,20 @@ namespace Touchstone
   {
     discretisation.check("Discretisation");
     for (const BodyParameters &body : bodies)
-      body.check(discretisation.degree);
+      body.check();
     for (const ObstacleParameters &obstacle : obstacles)
       obstacle.check(obstacle.section());
     for (const ContactPairParameters &pair : pairs)
       check_pair(pair);
     contact.check("Contact");
     refinement.check("Refinement");
-    if (refinement.active() && discretisation.partitioner != "p4est" &&
-        discretisation.partitioner != "automatic")
-      throw InputError("Discretisation",
-                       "Partitioner",
-                       discretisation.partitioner,
-                       "its mesh cannot be refined during the run",
-                       "set it to 'automatic', or 'Estimator' in section 'Refinement' to 'none'.");
     load_stepping.check("Load stepping");
     check_formulas();
-    check_time_integration();
+    time_integration.check("Time integration");
     newton.check("Newton");
     linear_solver.check("Linear solver");
     output.check("Output");
-
-    if (contact.enforcement.name == "lagrange multipliers" && !linear_solver.takes_multipliers())
-      throw InputError("Contact",
-                       "Enforcement",
-                       contact.enforcement.name,
-                       "multipliers make the system indefinite, which '" + linear_solver.type +
-                         "' cannot solve",
-                       "set 'Contact/Enforcement = elimination' or "
-                       "'Linear solver/Type = MUMPS'");
-    if (contact.linearisation == "consistent" && linear_solver.symmetric_only())
-      throw InputError("Contact",
-                       "Linearisation",
-                       contact.linearisation,
-                       "makes the system unsymmetric, which '" + linear_solver.type + "' cannot solve",
-                       "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
-                       "'Belos GMRES'");
+    check_combinations(*this);
     check_reference();
   }
 
@@ -92,7 +71,7 @@ namespace Touchstone
     reference.check("Reference solution");
     if (!reference.pair.empty())
       check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
-    if (reference.type == "formula")
+    if (reference.type.name == "formula")
       return;
     const auto no_formula =
       [&](const std::string &section, const std::string &key, const std::string &text) {
@@ -100,8 +79,8 @@ namespace Touchstone
           throw InputError(section,
                            key,
                            text,
-                           "means nothing while 'Reference solution/Type' is '" + reference.type +
-                             "'",
+                           "means nothing while 'Reference solution/Type' is '" +
+                             reference.type.name + "'",
                            "remove it, or set that type to 'formula'");
       };
     no_formula("Reference solution", "Pressure", reference.pressure);
@@ -139,56 +118,6 @@ namespace Touchstone
 
 
   void
-  Scene::check_time_integration() const
-  {
-    const std::string section = "Time integration";
-    time_integration.check(section);
-    if (time_integration.mass == "dispersion corrected" && discretisation.degree != 1)
-      throw InputError(section,
-                       "Mass",
-                       time_integration.mass,
-                       "is made for degree 1",
-                       "set it to 'consistent', or 'Discretisation/Degree' to 1");
-    for (const BodyParameters &body : bodies)
-      {
-        const MaterialParameters &material = body.material;
-        if (time_integration.dynamic() && material.density <= 0.)
-          throw InputError(body.section() + "/Material",
-                           "Density",
-                           dealii::Patterns::Tools::to_string(material.density),
-                           "must be positive: 'Time integration/Scheme' is '" +
-                             time_integration.scheme + "'",
-                           "give the mass per volume in the scene's units, e.g. 7.85e-9 for steel "
-                           "in t and mm, or set the scheme to 'static'");
-        if (time_integration.dynamic())
-          continue;
-        const std::string remedy = "remove it, or set 'Time integration/Scheme' to 'newmark', "
-                                   "'generalized_alpha' or another scheme with inertia";
-        for (unsigned int d = 0; d < 3; ++d)
-          for (const auto &[key, value] :
-               {std::make_pair("Initial velocity ", &body.initial_velocity[d]),
-                std::make_pair("Initial displacement ", &body.initial_displacement[d])})
-            if (!value->empty())
-              throw InputError(body.section(),
-                               key + std::string(1, "xyz"[d]),
-                               *value,
-                               "means nothing without inertia",
-                               remedy);
-        for (const auto &[key, value] :
-             {std::make_pair("Rayleigh mass", material.rayleigh_mass),
-              std::make_pair("Rayleigh stiffness", material.rayleigh_stiffness)})
-          if (value > 0.)
-            throw InputError(body.section() + "/Material",
-                             key,
-                             dealii::Patterns::Tools::to_string(value),
-                             "means nothing without inertia",
-                             remedy);
-      }
-  }
-
-
-
-  void
   Scene::check_pair(const ContactPairParameters &pair) const
   {
     const std::string section = pair.section();
@@ -198,23 +127,5 @@ namespace Touchstone
     if (!pair.obstacle.empty())
       check_name(section, "Obstacle", pair.obstacle, "Obstacles", names(obstacles));
     pair.check(section);
-    if (pair.tied() && pair.initial_overlap != "interference")
-      throw InputError(section,
-                       "Initial overlap",
-                       pair.initial_overlap,
-                       "a tied pair holds the bodies as they are placed",
-                       "remove the key");
-    if (pair.tied() && pair.sliding == "finite")
-      throw InputError(section,
-                       "Sliding",
-                       pair.sliding,
-                       "a tied pair cannot slide",
-                       "remove 'Sliding' or set it to 'small'");
-    if (pair.master_normal == "smoothed" && discretisation.degree != 1)
-      throw InputError(section,
-                       "Master normal",
-                       pair.master_normal,
-                       "only faces of degree 1 can be smoothed; those of degree 2 are curved",
-                       "set 'Master normal = averaged' or 'Discretisation/Degree = 1'");
   }
 } // namespace Touchstone

@@ -60,7 +60,7 @@ namespace Touchstone
     [[noreturn]] void
     throw_unknown_section(const Declared    &declared,
                           const std::string &section,
-                          const std::string &place)
+                          const std::string &location)
     {
       // The outermost part that is unknown is the one to speak of.
       std::vector<std::string> path;
@@ -86,14 +86,14 @@ namespace Touchstone
                                "",
                                "the list '" + list + "'" +
                                  (parent.empty() ? "" : " of '" + parent + "'") +
-                                 " does not name '" + part.substr(prefix.size()) + "' (" + place +
-                                 ")" + did_you_mean(part, known),
+                                 " does not name '" + part.substr(prefix.size()) + "' (" +
+                                 location + ")" + did_you_mean(part, known),
                                "add the name to '" + list + "' or remove this subsection");
 
           throw InputError(join_path(path),
                            "",
                            "",
-                           "there is no such subsection (" + place + ")" +
+                           "there is no such subsection (" + location + ")" +
                              did_you_mean(part, known),
                            "correct the name; " + (known.empty()
                                                      ? "there are no subsections here"
@@ -105,7 +105,9 @@ namespace Touchstone
 
 
     [[noreturn]] void
-    throw_unknown_key(const Declared &declared, const SceneEntry &entry, const std::string &place)
+    throw_unknown_key(const Declared    &declared,
+                      const SceneEntry  &entry,
+                      const std::string &location)
     {
       const auto                     keys = declared.find(entry.section);
       const std::vector<std::string> known =
@@ -122,7 +124,7 @@ namespace Touchstone
       throw InputError(entry.section,
                        entry.key,
                        entry.value,
-                       "there is no such key (" + place + ")" + hint,
+                       "there is no such key (" + location + ")" + hint,
                        known.empty()
                          ? "this section has no keys of its own"
                          : "the keys " +
@@ -171,7 +173,7 @@ namespace Touchstone
 
 
     void
-    set_entry(const SceneEntry &entry, const std::string &place, dealii::ParameterHandler &prm)
+    set_entry(const SceneEntry &entry, const std::string &location, dealii::ParameterHandler &prm)
     {
       const std::vector<std::string> path = split_path(entry.section);
       for (const std::string &part : path)
@@ -192,7 +194,7 @@ namespace Touchstone
                            entry.key,
                            entry.value,
                            (entry.value.empty() ? "an empty value" : "this value") +
-                             std::string(" is not possible here (") + place + ")",
+                             std::string(" is not possible here (") + location + ")",
                            remedy(pattern, entry.value));
         }
       for (std::size_t i = 0; i < path.size(); ++i)
@@ -237,15 +239,15 @@ namespace Touchstone
     for (const SceneEntry &entry : text.entries())
       {
         if (unknown != text.sections().end() && order(unknown->second) <= order(entry.line))
-          throw_unknown_section(declared, unknown->first, text.place(unknown->second));
+          throw_unknown_section(declared, unknown->first, text.location(unknown->second));
         const auto keys = declared.find(entry.section);
         if (keys == declared.end() ||
             std::find(keys->second.begin(), keys->second.end(), entry.key) == keys->second.end())
-          throw_unknown_key(declared, entry, text.place(entry.line));
-        set_entry(entry, text.place(entry.line), prm);
+          throw_unknown_key(declared, entry, text.location(entry.line));
+        set_entry(entry, text.location(entry.line), prm);
       }
     if (unknown != text.sections().end())
-      throw_unknown_section(declared, unknown->first, text.place(unknown->second));
+      throw_unknown_section(declared, unknown->first, text.location(unknown->second));
 
     for (const std::string &name : prm.get_entries_wrongly_not_set())
       {

@@ -92,7 +92,7 @@ namespace Touchstone
 
 
   std::string
-  SceneText::place(const unsigned int line) const
+  SceneText::location(const unsigned int line) const
   {
     return line == 0 ? "command line" : "line " + std::to_string(line) + " of " + file_name;
   }
@@ -175,7 +175,7 @@ namespace Touchstone
         throw InputError(section,
                          "",
                          "",
-                         "the subsection that begins in " + place(all_sections.at(section)) +
+                         "the subsection that begins in " + location(all_sections.at(section)) +
                            " is not closed",
                          "write 'end' after its last entry");
       }
@@ -200,7 +200,7 @@ namespace Touchstone
           throw InputError(section,
                            "",
                            line,
-                           "this is no name for a subsection (" + place(number) + ")",
+                           "this is no name for a subsection (" + location(number) + ")",
                            "write 'subsection NAME' with a NAME that has no '/'");
         path.push_back(name);
         note_section(join_path(path), number);
@@ -211,13 +211,13 @@ namespace Touchstone
           throw InputError(section,
                            "",
                            line,
-                           "something follows after 'end' (" + place(number) + ")",
+                           "something follows after 'end' (" + location(number) + ")",
                            "write 'end' on a line of its own");
         if (path.empty())
           throw InputError("",
                            "",
                            line,
-                           "no subsection is open that this could close (" + place(number) + ")",
+                           "no subsection is open that this could close (" + location(number) + ")",
                            "remove this 'end' or look for one too many before it");
         path.pop_back();
       }
@@ -229,14 +229,14 @@ namespace Touchstone
           throw InputError(section,
                            "",
                            line,
-                           "this line cannot be read (" + place(number) + ")",
+                           "this line cannot be read (" + location(number) + ")",
                            "write 'set KEY = VALUE'");
         if (const SceneEntry *other = find(section, key))
           throw InputError(section,
                            key,
                            trim(rest.substr(equals + 1)),
-                           "this key is set twice, in " + place(other->line) + " and " +
-                             place(number),
+                           "this key is set twice, in " + location(other->line) + " and " +
+                             location(number),
                            "keep one of them");
         all_entries.push_back({section, key, trim(rest.substr(equals + 1)), number});
       }
@@ -244,13 +244,13 @@ namespace Touchstone
       throw InputError(section,
                        "",
                        line,
-                       "scenes cannot include other files (" + place(number) + ")",
+                       "scenes cannot include other files (" + location(number) + ")",
                        "copy the lines of that file to here");
     else
       throw InputError(section,
                        "",
                        line,
-                       "this line cannot be read (" + place(number) + ")",
+                       "this line cannot be read (" + location(number) + ")",
                        "a line is 'set KEY = VALUE', 'subsection NAME', 'end' or "
                        "a comment that begins with '#'");
   }

@@ -10,9 +10,9 @@ namespace Touchstone
   using namespace dealii;
 
   std::vector<BoundingBox<dim>>
-  body_boxes(const Scene &scene, const Solid &solid)
+  body_boxes(const Solid &solid)
   {
-    const unsigned int  n_bodies = scene.bodies.size();
+    const unsigned int  n_bodies = solid.n_bodies();
     constexpr double    far      = std::numeric_limits<double>::max();
     std::vector<double> lower(dim * n_bodies, far), upper(dim * n_bodies, -far);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())

@@ -32,23 +32,12 @@ namespace Touchstone
 
 
   ElementType
-  BodyParameters::element() const
-  {
-    return element_name == "full"    ? ElementType::full
-           : element_name == "b-bar" ? ElementType::b_bar
-           : element_name == "F-bar" ? ElementType::f_bar
-                                     : ElementType::incompatible_modes;
-  }
-
-
-
-  std::string
   BodyParameters::automatic_element(const unsigned int degree) const
   {
-    return degree > 1                 ? "full"
-           : material.finite_strain() ? "F-bar"
-           : material.plastic()       ? "b-bar"
-                                      : "incompatible modes";
+    return degree > 1                 ? ElementType::full
+           : material.finite_strain() ? ElementType::f_bar
+           : !material.linear()       ? ElementType::b_bar
+                                      : ElementType::incompatible_modes;
   }
 
 
@@ -56,18 +45,18 @@ namespace Touchstone
   void
   BodyParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
-    prm.add_parameter("Element",
-                      element_name,
-                      "How cells interpolate strain: 'full' integration of the displacements' "
-                      "gradient; 'b-bar' with a constant volume change per cell, for nearly "
-                      "incompressible material; 'incompatible modes' for bending; 'F-bar' is "
-                      "b-bar for finite strain. The latter three are for degree 1, b-bar for "
-                      "material laws of small strain, incompatible modes for the law 'linear "
-                      "elastic' only, F-bar for laws of finite strain. 'automatic' takes full "
-                      "for degree 2; for degree 1 F-bar with a law for finite strain, b-bar with "
-                      "plasticity at small strain (plastic flow keeps the volume, and full cells "
-                      "lock), and else incompatible modes.",
-                      Patterns::Selection("automatic|full|b-bar|incompatible modes|F-bar"));
+    element_type.declare(
+      prm,
+      "Element",
+      "How cells interpolate strain: 'full' integration of the displacements' "
+      "gradient; 'b-bar' with a constant volume change per cell, for nearly "
+      "incompressible material; 'incompatible modes' for bending; 'F-bar' is "
+      "b-bar for finite strain. The latter three are for degree 1, b-bar for "
+      "material laws of small strain, incompatible modes for the law 'linear "
+      "elastic' only, F-bar for laws of finite strain. 'automatic' takes full "
+      "for degree 2; for degree 1 F-bar with a law for finite strain, b-bar with "
+      "plasticity at small strain (plastic flow keeps the volume, and full cells "
+      "lock), and else incompatible modes.");
     prm.add_parameter("Symmetry",
                       symmetry,
                       "Plane boundaries that keep their place in the normal "
@@ -136,47 +125,10 @@ namespace Touchstone
 
 
   void
-  BodyParameters::check_element(const unsigned int degree) const
-  {
-    if (degree > 1 && element() != ElementType::full)
-      throw InputError(section(),
-                       "Element",
-                       element_name,
-                       "is made for degree 1, but 'Discretisation/Degree' is " +
-                         std::to_string(degree),
-                       "take the element 'automatic' or 'full', or degree 1");
-    const ElementType type = element();
-    const bool small_only  = type == ElementType::b_bar || type == ElementType::incompatible_modes;
-    if (type == ElementType::incompatible_modes && material.plastic() && !material.finite_strain())
-      throw InputError(section(),
-                       "Element",
-                       element_name,
-                       "has no plasticity, but 'Material/Law' is '" + material.law.name + "'",
-                       "take the element 'automatic' or 'b-bar', degree 2, or the law 'linear "
-                       "elastic'");
-    if (material.finite_strain() && small_only)
-      throw InputError(section(),
-                       "Element",
-                       element_name,
-                       "is for small strain, but 'Material/Law' is '" + material.law.name + "'",
-                       "take the element 'automatic', 'F-bar' or 'full', or the law "
-                       "'linear elastic'");
-    if (!material.finite_strain() && type == ElementType::f_bar)
-      throw InputError(section(),
-                       "Element",
-                       element_name,
-                       "is for finite strain, but 'Material/Law' is '" + material.law.name + "'",
-                       "take the element 'automatic', 'b-bar' or 'full', or another law");
-  }
-
-
-
-  void
-  BodyParameters::check(const unsigned int degree) const
+  BodyParameters::check() const
   {
     geometry_type.check(section() + "/Geometry");
     material.check(section() + "/Material");
-    check_element(degree);
     for (unsigned int d = 0; d < 3; ++d)
       {
         const std::string letter(1, "xyz"[d]);

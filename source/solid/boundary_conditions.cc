@@ -56,15 +56,13 @@ namespace Touchstone
 
 
 
-  BoundaryConditions::BoundaryConditions(const Scene  &scene,
-                                         const Forest &forest,
-                                         const Solid  &solid)
+  BoundaryConditions::BoundaryConditions(const Forest &forest, const Solid &solid)
     : solid(solid)
     , following(solid)
   {
-    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+    for (unsigned int b = 0; b < solid.bodies.size(); ++b)
       {
-        const BodyParameters &body    = scene.bodies[b];
+        const BodyParameters &body    = solid.bodies[b];
         const std::string     section = "Body " + body.name;
         // Each list once, under whatever name: a name and a number can mean the same.
         const auto fixed    = forest.boundaries(b, body.fixed, section, "Fixed"),

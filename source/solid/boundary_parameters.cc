@@ -28,13 +28,13 @@ namespace Touchstone
               pressure,
               "Pressure against the outward normal of the surface." + formula +
                 "empty: none. [force per area]");
-    prm.add_parameter("Pressure follows",
-                      pressure_follows,
-                      "'surface': the pressure acts on the deformed surface, along its present "
-                      "normal; 'nothing': on the reference area along the normal there (a dead "
-                      "load); 'automatic': on the deformed surface if the material has a law for "
-                      "finite strain.",
-                      Patterns::Selection("automatic|surface|nothing"));
+    pressure_follows.declare(
+      prm,
+      "Pressure follows",
+      "'surface': the pressure acts on the deformed surface, along its present "
+      "normal; 'nothing': on the reference area along the normal there (a dead "
+      "load); 'automatic': on the deformed surface if the material has a law for "
+      "finite strain.");
   }
 
 
@@ -77,10 +77,10 @@ namespace Touchstone
       }
     if (!pressure.empty())
       check_expression(section, "Pressure", pressure);
-    if (pressure.empty() && pressure_follows != "automatic")
+    if (pressure.empty() && pressure_follows != Follows::automatic)
       throw InputError(section,
                        "Pressure follows",
-                       pressure_follows,
+                       pressure_follows.word(),
                        "there is no pressure on this boundary",
                        "remove the key, or set 'Pressure'");
     if (!pressure.empty() && all_moved)

@@ -150,8 +150,7 @@ namespace Touchstone
     for (unsigned int q = 0; q < n_points; ++q)
       {
         const unsigned int at = q * law->n_state();
-        law->respond(deformation(q),
-                     committed_state + at,
+        law->respond({deformation(q), committed_state + at, step_length},
                      demand,
                      points[q].response,
                      present_state.data() + at);

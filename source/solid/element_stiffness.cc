@@ -9,9 +9,7 @@ namespace Touchstone
     template <unsigned int n_cells>
     struct Number
     {
-      using type
-        __attribute__((vector_size(n_cells * sizeof(double)), aligned(sizeof(double)), may_alias)) =
-          double;
+      using type = typename Simd<double, n_cells>::type;
     };
     template <>
     struct Number<1>

@@ -12,7 +12,7 @@ namespace Touchstone
   using namespace dealii;
 
   dealii::Vector<double>
-  jump_errors(const Scene &scene, const Solid &solid, const Vector &u)
+  jump_errors(const Solid &solid, const Vector &u)
   {
     const auto            &triangulation = solid.dof_handler.get_triangulation();
     dealii::Vector<double> result(triangulation.n_active_cells());
@@ -25,7 +25,7 @@ namespace Touchstone
         {
           const double error = errors(cell->active_cell_index());
           result(cell->active_cell_index()) =
-            scene.bodies[cell->material_id()].material.young_modulus * error * error;
+            solid.bodies[cell->material_id()].material.young_modulus * error * error;
         }
     return result;
   }
@@ -33,7 +33,7 @@ namespace Touchstone
 
 
   dealii::Vector<double>
-  recovery_errors(const Scene &scene, const Solid &solid, const Vector &u)
+  recovery_errors(const Solid &solid, const Vector &u)
   {
     using NodeField                     = LinearAlgebra::distributed::Vector<double>;
     constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
@@ -107,7 +107,7 @@ namespace Touchstone
     for (const auto &cell : nodes.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const MaterialParameters &material = scene.bodies[cell->material_id()].material;
+          const MaterialParameters &material = solid.bodies[cell->material_id()].material;
           const double              E = material.young_modulus, nu = material.poisson_ratio;
           values.reinit(cell);
           for (unsigned int c = 0; c < n_components; ++c)

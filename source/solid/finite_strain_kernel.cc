@@ -20,12 +20,12 @@ namespace Touchstone
       }
 
       void
-      respond(const Tensor<2, dim> &F,
-              const double *,
-              const Demand      demand,
-              MaterialResponse &response,
+      respond(const MaterialInput &input,
+              const Demand         demand,
+              MaterialResponse    &response,
               double *) const override
       {
+        const Tensor<2, dim> &F = input.deformation;
         if (demand == Demand::energy)
           response.energy = response.elastic_energy = law->energy(F);
         else

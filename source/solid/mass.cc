@@ -95,8 +95,8 @@ namespace Touchstone
     class CellMass
     {
     public:
-      CellMass(const Scene &scene, const Solid &solid, const Vector &no_mass, const double step)
-        : scene(scene)
+      CellMass(const MassKind kind, const Solid &solid, const Vector &no_mass, const double step)
+        : kind(kind)
         , solid(solid)
         , no_mass(no_mass)
         , step(step)
@@ -120,8 +120,7 @@ namespace Touchstone
       void
       reinit(const DoFHandler<dim>::active_cell_iterator &cell)
       {
-        const std::string        &kind     = scene.time_integration.mass;
-        const MaterialParameters &material = scene.bodies[cell->material_id()].material;
+        const MaterialParameters &material = solid.bodies[cell->material_id()].material;
         values.reinit(Triangulation<dim>::active_cell_iterator(cell));
         cell->get_dof_indices(dofs);
         for (unsigned int i = 0; i < dofs.size(); ++i)
@@ -135,14 +134,14 @@ namespace Touchstone
             {
               const double part = material.density * values.JxW(q) * values.shape_value(a, q);
               lumped[a] += part;
-              if (kind == "consistent")
+              if (kind == MassKind::consistent)
                 for (unsigned int b = 0; b < n; ++b)
                   complete(a, b) += part * values.shape_value(b, q);
             }
-        if (kind == "lumped")
+        if (kind == MassKind::lumped)
           for (unsigned int a = 0; a < n; ++a)
             complete(a, a) = lumped[a];
-        if (kind == "dispersion corrected")
+        if (kind == MassKind::dispersion_corrected)
           {
             // The rule does not know the volume of a distorted cell.
             const double total = std::accumulate(lumped.begin(), lumped.end(), 0.);
@@ -157,7 +156,7 @@ namespace Touchstone
       }
 
     private:
-      const Scene        &scene;
+      const MassKind      kind;
       const Solid        &solid;
       const Vector       &no_mass;
       const double        step;
@@ -280,22 +279,22 @@ namespace Touchstone
 
 
 
-  Mass::Mass(const Scene           &scene,
+  Mass::Mass(const MassKind         kind,
              const Solid           &solid,
              const std::set<Index> &massless,
              const double           step)
     : nodal(solid.owned, solid.communicator)
-    , diagonal(scene.time_integration.mass == "lumped")
+    , diagonal(kind == MassKind::lumped)
   {
     Vector flag(solid.owned, solid.communicator);
     for (const Index node : massless)
       flag(node) = 1.;
     flag.compress(VectorOperation::insert);
     const Vector              no_mass = solid.ghosted(flag);
-    const std::vector<double> factors = density_factors(scene, solid, massless, no_mass, step);
+    const std::vector<double> factors = density_factors(kind, solid, massless, no_mass, step);
     if (!diagonal)
       matrix.reinit(solid.stiffness());
-    CellMass                  mass(scene, solid, no_mass, step);
+    CellMass                  mass(kind, solid, no_mass, step);
     const unsigned int        n = mass.nodes.size();
     std::vector<int>          rows(n);
     std::vector<unsigned int> nodes(n);
@@ -333,7 +332,7 @@ namespace Touchstone
 
 
   std::vector<double>
-  Mass::density_factors(const Scene           &scene,
+  Mass::density_factors(const MassKind         kind,
                         const Solid           &solid,
                         const std::set<Index> &massless,
                         const Vector          &no_mass,
@@ -345,9 +344,9 @@ namespace Touchstone
     Vector coordinates(solid.owned, solid.communicator);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, coordinates);
     const Vector positions = solid.ghosted(coordinates);
-    const auto   boxes     = body_boxes(scene, solid);
-    CellMass     mass(scene, solid, no_mass, step);
-    for (unsigned int body = 0; body < scene.bodies.size(); ++body)
+    const auto   boxes     = body_boxes(solid);
+    CellMass     mass(kind, solid, no_mass, step);
+    for (unsigned int body = 0; body < solid.n_bodies(); ++body)
       {
         const Frame               frame(boxes[body]);
         dealii::Vector<double>    missing(n_moments);
@@ -386,7 +385,7 @@ namespace Touchstone
           }
         found = found || density.find(missing, 1 + dim);
         if (!found)
-          throw InputError(scene.bodies[body].section(),
+          throw InputError(solid.bodies[body].section(),
                            "Geometry",
                            "",
                            "the nodes beside the slave nodes are too few to take their mass and "

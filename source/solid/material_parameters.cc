@@ -11,20 +11,16 @@ namespace Touchstone
 
   namespace
   {
+    /** Whether the law called @p name has plastic flow: the law knows. */
     bool
-    has_plasticity(const std::string &law)
+    has_plasticity(const std::string &name, const MaterialParameters &material)
     {
-      return SmallStrainRegistry::knows(law) || FiniteStrainRegistry::knows(law);
+      return (SmallStrainRegistry::knows(name) &&
+              SmallStrainRegistry::make(name, material)->plastic()) ||
+             (FiniteStrainRegistry::knows(name) &&
+              FiniteStrainRegistry::make(name, material)->plastic());
     }
   } // namespace
-
-
-
-  bool
-  MaterialParameters::plastic() const
-  {
-    return has_plasticity(law.name);
-  }
 
 
 
@@ -70,7 +66,7 @@ namespace Touchstone
                       "stiffness of the undeformed body: it also resists finite rotations. [time]",
                       Patterns::Double(0.));
     law.declare_own_keys(prm);
-    if (!has_plasticity(law.chosen()))
+    if (!has_plasticity(law.chosen(), *this))
       return;
     prm.enter_subsection("Plasticity");
     hardening_type.declare_key(
@@ -107,6 +103,16 @@ namespace Touchstone
                        "must be positive",
                        "give Young's modulus in the scene's unit of force per "
                        "area, e.g. 210000 for steel in N and mm");
+    // Squares of forces must neither vanish nor overflow: with 1e-320 all residuals are zero, and
+    // the first state would pass for an equilibrium.
+    constexpr double smallest = 1e-100, largest = 1e100;
+    if (!(young_modulus >= smallest && young_modulus <= largest))
+      throw InputError(section,
+                       "Young modulus",
+                       Patterns::Tools::to_string(young_modulus),
+                       "must be between 1e-100 and 1e100: forces could not be told from zero or "
+                       "from infinity",
+                       "choose units in which forces are not so small or large");
     if (poisson_ratio <= -1. || poisson_ratio >= 0.5)
       throw InputError(section,
                        "Poisson ratio",

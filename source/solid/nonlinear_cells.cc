@@ -11,13 +11,13 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  NonlinearCells::NonlinearCells(const Scene &scene, const FESystem<dim> &fe)
+  NonlinearCells::NonlinearCells(const std::vector<BodyParameters> &bodies, const FESystem<dim> &fe)
     : n_nodes(fe.n_dofs_per_cell() / dim)
-    , kernels(scene.bodies.size())
+    , kernels(bodies.size())
     , displacement(fe.n_dofs_per_cell())
   {
-    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-      if (const BodyParameters &body = scene.bodies[b]; !body.material.linear())
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (const BodyParameters &body = bodies[b]; !body.material.linear())
         {
           if (body.material.finite_strain())
             kernels[b] =
@@ -27,6 +27,7 @@ namespace Touchstone
               std::make_unique<SmallStrainKernel>(fe.degree, body.element(), body.material);
           any_body      = true;
           any_history   = any_history || kernels[b]->n_state() > 0;
+          any_plastic   = any_plastic || kernels[b]->material()->plastic();
           all_symmetric = all_symmetric && kernels[b]->material()->symmetric();
         }
   }
@@ -83,6 +84,16 @@ namespace Touchstone
             }
         }
     present = committed;
+  }
+
+
+
+  void
+  NonlinearCells::set_step_length(const double length)
+  {
+    for (const auto &kernel : kernels)
+      if (kernel)
+        kernel->set_step_length(length);
   }
 
 

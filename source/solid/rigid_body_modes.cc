@@ -46,15 +46,14 @@ namespace Touchstone
 
 
 
-  RigidBodyModes::RigidBodyModes(const Scene &scene, const Solid &solid)
-    : scene(scene)
-    , solid(solid)
+  RigidBodyModes::RigidBodyModes(const Solid &solid)
+    : solid(solid)
     , rigid(new RigidMotions{Epetra_MultiVector(solid.stiffness().rows(), 6),
                              bodies_of_unknowns(solid)})
-    , centres(scene.bodies.size())
-    , sizes(scene.bodies.size())
+    , centres(solid.bodies.size())
+    , sizes(solid.bodies.size())
   {
-    const std::vector<BoundingBox<dim>> boxes = body_boxes(scene, solid);
+    const std::vector<BoundingBox<dim>> boxes = body_boxes(solid);
     for (unsigned int b = 0; b < boxes.size(); ++b)
       {
         const auto &[low, high] = boxes[b].get_boundary_points();
@@ -94,7 +93,7 @@ namespace Touchstone
   FreeMotion
   RigidBodyModes::free_motion(const std::vector<Condition> &conditions) const
   {
-    const unsigned int  n_bodies = scene.bodies.size();
+    const unsigned int  n_bodies = solid.bodies.size();
     const unsigned int  n        = 6 * n_bodies;
     std::vector<double> gram(n * n, 0.), own(36 * n_bodies, 0.);
     for (const Condition &condition : conditions)
@@ -184,7 +183,7 @@ namespace Touchstone
               }
           }
         if (!mixed.empty())
-          text << (text.str().empty() ? "" : "; ") << "body '" << scene.bodies[b].name << "' can "
+          text << (text.str().empty() ? "" : "; ") << "body '" << solid.bodies[b].name << "' can "
                << mixed;
       }
     result.description = text.str();
@@ -222,8 +221,8 @@ namespace Touchstone
     };
 
     // Work of the unbalanced forces on the modes of each body; sum of diagonals.
-    const unsigned int  n = 6 * scene.bodies.size();
-    std::vector<double> sums(n + scene.bodies.size(), 0.);
+    const unsigned int  n = 6 * solid.bodies.size();
+    std::vector<double> sums(n + solid.bodies.size(), 0.);
     // Square of each unknown's displacement in the free motions, and the largest.
     std::vector<double> share(rigid->body.size(), 0.);
     double              largest = 0.;

@@ -15,12 +15,15 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  Solid::Solid(const Scene &scene, const Forest &forest, const MPI_Comm communicator)
-    : fe(FE_Q<dim>(scene.discretisation.degree), dim)
-    , mapping(scene.discretisation.degree)
+  Solid::Solid(const std::vector<BodyParameters> &bodies,
+               const unsigned int                 degree,
+               const Forest                      &forest,
+               const MPI_Comm                     communicator)
+    : bodies(bodies)
+    , fe(FE_Q<dim>(degree), dim)
+    , mapping(degree)
     , dof_handler(forest.triangulation)
     , communicator(communicator)
-    , scene(scene)
   {
     reinit();
   }
@@ -69,7 +72,7 @@ namespace Touchstone
             if (owned_nodes.is_element(row))
               couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
-    nonlinear = std::make_unique<NonlinearCells>(scene, fe);
+    nonlinear = std::make_unique<NonlinearCells>(bodies, fe);
     matrix.reinit(owned, couplings, communicator, symmetric());
     nonlinear->reinit(mapping, dof_handler, matrix);
   }
@@ -116,7 +119,7 @@ namespace Touchstone
   {
     matrix = 0.;
     std::vector<std::unique_ptr<LinearCells>> linear_cells;
-    for (const BodyParameters &body : scene.bodies)
+    for (const BodyParameters &body : bodies)
       linear_cells.push_back(
         body.material.linear() ? std::make_unique<LinearCells>(mapping, fe, body) : nullptr);
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -134,7 +137,8 @@ namespace Touchstone
   Solid::check_solved(const bool solved) const
   {
     if (has_history() && Utilities::MPI::min(solved ? 1 : 0, communicator) == 0)
-      throw MaterialFailure("the plastic strain of some point could not be found");
+      throw MaterialFailure(plastic() ? "the plastic strain of some point could not be found"
+                                      : "a material law has no answer at some point");
   }
 
 
@@ -207,7 +211,7 @@ namespace Touchstone
       void(unsigned int, const Point<dim> &, const SymmetricTensor<2, dim> &, double)> &visit) const
   {
     std::vector<std::unique_ptr<ElementKernel>> kernels;
-    for (const BodyParameters &body : scene.bodies)
+    for (const BodyParameters &body : bodies)
       kernels.push_back(
         body.material.linear()
           ? std::make_unique<ElementKernel>(mapping, fe, body.element(), body.material)
@@ -278,14 +282,14 @@ namespace Touchstone
 
 
   double
-  Solid::plastic_dissipation() const
+  Solid::dissipation() const
   {
     double sum = 0.;
     if (!has_history())
       return sum;
     nonlinear->for_each_state(
-      [&](unsigned int, unsigned int, const double volume, const double *state) {
-        sum += volume * state[MaterialLaw::plastic_work];
+      [&](const unsigned int body, unsigned int, const double volume, const double *state) {
+        sum += volume * history_law(body)->dissipation(state);
       });
     return Utilities::MPI::sum(sum, communicator);
   }
@@ -297,12 +301,14 @@ namespace Touchstone
   {
     const unsigned int     n = dof_handler.get_triangulation().n_active_cells();
     dealii::Vector<double> result(n), volumes(n);
-    if (has_history())
-      nonlinear->for_each_state(
-        [&](unsigned int, const unsigned int cell, const double volume, const double *state) {
-          result(cell) += volume * state[MaterialLaw::plastic_strain];
-          volumes(cell) += volume;
-        });
+    if (plastic())
+      nonlinear->for_each_state([&](const unsigned int body,
+                                    const unsigned int cell,
+                                    const double       volume,
+                                    const double      *state) {
+        result(cell) += volume * history_law(body)->plastic_strain(state);
+        volumes(cell) += volume;
+      });
     for (unsigned int i = 0; i < n; ++i)
       if (volumes(i) > 0.)
         result(i) /= volumes(i);
@@ -315,13 +321,14 @@ namespace Touchstone
   Solid::largest_plastic_strain() const
   {
     std::map<unsigned int, double> result;
-    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
-      if (history_law(b))
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (const auto law = history_law(b); law && law->plastic())
         result[b] = 0.;
-    if (has_history())
+    if (plastic())
       nonlinear->for_each_state(
         [&](const unsigned int body, unsigned int, double, const double *state) {
-          result[body] = std::max(result[body], state[MaterialLaw::plastic_strain]);
+          if (const auto found = result.find(body); found != result.end())
+            found->second = std::max(found->second, history_law(body)->plastic_strain(state));
         });
     for (auto &[body, value] : result)
       value = Utilities::MPI::max(value, communicator);

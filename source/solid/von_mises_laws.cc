@@ -30,9 +30,9 @@ namespace Touchstone
         values[c] = tensor.access_raw_entry(c);
     }
 
-    /** Plastic strain and work, the numbers of the law, and the back stress if there is
-     * one. */
-    constexpr unsigned int own = MaterialLaw::plastic_work + 1;
+    /** The state: equivalent plastic strain and plastic work per reference volume, the
+     * numbers of the law, and the back stress if there is one. */
+    constexpr unsigned int at_strain = 0, at_work = 1, own = 2;
 
     /** Copy energies and the scalar history. */
     void
@@ -41,18 +41,43 @@ namespace Touchstone
          MaterialResponse    &response,
          double              *present)
     {
-      response.solved                      = point.solved;
-      response.energy                      = point.elastic_energy + point.plastic_work;
-      response.elastic_energy              = point.elastic_energy;
-      present[MaterialLaw::plastic_strain] = point.plastic_strain;
-      present[MaterialLaw::plastic_work] =
-        committed[MaterialLaw::plastic_work] + point.plastic_work;
+      response.solved         = point.solved;
+      response.energy         = point.elastic_energy + point.plastic_work;
+      response.elastic_energy = point.elastic_energy;
+      present[at_strain]      = point.plastic_strain;
+      present[at_work]        = committed[at_work] + point.plastic_work;
     }
 
 
 
+    /** What both laws say of their state. */
+    template <class Law>
+    class PlasticLaw : public Law
+    {
+    public:
+      double
+      dissipation(const double *state) const override
+      {
+        return state[at_work];
+      }
+
+      bool
+      plastic() const override
+      {
+        return true;
+      }
+
+      double
+      plastic_strain(const double *state) const override
+      {
+        return state[at_strain];
+      }
+    };
+
+
+
     /** State: plastic strain tensor. */
-    class SmallStrainVonMises : public SmallStrainLaw
+    class SmallStrainVonMises : public PlasticLaw<SmallStrainLaw>
     {
     public:
       explicit SmallStrainVonMises(const MaterialParameters &material)
@@ -79,19 +104,19 @@ namespace Touchstone
       }
 
       void
-      respond(const Tensor<2, dim> &deformation,
-              const double         *committed,
-              const Demand          demand,
-              MaterialResponse     &response,
-              double               *present) const override
+      respond(const MaterialInput &input,
+              const Demand         demand,
+              MaterialResponse    &response,
+              double              *present) const override
       {
-        const SymmetricTensor<2, dim> strain  = symmetrize(deformation);
-        const SymmetricTensor<2, dim> plastic = read(committed + own);
+        const double                 *committed = input.committed;
+        const SymmetricTensor<2, dim> strain    = symmetrize(input.deformation);
+        const SymmetricTensor<2, dim> plastic   = read(committed + own);
         SymmetricTensor<2, dim>       back_stress;
         if (von_mises.kinematic())
           back_stress = read(committed + own + n_independent);
         const ReturnMapping point = von_mises.respond(strain - plastic,
-                                                      committed[plastic_strain],
+                                                      committed[at_strain],
                                                       back_stress,
                                                       demand == Demand::tangent);
         keep(point, committed, response, present);
@@ -125,7 +150,7 @@ namespace Touchstone
      * The stress is the derivative of the energy of the step by F, T : dE/dF with T the
      * stress conjugate to E, so the tangent is symmetric wherever the return mapping is.
      */
-    class FiniteStrainVonMises : public FiniteStrainLaw
+    class FiniteStrainVonMises : public PlasticLaw<FiniteStrainLaw>
     {
     public:
       explicit FiniteStrainVonMises(const MaterialParameters &material)
@@ -162,20 +187,21 @@ namespace Touchstone
       }
 
       void
-      respond(const Tensor<2, dim> &F,
-              const double         *committed,
-              const Demand          demand,
-              MaterialResponse     &response,
-              double               *present) const override
+      respond(const MaterialInput &input,
+              const Demand         demand,
+              MaterialResponse    &response,
+              double              *present) const override
       {
-        const Tensor<2, dim>    inverse = plastic_inverse(committed);
-        const Tensor<2, dim>    F_e     = F * inverse;
+        const Tensor<2, dim>   &F         = input.deformation;
+        const double           *committed = input.committed;
+        const Tensor<2, dim>    inverse   = plastic_inverse(committed);
+        const Tensor<2, dim>    F_e       = F * inverse;
         const LogarithmicStrain logarithm(symmetrize(transpose(F_e) * F_e));
         SymmetricTensor<2, dim> back_stress;
         if (von_mises.kinematic())
           back_stress = read(committed + own + dim * dim);
         const ReturnMapping point = von_mises.respond(logarithm.strain(),
-                                                      committed[plastic_strain],
+                                                      committed[at_strain],
                                                       back_stress,
                                                       demand == Demand::tangent);
         keep(point, committed, response, present);

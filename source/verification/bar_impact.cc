@@ -32,7 +32,7 @@ namespace Touchstone
         if (!scene.time_integration.dynamic())
           throw InputError("Reference solution",
                            "Type",
-                           scene.reference.type,
+                           scene.reference.type.name,
                            "needs bodies with inertia",
                            "set 'Time integration/Scheme' to another value than 'static'");
         const ContactPairParameters &parameters = scene.pairs[pair];

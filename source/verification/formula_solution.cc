@@ -49,7 +49,7 @@ namespace Touchstone
     if (!any && !pressure)
       throw InputError("Reference solution",
                        "Type",
-                       scene.reference.type,
+                       scene.reference.type.name,
                        "there is no formula to compare with",
                        "set 'Pressure' here, or 'Reference displacement x', 'y' or 'z' in the "
                        "section of a body");

@@ -12,10 +12,11 @@ namespace Touchstone
   namespace Patterns = dealii::Patterns;
 
   void
-  ReferenceParameters::declare(ParameterHandler &prm)
+  ReferenceParameters::declare(ParameterHandler &prm, const EarlyValues &values_set)
   {
+    type.choose(values_set, "Type");
     prm.add_parameter("Type",
-                      type,
+                      type.name,
                       "The exact solution that the result is compared with; 'none' "
                       "compares with nothing.",
                       Patterns::Anything());
@@ -34,6 +35,7 @@ namespace Touchstone
                       "'formula', a formula in x, y, z (reference coordinates of the slave "
                       "surface) and t; empty: not compared. [force per reference area]",
                       Patterns::Anything());
+    type.declare_own_keys(prm);
   }
 
 
@@ -72,6 +74,7 @@ namespace Touchstone
   void
   ReferenceParameters::check(const std::string &section) const
   {
+    type.check(section);
     numbers(section);
     if (!pressure.empty())
       check_expression(section, "Pressure", pressure);

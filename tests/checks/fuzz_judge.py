@@ -1,25 +1,20 @@
-"""fuzz_judge.py PROGRAM PROJECT FOLDER: the judge of contrib/fuzz_scenes finds nothing in
-results that are right and flags each that was falsified on purpose."""
+"""The judge of contrib/fuzz_scenes finds nothing in results that are right and flags each that was
+falsified on purpose."""
 
 import copy
-import pathlib
-import sys
 
-program, project, folder = map(pathlib.Path, sys.argv[1:4])
-sys.path.insert(0, str(project / "contrib"))
+import touchstone_test
+from touchstone_test import folder, program
 
-# pylint: disable=wrong-import-position
+# pylint: disable=wrong-import-order,import-error
 from fuzzing import agreement, campaign, generator, invariants, runs, vtu
 from fuzzing.geometry import Box
 from fuzzing.scene import Body, Condition, Formula, Obstacle, Pair, Scene
 
-failures = 0
-
 
 def check(what, good):
-    global failures
-    print(f"{'ok    ' if good else 'FAILED'}  {what}")
-    failures += not good
+    print(what, flush=True)
+    touchstone_test.check(good, what)
 
 
 def block_on_plane():
@@ -135,7 +130,7 @@ def main():
     check("the same scene for the same seed", generator.scene(3, 5) == generator.scene(3, 5))
     check("another one for another seed", generator.scene(3, 5) != generator.scene(4, 5))
     check("a picture is read", all(isinstance(n, vtu.Node) for n in right.nodes))
-    sys.exit(failures > 0)
+    touchstone_test.finish()
 
 
 main()

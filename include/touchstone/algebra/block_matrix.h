@@ -21,7 +21,7 @@ namespace Touchstone
   /**
    * @brief The rows of a square matrix, node by node as 3 x 3 blocks in double precision.
    *
-   * Unknown 3 k + d is that of node k along d; each rank has whole nodes.
+   * Dof 3 k + d is that of node k along d; each rank has whole nodes.
    */
   class BlockRows
   {
@@ -33,7 +33,7 @@ namespace Touchstone
     virtual ~BlockRows() = default;
 
     /** @brief The rows of a node of this rank: nodes to which it is coupled, itself
-     * included, by local number, and blocks. Valid until the next call. */
+     * included, by local index, and blocks. Valid until the next call. */
     virtual const RowOfBlocks<Block> &
     read(unsigned int node) = 0;
 
@@ -41,7 +41,7 @@ namespace Touchstone
     virtual std::size_t
     n_blocks() const = 0;
 
-    /** @brief Unknowns of this rank, and those of other ranks whose nodes its rows refer
+    /** @brief Dofs of this rank, and those of other ranks whose nodes its rows refer
      * to. */
     const std::shared_ptr<const Partitioner> &
     numbers() const
@@ -55,8 +55,8 @@ namespace Touchstone
       return partitioner->locally_owned_size() / dim;
     }
 
-    /** @brief Numbers for the unknowns of this rank, and those of other ranks whose nodes
-     * the columns, by global numbers, refer to. Collective. */
+    /** @brief Numbers for the dofs of this rank, and those of other ranks whose nodes
+     * the columns, by global indices, refer to. Collective. */
     static std::shared_ptr<const Partitioner>
     number(const Epetra_Map &rows, const int *columns, std::size_t n_columns);
 
@@ -86,7 +86,7 @@ namespace Touchstone
 
   private:
     const Epetra_CrsMatrix &matrix;
-    /** Local number of each column of the matrix. */
+    /** Local index of each column of the matrix. */
     std::vector<unsigned int> local_number;
   };
 
@@ -143,12 +143,12 @@ namespace Touchstone
       multiply(result.begin(), x.begin());
     }
 
-    /** @brief The same for the unknowns of this rank as plain arrays, which must not
+    /** @brief The same for the dofs of this rank as plain arrays, which must not
      * overlap. Collective. */
     void
     multiply(Number *result, const Number *x) const;
 
-    /** @brief An entry of the diagonal, by local number of the row. */
+    /** @brief An entry of the diagonal, by local index of the row. */
     Number
     diagonal(const unsigned int row) const
     {
@@ -171,7 +171,7 @@ namespace Touchstone
     class Rows
     {
     public:
-      /** @brief Nodes to which a node is coupled, itself included, by local number in
+      /** @brief Nodes to which a node is coupled, itself included, by local index in
        * ascending order, and blocks, column by column. */
       struct Row
       {
@@ -186,7 +186,7 @@ namespace Touchstone
       }
 
       /** @brief Of a node of this rank; valid until another one is read. What is read for
-       * one unknown of a node after the other is put together once. */
+       * one dof of a node after the other is put together once. */
       const Row &
       read(unsigned int node);
 

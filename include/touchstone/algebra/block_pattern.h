@@ -16,24 +16,26 @@ namespace Touchstone
    * @brief Which nodes are coupled in the rows of this rank: where the blocks of a matrix
    * over nodes are.
    *
-   * Nodes go by local numbers, those of this rank first.
+   * Nodes go by local indices, those of this rank first.
    */
   struct BlockPattern
   {
-    /** @brief Of the unknowns, three a node. */
+    /** @brief Of the dofs, three a node. */
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
     /** @brief Blocks whose transposes are blocks as well are stored once. */
     bool symmetric = false;
-    /** @brief Where the blocks of a node begin, first those whose transposes stand for other
-     * blocks; where these end. */
-    std::vector<std::size_t> start{0}, mirrored;
+    /** @brief Row pointers. From start[node] to upper_end[node] are the blocks above the diagonal
+     * that stand for their transposes in the rows of other nodes too; up to start[node + 1]
+     * follow the diagonal block, and blocks of columns that other ranks own. Without symmetry
+     * the first part is empty. */
+    std::vector<std::size_t> start{0}, upper_end;
     /** @brief Their columns, in ascending order in each of both parts. */
     std::vector<unsigned int> column;
 
     unsigned int
     n_nodes() const
     {
-      return mirrored.size();
+      return upper_end.size();
     }
 
     /** @brief With those of other ranks. */
@@ -48,12 +50,12 @@ namespace Touchstone
     void
     add_row(const std::vector<unsigned int> &columns)
     {
-      const unsigned int node  = mirrored.size();
+      const unsigned int node  = upper_end.size();
       const auto         twice = [&](const unsigned int other) {
         return symmetric && other > node && other < n_owned();
       };
       std::copy_if(columns.begin(), columns.end(), std::back_inserter(column), twice);
-      mirrored.push_back(column.size());
+      upper_end.push_back(column.size());
       std::remove_copy_if(columns.begin(), columns.end(), std::back_inserter(column), twice);
       start.push_back(column.size());
     }
@@ -70,8 +72,8 @@ namespace Touchstone
     block(const unsigned int node, const unsigned int other) const
     {
       const bool twice = symmetric && other > node && other < n_owned();
-      const auto begin = column.begin() + (twice ? start[node] : mirrored[node]),
-                 end   = column.begin() + (twice ? mirrored[node] : start[node + 1]);
+      const auto begin = column.begin() + (twice ? start[node] : upper_end[node]),
+                 end   = column.begin() + (twice ? upper_end[node] : start[node + 1]);
       return std::lower_bound(begin, end, other) - column.begin();
     }
 
@@ -79,7 +81,8 @@ namespace Touchstone
     unsigned int
     row_length(const unsigned int node) const
     {
-      return mirrors().start[node + 1] - mirrors().start[node] + start[node + 1] - start[node];
+      return transposed_blocks().start[node + 1] - transposed_blocks().start[node] +
+             start[node + 1] - start[node];
     }
 
     /** @brief That on the diagonal. */
@@ -87,24 +90,25 @@ namespace Touchstone
     diagonal(const unsigned int node) const
     {
       // The first of its part: what precedes it is stored elsewhere.
-      return symmetric ? mirrored[node] : block(node, node);
+      return symmetric ? upper_end[node] : block(node, node);
     }
 
-    /** @brief The blocks that stand for others. */
-    struct Mirrors
+    /** @brief The blocks below the diagonal: those of other rows of which they are the
+     * transposes. */
+    struct TransposedBlocks
     {
-      /** @brief Where those for the row of a node begin. */
+      /** @brief Row pointers. */
       std::vector<std::size_t> start;
       /** @brief The node in whose row it is, and its number, in ascending order. */
       std::vector<std::pair<unsigned int, unsigned int>> blocks;
     };
 
     /** @brief Made when first asked for. */
-    const Mirrors &
-    mirrors() const;
+    const TransposedBlocks &
+    transposed_blocks() const;
 
   private:
-    mutable std::unique_ptr<const Mirrors> known_mirrors;
+    mutable std::unique_ptr<const TransposedBlocks> known_transposed;
 
     unsigned int
     n_owned() const

@@ -35,7 +35,7 @@ namespace Touchstone
     const Transformation &transformation;
     LocalIndices         &indices;
     /** Number of the row of each dof; none, or not known yet. */
-    static constexpr int identity = -1, unknown = -2;
+    static constexpr int identity = -1, not_looked_up = -2;
     std::vector<int>     number;
     std::deque<Row>      rows;
   };

@@ -11,14 +11,11 @@
 namespace Touchstone
 {
   /**
-   * @brief A linear system with its constraints condensed out, S^T A T y = S^T
-   * (b - A g) for x = T y + g and test functions S z, as plain distributed rows
-   * that all back ends understand. S = T where the test functions have the same
-   * constraints.
+   * @brief A linear system with its constraints condensed out, S^T A T y = S^T (b - A g) for
+   * x = T y + g and test functions S z (doc/theory.md, section 7), for all linear solvers.
+   * S = T where the test functions have the same constraints.
    *
-   * Rows that no constraint and no contact term touches are those of the
-   * stiffness. Constrained unknowns keep a diagonal entry and a zero right-hand
-   * side.
+   * Constrained dofs keep a diagonal entry and a zero right-hand side.
    */
   class CondensedSystem
   {
@@ -64,7 +61,7 @@ namespace Touchstone
       return condensed->block_rows();
     }
 
-    /** @brief Entry of the diagonal of the stiffness itself, by local number. */
+    /** @brief Entry of the diagonal of the stiffness itself, by local index. */
     double
     stiffness_diagonal(const unsigned int i) const
     {

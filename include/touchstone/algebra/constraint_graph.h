@@ -77,7 +77,8 @@ namespace Touchstone
   };
 
   /**
-   * @brief The one place that decides which conditions hold together.
+   * @brief Decides, in one place, which conditions are linearly independent (doc/theory.md,
+   * sections 6 and 7).
    *
    * Conditions are offered in the order of their precedence: prescribed
    * displacements first, then contact. One whose direction is already determined
@@ -92,7 +93,7 @@ namespace Touchstone
     void
     clear();
 
-    /** @brief How a condition is met: by elimination of an unknown, or by a
+    /** @brief How a condition is met: by elimination of a dof, or by a
      * multiplier or a spring that somebody else adds. */
     enum class Treatment
     {
@@ -119,13 +120,13 @@ namespace Touchstone
 
     /**
      * @brief The conditions to be eliminated, as deal.II constraints on the
-     * unknowns, each solved for the component of its node with the largest
-     * coefficient. The result knows the lines of all unknowns that the stencils of
+     * dofs, each solved for the component of its node with the largest
+     * coefficient. The result knows the lines of all dofs that the stencils of
      * this rank's conditions refer to.
      *
      * @param hanging   Constraints of hanging nodes, which go first.
-     * @param owned     Unknowns of this rank.
-     * @param relevant  Unknowns whose lines this rank needs besides those of the
+     * @param owned     Dofs of this rank.
+     * @param relevant  Dofs whose lines this rank needs besides those of the
      *                  stencils.
      */
     dealii::AffineConstraints<double>
@@ -134,7 +135,7 @@ namespace Touchstone
                 const dealii::IndexSet                  &relevant,
                 MPI_Comm                                 communicator) const
     {
-      return make_constraints(&ReducedCondition::motion, hanging, owned, relevant, communicator);
+      return make_constraints(&ReducedCondition::trial, hanging, owned, relevant, communicator);
     }
 
     /**
@@ -147,17 +148,17 @@ namespace Touchstone
                      const dealii::IndexSet                  &relevant,
                      MPI_Comm                                 communicator) const
     {
-      return make_constraints(&ReducedCondition::force, hanging, owned, relevant, communicator);
+      return make_constraints(&ReducedCondition::test, hanging, owned, relevant, communicator);
     }
 
     /**
-     * @brief Unknowns that say how far a spring is stretched, as deal.II
-     * constraints without chains: x_i = sum_j c_j x_j would be a rigid spring.
+     * @brief The change of basis that replaces a displacement by the elongation of a spring, one
+     * for each condition that is a spring, as deal.II constraints without chains: x_i =
+     * sum_j c_j x_j holds where the spring is rigid (doc/theory.md, section 7, stiff springs).
      *
-     * With these deviations for unknowns a spring adds to one diagonal entry, so
-     * that multigrid sees a stiff spring as it sees an eliminated unknown, however
-     * stiff. Any change of basis leads to the same solution: what refers to
-     * another unknown of this kind is left out.
+     * A spring then adds to one diagonal entry, and multigrid sees a stiff spring as it sees an
+     * eliminated dof, however stiff. Any change of basis leads to the same solution: references
+     * to other dofs of this kind are left out.
      *
      * @param constraints What constraints() has returned.
      */
@@ -168,11 +169,11 @@ namespace Touchstone
                  MPI_Comm                                 communicator) const
     {
       return make_basis_change(
-        &ReducedCondition::motion, constraints, owned, relevant, communicator);
+        &ReducedCondition::trial, constraints, owned, relevant, communicator);
     }
 
     /**
-     * @brief The same for the test functions: those of other unknowns do no work against the
+     * @brief The same for the test functions: those of other dofs do no work against the
      * forces of springs, or a spring whose force is not along its elongation (friction) would
      * be as large in the equations of its neighbours as in its own.
      *
@@ -185,8 +186,7 @@ namespace Touchstone
                       const dealii::IndexSet                  &relevant,
                       MPI_Comm                                 communicator) const
     {
-      return make_basis_change(
-        &ReducedCondition::force, constraints, owned, relevant, communicator);
+      return make_basis_change(&ReducedCondition::test, constraints, owned, relevant, communicator);
     }
 
     /**
@@ -194,11 +194,11 @@ namespace Touchstone
      * zero for others.
      *
      * With the residual r = b - A x of the solution x, without these forces, they are the
-     * solution of r_p + sum_k mu_k F_kp = 0 for the unknowns p that are eliminated, where F_k
-     * is what condition k acts on. Conditions that refer to unknowns which others eliminate
+     * solution of r_p + sum_k mu_k F_kp = 0 for the dofs p that are eliminated, where F_k
+     * is what condition k acts on. Conditions that refer to dofs which others eliminate
      * are solved one after the other; that ends, since such references never lead back.
      *
-     * @param residual Out-of-balance forces of this rank's unknowns.
+     * @param residual Out-of-balance forces of this rank's dofs.
      * @param condense Adds the forces on hanging nodes to the nodes that these follow.
      * Collective.
      */
@@ -211,7 +211,7 @@ namespace Touchstone
     symmetric(Treatment treatment = Treatment::eliminate) const;
 
   private:
-    /** Coefficients of the node, of other unknowns, and the right-hand side. */
+    /** Coefficients of the node, of other dofs, and the right-hand side. */
     struct Side
     {
       dealii::Tensor<1, dim>                    direction;
@@ -229,8 +229,8 @@ namespace Touchstone
     {
       Treatment    treatment;
       unsigned int pivot;
-      /** The condition, and the force that meets it. */
-      Side motion, force;
+      /** What it prescribes of displacements, and the force that meets it. */
+      Side trial, test;
       bool symmetric;
     };
 

@@ -31,7 +31,7 @@ namespace Touchstone
     /** @brief Iterations with multigrid above which a factorisation is preferred, of a system of
      * that size (doc/benchmarks.md). */
     static double
-    patience(int n_unknowns);
+    patience(int n_dofs);
 
     /** @brief Whether the next residual matters. */
     bool

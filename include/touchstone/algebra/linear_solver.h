@@ -76,33 +76,32 @@ namespace Touchstone
       return false;
     }
 
-    /** @brief Whether stiff springs slow it down unless their stretch is an unknown
-     * of its own, in a system of that size. */
+    /** @brief Whether stiff springs slow it down unless their elongation is a dof
+     * (LinearSystem::basis_change), in a system of that size. */
     virtual bool
-    wants_basis_change(int /*n_unknowns*/) const
+    wants_basis_change(int /*n_dofs*/) const
     {
       return false;
     }
 
-    /** @brief Whether products with a system of that size are all it mostly needs:
-     * CondensedSystem::matrix() is assembled when it asks for it. */
+    /** @brief Whether it multiplies by a system of that size matrix-free (AppliedOperator). */
     virtual bool
-    applies_operator(int /*n_unknowns*/) const
+    applies_operator(int /*n_dofs*/) const
     {
       return false;
     }
 
     /** @brief Whether a system of that size is factorised, so that it need not be definite. */
     virtual bool
-    factorises(int /*n_unknowns*/) const
+    factorises(int /*n_dofs*/) const
     {
       return false;
     }
 
-    /** @brief Drop what is kept from one solve for the next: what follows must not
-     * depend on what was before, as a checkpoint knows nothing of it. Collective. */
+    /** @brief Drop factors and preconditioners that are kept from one solve for the next: a run
+     * that resumes from a checkpoint has none, and must go on in the same way. Collective. */
     virtual void
-    forget()
+    clear_cache()
     {
     }
 
@@ -121,7 +120,7 @@ namespace Touchstone
     const LinearSolverParameters parameters;
     LinearSolverCounts           count;
 
-    /** @brief Have @p text told once, whatever forget() forgets. */
+    /** @brief Have @p text told once, also after clear_cache(). */
     void
     remark(const std::string &text);
 

@@ -14,10 +14,10 @@
 namespace Touchstone
 {
   /**
-   * @brief A matrix over the displacement unknowns, as stiffness and mass, which is filled
-   * cell by cell; each rank holds the rows of the unknowns it owns and adds to no others.
+   * @brief A matrix over the displacement dofs, as stiffness and mass, which is filled
+   * cell by cell; each rank holds the rows of the dofs it owns and adds to no others.
    *
-   * Rows go by local numbers of unknowns, three times those of nodes.
+   * Rows go by local indices of dofs, three times those of nodes.
    */
   class Matrix : public BlockMatrix<double>
   {
@@ -26,7 +26,7 @@ namespace Touchstone
      * @brief Zero, where each component of a node is coupled to all components of others.
      * Collective.
      *
-     * @param owned     Unknowns of this rank, whole nodes, without gaps.
+     * @param owned     Dofs of this rank, whole nodes, without gaps.
      * @param couplings Rows of this rank's nodes, with the nodes themselves.
      * @param symmetric Of each two entries (i, j) and (j, i) one counts.
      */
@@ -78,8 +78,8 @@ namespace Touchstone
       multiply(result.begin(), x.begin());
     }
 
-    /** @brief Unknowns of this rank, and with them those that its rows refer to, in the order
-     * of their local numbers. */
+    /** @brief Dofs of this rank, and with them those that its rows refer to, in the order
+     * of their local indices. */
     const Epetra_Map &
     rows() const
     {
@@ -91,7 +91,7 @@ namespace Touchstone
       return *column_map;
     }
 
-    /** @brief Local number of a global unknown, or -1 if another rank owns it. */
+    /** @brief Local index of a global dof, or -1 if another rank owns it. */
     int
     row(const Index global) const
     {
@@ -101,7 +101,7 @@ namespace Touchstone
                : -1;
     }
 
-    /** @brief Local number of the node of a global unknown that this rank refers to. */
+    /** @brief Local index of the node of a global dof that this rank refers to. */
     unsigned int
     node(const Index global) const
     {

@@ -55,7 +55,7 @@ namespace Touchstone
     /** @brief Give up the copy of the matrix, by which the next call of factorise() would see that
      * nothing has changed. */
     void
-    forget_matrix();
+    release_matrix();
 
     /** @brief Give up the factors and their memory. Collective. */
     void

@@ -1,6 +1,7 @@
 #ifndef touchstone_algebra_solver_parameters_h
 #define touchstone_algebra_solver_parameters_h
 
+#include <touchstone/base/plugin_parameters.h>
 #include <touchstone/base/registry.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -12,27 +13,12 @@
 namespace Touchstone
 {
   /**
-   * @brief Keys of a linear solver or preconditioner of its own, in the section "Linear solver";
-   * registered under the name of that solver or preconditioner.
+   * @brief Keys of a linear solver or preconditioner of its own, registered under its name. They
+   * stand in the section "Linear solver" whatever solver is chosen, since solvers use each other
+   * ("automatic" uses MUMPS), so their names are unlike those of all others of the section; a
+   * scene that sets keys of a solver that it does not use is refused.
    */
-  class LinearSolverOptions
-  {
-  public:
-    virtual ~LinearSolverOptions() = default;
-
-    /** @brief Declare the keys, whose defaults are the present values. Their names are unlike
-     * those of all others of the section. */
-    virtual void
-    declare(dealii::ParameterHandler &prm) = 0;
-
-    /** @brief Called if the scene uses them. @throws InputError */
-    virtual void
-    check(const std::string & /*section*/) const
-    {
-    }
-  };
-
-  using LinearSolverOptionsRegistry = Registry<LinearSolverOptions>;
+  using LinearSolverOptionsRegistry = Registry<PluginParameters>;
 
   /** @brief Section "Linear solver". */
   struct LinearSolverParameters
@@ -53,7 +39,7 @@ namespace Touchstone
     /** Of iterative solvers: "applied" or "assembled". */
     std::string contact_operator = "applied";
     /** Keys of the registered solvers and preconditioners, by their names. */
-    std::map<std::string, std::shared_ptr<LinearSolverOptions>> options = all_options();
+    std::map<std::string, std::shared_ptr<PluginParameters>> options = all_options();
 
     /** @brief The keys of the class that is registered as @p name. */
     template <class Options>
@@ -75,7 +61,7 @@ namespace Touchstone
     check(const std::string &section) const;
 
   private:
-    static std::map<std::string, std::shared_ptr<LinearSolverOptions>>
+    static std::map<std::string, std::shared_ptr<PluginParameters>>
     all_options();
   };
 } // namespace Touchstone

@@ -6,7 +6,7 @@
 
 namespace Touchstone
 {
-  /** @brief What Epetra asks of every operator, for one over the unknowns of a map that
+  /** @brief What Epetra asks of every operator, for one over the dofs of a map that
    * is applied, or applied as an inverse, and nothing else. */
   class SquareOperator : public Epetra_Operator
   {

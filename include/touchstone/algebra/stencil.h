@@ -11,7 +11,7 @@
 namespace Touchstone
 {
   /** @brief One term of a stencil: weight @p weight on the node @p node (the
-   * unknowns of node k are 3k, 3k+1, 3k+2). */
+   * dofs of node k are 3k, 3k+1, 3k+2). */
   struct StencilEntry
   {
     Index  node;

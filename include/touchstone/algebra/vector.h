@@ -5,7 +5,7 @@
 
 namespace Touchstone
 {
-  /** @brief Distributed vector over the displacement unknowns. */
+  /** @brief Distributed vector over the displacement dofs. */
   using Vector = dealii::TrilinosWrappers::MPI::Vector;
 } // namespace Touchstone
 

@@ -61,8 +61,7 @@ namespace Touchstone
                 std::string                     help,
                 const std::vector<std::string> &no_class = {})
     {
-      chosen_name = values.value(key, name);
-      choose();
+      choose(values, key);
       std::string names;
       for (const std::string &other : no_class)
         names += other + '|';
@@ -78,6 +77,15 @@ namespace Touchstone
       (add(Registries::records()), ...);
       names.pop_back();
       prm.add_parameter(key, name, help, dealii::Patterns::Selection(names));
+    }
+
+    /** @brief Choose what the scene sets, for a key that is declared otherwise.
+     * @param values Of the section in which the key stands. */
+    void
+    choose(const EarlyValues &values, const std::string &key)
+    {
+      chosen_name = values.value(key, name);
+      choose();
     }
 
     /** @brief Declare the keys of the class that is chosen, in the present section. */

@@ -51,9 +51,8 @@ namespace Touchstone
   /**
    * @brief The formulas of one part of the program, whose values must be finite.
    *
-   * Values are computed at places of this rank only, so that a single rank cannot
-   * throw: the others would wait for it. Failures are collected and reported by all
-   * ranks together.
+   * Each rank computes values at its own points, and must not throw alone, since the
+   * others would wait for it. Failures are collected, and reported by all ranks together.
    */
   class Formulas
   {
@@ -64,7 +63,7 @@ namespace Touchstone
 
     /** @brief Call after values have been computed. Collective.
      * @throws InputError on all ranks if one of them was not finite on any rank; names
-     * formula, entry, place and time. */
+     * formula, entry, point and time. */
     void
     check(MPI_Comm communicator) const;
 
@@ -73,8 +72,8 @@ namespace Touchstone
   };
 
   /** @brief Evaluate a formula that depends on nothing but the time at the ends of all
-   * steps, before the run starts; formulas that depend on the place are left alone.
-   * @param section, key, text As of Formula; an empty text is left alone.
+   * steps, before the run starts; formulas that depend on the point are skipped.
+   * @param section, key, text As of Formula; an empty text is skipped.
    * @param end_time, steps The equal steps from 0 to the end time.
    * @throws InputError if a value is not finite. */
   void

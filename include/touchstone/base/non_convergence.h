@@ -83,7 +83,7 @@ namespace Touchstone
     }
   };
 
-  /** @brief A step has made energy from nothing. */
+  /** @brief A step has gained energy that no load explains. */
   class EnergyGain : public NonConvergence
   {
     using NonConvergence::NonConvergence;

@@ -10,10 +10,10 @@ namespace Touchstone
   /** @brief Contact mechanics in space: everything is three-dimensional. */
   constexpr int dim = 3;
 
-  /** @brief Global number of an unknown. */
+  /** @brief Global number of a degree of freedom. */
   using Index = dealii::types::global_dof_index;
 
-  /** @brief Says "no such unknown, node or face". */
+  /** @brief Stands for no degree of freedom, node or face. */
   constexpr Index invalid_index = std::numeric_limits<Index>::max();
 } // namespace Touchstone
 

@@ -2,6 +2,8 @@
 #define touchstone_contact_contact_parameters_h
 
 #include <touchstone/base/choice.h>
+#include <touchstone/base/keyword.h>
+#include <touchstone/contact/geometry/master_normal.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -34,19 +36,42 @@ namespace Touchstone
     /** The friction law with its own parameters read, subsection "Friction"; null
      * without friction. */
     std::shared_ptr<FrictionLaw> friction;
-    /** What becomes of an overlap of the bodies as they are placed: an
-     * "interference" that presses them apart, "adjust": no overlap, "ramp": an
-     * interference that grows over the time of the run. */
-    std::string initial_overlap = "interference";
-    /** "finite" (search in each iteration) or "small" (reference pairing);
-     * tied pairs are always "small". */
-    std::string sliding = "finite";
-    /** "manifold": gaps and normals from the exact surfaces where the geometry
-     * knows them; "faceted": from the faces of the mesh. */
-    std::string contact_geometry = "manifold";
-    /** "face", "averaged" (over the faces around a node) or "smoothed" (gap and
-     * normal of a smooth patch over each face). */
-    std::string master_normal = "averaged";
+    /** What becomes of an overlap of the bodies as they are placed. */
+    enum class Overlap
+    {
+      /** It presses the bodies apart. */
+      interference,
+      /** Gaps count from it: no overlap. */
+      adjust,
+      /** An interference that grows over the time of the run. */
+      ramp
+    };
+    Keyword<Overlap> initial_overlap{Overlap::interference,
+                                     {{"interference", Overlap::interference},
+                                      {"adjust", Overlap::adjust},
+                                      {"ramp", Overlap::ramp}}};
+    /** finite: search in each iteration; small: reference pairing. Tied pairs are always
+     * small. */
+    enum class Sliding
+    {
+      finite,
+      small
+    };
+    Keyword<Sliding> sliding{Sliding::finite,
+                             {{"finite", Sliding::finite}, {"small", Sliding::small}}};
+    /** Where gaps and normals come from: the exact surfaces where the geometry knows them, or
+     * the faces of the mesh. */
+    enum class Shape
+    {
+      manifold,
+      faceted
+    };
+    Keyword<Shape>        contact_geometry{Shape::manifold,
+                                    {{"manifold", Shape::manifold}, {"faceted", Shape::faceted}}};
+    Keyword<MasterNormal> master_normal{MasterNormal::averaged,
+                                        {{"face", MasterNormal::face},
+                                         {"averaged", MasterNormal::averaged},
+                                         {"smoothed", MasterNormal::smoothed}}};
     /** Farthest distance at which a slave node looks for a master face,
      * length; 0 chooses it from the size of the faces. */
     double search_distance = 0.;
@@ -80,17 +105,38 @@ namespace Touchstone
     /** Multiplies the automatic penalty (Young's modulus times tributary area over
      * face size, times 100 for penalty and 20 for augmented Lagrange); no unit. */
     double penalty_factor = 1.;
-    /** Augmented Lagrange: "merged" with Newton's iterations, or in an "outer"
-     * loop around them (Uzawa). */
-    std::string augmentation = "merged";
-    /** Stick: "exact" without any slip, or "regularised" by elastic slip. */
-    std::string friction = "exact";
+    /** Of augmented Lagrange: merged with Newton's iterations, or in an outer loop around
+     * them (Uzawa). */
+    enum class Augmentation
+    {
+      merged,
+      outer
+    };
+    Keyword<Augmentation> augmentation{Augmentation::merged,
+                                       {{"merged", Augmentation::merged},
+                                        {"outer", Augmentation::outer}}};
+    /** Stick: exact without any slip, or regularised by elastic slip. */
+    enum class Stick
+    {
+      exact,
+      regularised
+    };
+    Keyword<Stick> friction{Stick::exact,
+                            {{"exact", Stick::exact}, {"regularised", Stick::regularised}}};
     /** Multiplies the automatic stiffness of regularised stick; no unit. */
     double tangential_factor = 1.;
-    /** "consistent": with the change of normals, stencils and slip directions;
-     * "frozen": without; "automatic": consistent with friction, if the linear
-     * solver allows it. */
-    std::string linearisation = "automatic";
+    /** consistent: with the change of normals, stencils and slip directions; frozen: without;
+     * automatic: consistent with friction, if the linear solver allows it. */
+    enum class Linearisation
+    {
+      automatic,
+      consistent,
+      frozen
+    };
+    Keyword<Linearisation> linearisation{Linearisation::automatic,
+                                         {{"automatic", Linearisation::automatic},
+                                          {"consistent", Linearisation::consistent},
+                                          {"frozen", Linearisation::frozen}}};
 
     /** @param values Of this section: the enforcement decides on other keys. */
     void

@@ -2,16 +2,19 @@
 #define touchstone_contact_results_h
 
 #include <touchstone/base/types.h>
-#include <touchstone/contact/row.h>
+#include <touchstone/contact/row_state.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <set>
 #include <vector>
 
 namespace Touchstone
 {
+  class Contact;
+
   /** @brief Result at one slave node; each rank has those it owns. */
   struct ContactPoint
   {
@@ -38,7 +41,7 @@ namespace Touchstone
     ContactStatus status;
   };
 
-  /** @brief A slave face as polygon for pictures: nodes in lexicographic order,
+  /** @brief A slave face as polygon for VTU output: nodes in lexicographic order,
    * 4 for degree 1 and 9 for degree 2. */
   struct ContactFace
   {
@@ -73,7 +76,41 @@ namespace Touchstone
     unsigned int slip            = 0;
     /** Work done against friction since the start, force times length. */
     double friction_work = 0.;
+
+    /** @brief For checkpoints. All members are named, so that this does not compile if one is
+     * forgotten. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      auto &[f, m, a, pressure, penetration, in_contact, sticks, slips, work] = *this;
+      archive &f &m &a &pressure &penetration &in_contact &sticks &slips &work;
+    }
   };
+
+  /** @brief Boundaries of the slave and of the master surface of a pair, by
+   * body; empty for an obstacle. */
+  struct PairBoundaries
+  {
+    unsigned int                         slave_body, master_body;
+    std::set<dealii::types::boundary_id> slave, master;
+  };
+
+  /** @brief Results at this rank's slave nodes in displacement @p u. */
+  std::vector<ContactPoint>
+  contact_points(const Contact &contact, const Vector &u);
+
+  /** @brief Slave faces of this rank, for VTU output. */
+  std::vector<ContactFace>
+  contact_faces(const Contact &contact);
+
+  /** @brief Sums per pair over all ranks. Collective. */
+  std::vector<PairResult>
+  pair_results(const Contact &contact, const Vector &u);
+
+  /** @brief Of each pair. */
+  std::vector<PairBoundaries>
+  pair_boundaries(const Contact &contact);
 } // namespace Touchstone
 
 #endif

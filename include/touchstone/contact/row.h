@@ -4,31 +4,18 @@
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/stencil.h>
 #include <touchstone/base/types.h>
-#include <touchstone/contact/friction/friction.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <cstddef>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief What a contact row does at present. */
-  enum class ContactStatus : int
-  {
-    /** No master face within reach, or beyond the edge of the master surface. */
-    no_partner = -1,
-    /** A master face is there, but the gap is open. */
-    open = 0,
-    /** In contact, free to slide. */
-    slip = 1,
-    /** In contact, held in the tangential directions. */
-    stick = 2,
-    /** All components constrained, compression and tension. */
-    tied = 3
-  };
+  struct FrictionRow;
 
   /**
    * @brief How a row changes with the positions x_a of the nodes that its geometry
@@ -56,13 +43,49 @@ namespace Touchstone
    * With M = [I, -w_1 I, ...] the gap is g = n . (M x + offset) and the contact
    * force f = lambda_n n + t_T acts as M^T f. An obstacle is a row with an empty
    * stencil.
+   *
+   * A row is geometry. It is written by the pairing, and by ContactPair, which applies
+   * small sliding and initial overlaps; for everybody else it is const. The state of a row
+   * (status and forces) belongs to the enforcement, see RowState, what friction remembers
+   * to Friction, see FrictionRow.
    */
   struct ContactRow
   {
+    /** @name Constant on a mesh */
+    /** @{ */
     /** Number of the contact pair. */
     unsigned int pair = 0;
+    /** Number of the row among those of this rank, over all pairs: its entry in arrays that
+     * are parallel to the rows, see RowArray. */
+    std::size_t index = 0;
     /** The slave node; owned by this rank. */
     Index slave = invalid_index;
+    /** Its reference position. */
+    dealii::Point<dim> reference;
+    /** Size of the slave faces at the node, length; makes gaps nondimensional. */
+    double size = 1.;
+    /** Scale of contact forces per gap, force per length: Young's modulus of the
+     * softer body times area over size. The complementarity constant c. */
+    double stiffness = 1.;
+    /** Body of the slave node, and of the stencil. */
+    unsigned int body = 0, master_body = 0;
+    /** Constrained in all components, in tension too. */
+    bool tied = false;
+    /** Friction of the row, owned by Friction; null without friction. */
+    const FrictionRow *friction = nullptr;
+    /** @} */
+
+    /** @name Input of the pairing */
+    /** @{ */
+    /** The row was active when the pairing was called: a search lets go of a node in contact
+     * reluctantly, and only such rows are differentiated. */
+    bool was_active = false;
+    /** @} */
+
+    /** @name Set by each update */
+    /** @{ */
+    /** A master face is within reach. Where there is none, the rest has no meaning. */
+    bool has_partner = false;
     /** Master nodes and their weights; may be owned by any rank. Slave nodes that have
      * left their share to this row are among them, with negative weights. The sum is one. */
     std::vector<StencilEntry> stencil;
@@ -83,87 +106,39 @@ namespace Touchstone
      * (length) from it. Gap and gap vector are `share` times those of the surfaces. */
     double                 share = 1.;
     dealii::Tensor<1, dim> lever;
-    /** Size of the slave faces at the node, length; makes gaps nondimensional. */
-    double size = 1.;
-    /** Scale of contact forces per gap, force per length: Young's modulus of the
-     * softer body times area over size. The complementarity constant c. */
-    double stiffness = 1.;
-    /** Body of the slave node, and of the stencil. */
-    unsigned int body = 0, master_body = 0;
     /** Current position of the slave node. */
     dealii::Point<dim> position;
-    /** Held in all components, in tension too. */
-    bool tied = false;
-    /** Conditions of the row that the constraint graph took and refused: what a
-     * refused one asks for is decided by others. */
-    unsigned int accepted = 0, refused = 0;
-    /** Depends on itself over rows of earlier pairs, and asks for nothing. */
-    bool closes_circle = false;
-    /** The first of them, along the normal, was taken. */
-    bool normal_accepted = true;
-    /** Gap that the enforcement grants for now: the penetration of a penalty. */
-    double granted_gap = 0.;
-    /** Normal and other force at the last augmentation of an augmented
-     * Lagrangian. */
-    double                 augmented_lambda = 0.;
-    dealii::Tensor<1, dim> augmented;
-    /** Contact force on the slave node, force: lambda_n n + t_T. */
-    dealii::Tensor<1, dim> force;
-    /** Normal contact force, >= 0 in compression. */
-    double        lambda = 0.;
-    ContactStatus status = ContactStatus::no_partner;
-    /** Motion of the obstacle since time 0, length; zero for a master body. */
+    /** Displacement of the obstacle since time 0, length; zero for a master body. */
     dealii::Tensor<1, dim> shift;
-    /** What an impact without rebound adds to the force of the last step, for results
-     * only; force. */
-    dealii::Tensor<1, dim> jump;
-    /** Only where there is friction. */
-    std::optional<FrictionState> friction;
+    /** @} */
 
-    bool
-    active() const
+    /** @brief The fields that a step begins with: the one list of what checkpoints hold of a
+     * row. The others are set by the constructor of the pair or by each update. */
+    template <class Row, class Visitor>
+    static void
+    visit_state(Row &row, Visitor &&visit)
     {
-      return status >= ContactStatus::slip;
-    }
-
-    /** @brief No relative motion is left to the row: tied, or stick that is not
-     * left to springs. */
-    bool
-    held() const
-    {
-      return tied || (status == ContactStatus::stick && friction && friction->hold);
-    }
-
-    /** @brief No contact force of any kind. */
-    void
-    clear_force()
-    {
-      lambda = augmented_lambda = 0.;
-      force = augmented = dealii::Tensor<1, dim>();
-      if (friction)
-        friction->clear_force();
-    }
-
-    /** @brief Active, but all that it asks for is decided by others. */
-    bool
-    dropped() const
-    {
-      return accepted == 0 && refused > 0;
-    }
-
-    /** @brief Take note of whether the constraint graph accepted a condition, the one
-     * along the normal first; returns that. */
-    bool
-    take(const Condition &condition, const bool was_accepted)
-    {
-      if (accepted + refused == 0)
-        normal_accepted = was_accepted;
-      else if (!was_accepted && held() && friction)
-        friction->unheld.push_back(condition.direction);
-      ++(was_accepted ? accepted : refused);
-      return was_accepted;
+      visit(row.has_partner);
+      visit(row.stencil);
+      visit(row.normal);
+      visit(row.gap_vector);
+      visit(row.gap);
+      visit(row.area);
+      visit(row.share);
+      visit(row.lever);
+      visit(row.position);
+      visit(row.shift);
     }
   };
+
+  /** @brief Whether a row with a derivative changes so fast that this says nothing of a Newton
+   * increment: the normal over a sharp edge with hardly a gap, averages over a
+   * sliver of coverage. Such a row is better frozen. */
+  bool
+  changes_steeply(const ContactRow &row);
+
+  /** @brief The contact rows of this rank, pair after pair, in the order of their index. */
+  using ContactRows = std::vector<std::reference_wrapper<const ContactRow>>;
 } // namespace Touchstone
 
 #endif

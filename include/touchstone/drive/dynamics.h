@@ -27,10 +27,12 @@ namespace Touchstone
   class Dynamics : public TimeIntegration
   {
   public:
-    Dynamics(const Scene           &scene,
-             const Solid           &solid,
-             const std::set<Index> &slaves,
-             const Vector          &committed_u);
+    /** @param step Length of the steps asked for. Others as of make(). */
+    Dynamics(const TimeIntegrationParameters &parameters,
+             double                           step,
+             const Solid                     &solid,
+             const std::set<Index>           &slaves,
+             const Vector                    &committed_u);
 
     Vector
     initial_displacement() const override;
@@ -86,7 +88,6 @@ namespace Touchstone
     }
 
   private:
-    const Scene                                  &scene;
     const Solid                                  &solid;
     const Vector                                 &committed_u;
     const TimeIntegrationParameters::Coefficients scheme;

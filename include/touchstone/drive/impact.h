@@ -32,12 +32,12 @@ namespace Touchstone
   {
   public:
     /**
-     * @param pressing       Conditions of this rank's nodes, with the velocities that they
+     * @param constraints       Conditions of this rank's nodes, with the velocities that they
      *                       ask for; none that supports decide. It gets the impulses.
      * @param remove_support Takes from forces on nodes what supports carry.
      * Collective.
      */
-    Impact(std::vector<PressingNode>           &pressing,
+    Impact(std::vector<VelocityConstraint>     &constraints,
            const Mass                          &mass,
            const Solid                         &solid,
            const std::function<void(Vector &)> &remove_support);
@@ -60,10 +60,10 @@ namespace Touchstone
     stop(Vector &v, bool moving);
 
   private:
-    const Mass                   &mass;
-    const Solid                  &solid;
-    std::function<void(Vector &)> remove_support;
-    std::vector<PressingNode>    &pressing;
+    const Mass                      &mass;
+    const Solid                     &solid;
+    std::function<void(Vector &)>    remove_support;
+    std::vector<VelocityConstraint> &constraints;
     /** Numbers of this rank's conditions. */
     dealii::IndexSet rows;
     /** B and F. */

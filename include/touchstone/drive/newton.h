@@ -46,11 +46,11 @@ namespace Touchstone
 
     /**
      * @brief Evaluate the present state and update the active set.
-     * @param caution How reluctantly the active set changes: 0 to begin with,
-     *                more each time that a set comes back.
+     * @param damping Damping level of the active set: 0 to begin with, more each time that a
+     *                set comes back.
      */
     virtual NewtonState
-    residual(unsigned int caution) = 0;
+    residual(unsigned int damping) = 0;
 
     /** @brief Set up the linear system of the present state. */
     virtual void

@@ -1,6 +1,8 @@
 #ifndef touchstone_drive_newton_parameters_h
 #define touchstone_drive_newton_parameters_h
 
+#include <touchstone/base/keyword.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -15,9 +17,15 @@ namespace Touchstone
     /** Gap or penetration relative to the size of the slave faces; no unit. */
     double       gap_tolerance      = 1e-8;
     unsigned int maximum_iterations = 40;
-    /** Take back a part of increments that make things worse: "automatic" or
-     * "none". */
-    std::string line_search = "automatic";
+    /** Whether a part of increments that make things worse is taken back. */
+    enum class LineSearch
+    {
+      automatic,
+      none
+    };
+    Keyword<LineSearch> line_search{LineSearch::automatic,
+                                    {{"automatic", LineSearch::automatic},
+                                     {"none", LineSearch::none}}};
 
     void
     declare(dealii::ParameterHandler &prm);

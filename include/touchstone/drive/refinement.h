@@ -2,7 +2,9 @@
 #define touchstone_drive_refinement_h
 
 #include <touchstone/base/formula.h>
-#include <touchstone/drive/step_problem.h>
+#include <touchstone/contact/results.h>
+#include <touchstone/drive/refinement_parameters.h>
+#include <touchstone/drive/step.h>
 #include <touchstone/mesh/forest.h>
 
 #include <deal.II/lac/vector.h>
@@ -25,7 +27,7 @@ namespace Touchstone
   class Refinement
   {
   public:
-    Refinement(const Scene &scene, Forest &forest, Solid &solid);
+    Refinement(const RefinementParameters &parameters, Forest &forest, Solid &solid);
 
     /**
      * @brief Estimate the errors of the present state of @p problem.
@@ -33,14 +35,14 @@ namespace Touchstone
      * estimator. Collective.
      */
     double
-    estimate(const StepProblem &problem);
+    estimate(const Step &problem);
 
     /**
      * @brief Mark cells by what estimate() found in the same state.
      * @return whether the mesh is going to change. Collective.
      */
     bool
-    mark(const StepProblem &problem, double time);
+    mark(const Step &problem, double time);
 
     /**
      * @brief Change the mesh as marked, share it out to the ranks, and begin the solid
@@ -53,7 +55,7 @@ namespace Touchstone
   private:
     using Values = dealii::Vector<double>;
 
-    const Scene                   &scene;
+    const RefinementParameters    &parameters;
     Forest                        &forest;
     Solid                         &solid;
     Formulas                       formulas;
@@ -67,22 +69,22 @@ namespace Touchstone
     carry_over(const std::vector<Vector> &fields, const std::function<void()> &change);
     /** @param fields Of Contact::fields(). */
     Values
-    pressure_variation(const std::vector<Vector>                  &fields,
-                       const std::vector<Contact::PairBoundaries> &pairs) const;
+    pressure_variation(const std::vector<Vector>         &fields,
+                       const std::vector<PairBoundaries> &pairs) const;
     int
     finest_level() const;
     /** Of the slave faces of a pair whose rows refer to a master node, as they will be: the
      * sum of (length / size)^sharpness, on the first component of the node. */
     Vector
-    faces_at_masters(const StepProblem             &problem,
-                     unsigned int                   pair,
-                     const Contact::PairBoundaries &boundaries,
-                     double                         length,
-                     bool                           refined_only) const;
+    faces_at_masters(const Step           &problem,
+                     unsigned int          pair,
+                     const PairBoundaries &boundaries,
+                     double                length,
+                     bool                  refined_only) const;
     /** Mark the master faces that would be coarser than the refined slave faces that they
      * meet, and keep those that would become so. @return whether any. Collective. */
     bool
-    follow_slaves(const StepProblem &problem);
+    follow_slaves(const Step &problem);
     /** Learn the marks of ghost cells. @return whether any is new. Collective. */
     bool
     share_marks();

@@ -1,6 +1,8 @@
 #ifndef touchstone_drive_refinement_parameters_h
 #define touchstone_drive_refinement_parameters_h
 
+#include <touchstone/base/keyword.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -10,8 +12,22 @@ namespace Touchstone
   /** @brief Section "Refinement": a mesh that follows the solution. */
   struct RefinementParameters
   {
-    /** "none", "region", "Kelly" or "recovered stress". */
-    std::string estimator = "none";
+    /** What decides where the mesh is refined. */
+    enum class Estimator
+    {
+      none,
+      /** The formula of the key "Region" alone. */
+      region,
+      /** Jumps of stress between cells. */
+      kelly,
+      /** Distance of stress from averaged stress. */
+      recovered_stress
+    };
+    Keyword<Estimator> estimator{Estimator::none,
+                                 {{"none", Estimator::none},
+                                  {"region", Estimator::region},
+                                  {"Kelly", Estimator::kelly},
+                                  {"recovered stress", Estimator::recovered_stress}}};
     /** Of solving and refining in the first step, and in each later one. */
     unsigned int cycles = 3, cycles_per_step = 1;
     /** Share of the estimated squared error in the cells that are refined, and in
@@ -31,7 +47,7 @@ namespace Touchstone
     bool
     active() const
     {
-      return estimator != "none";
+      return estimator != Estimator::none;
     }
 
     void

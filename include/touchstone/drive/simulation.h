@@ -7,16 +7,19 @@
 #include <touchstone/drive/repeated_failure.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/output/contact_output.h>
+#include <touchstone/output/converged_step.h>
 #include <touchstone/output/log.h>
 #include <touchstone/output/progress.h>
 #include <touchstone/output/statistics.h>
 #include <touchstone/output/summary.h>
 #include <touchstone/output/volume_output.h>
 #include <touchstone/output/warnings.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/verification/reference_solution.h>
 
 #include <deal.II/base/timer.h>
 
+#include <functional>
 #include <iosfwd>
 
 namespace Touchstone
@@ -46,6 +49,14 @@ namespace Touchstone
     RunSummary
     run();
 
+    /** @brief Have @p observer called after each converged step, on all ranks, with the state
+     * at its end. What it throws ends the run. */
+    void
+    after_step(std::function<void(const ConvergedStep &)> observer)
+    {
+      observers.push_back(std::move(observer));
+    }
+
     /** @brief Comparison with the reference solution, for people. */
     const std::vector<std::string> &
     comparison() const
@@ -65,7 +76,7 @@ namespace Touchstone
     Warnings                           warnings;
     Forest                             forest;
     Solid                              solid;
-    std::unique_ptr<StepProblem>       problem;
+    std::unique_ptr<Step>              problem;
     Refinement                         refinement;
     Progress                           progress;
     Statistics                         statistics;
@@ -75,6 +86,8 @@ namespace Touchstone
     Checkpoints                        checkpoints;
     RunSummary                         summary;
     std::vector<std::string>           comparison_lines;
+    /** Those of after_step(). */
+    std::vector<std::function<void(const ConvergedStep &)>> observers;
     /** By the names of pairs: the last time at which they had contact. */
     std::map<std::string, double> had_contact;
     /** Fingerprints of the mesh files, by body. */
@@ -84,7 +97,7 @@ namespace Touchstone
     RepeatedFailure repeated_failure;
     /** Time of the last step that was kept. */
     double       committed_time = 0.;
-    unsigned int last_picture   = dealii::numbers::invalid_unsigned_int;
+    unsigned int last_vtu_step  = dealii::numbers::invalid_unsigned_int;
 
     /** @name Checkpoints, see source/drive/restart.cc */
     /** @{ */
@@ -135,7 +148,7 @@ namespace Touchstone
                 unsigned int newton,
                 unsigned int cuts);
     void
-    write_pictures(unsigned int step, double time);
+    write_vtu(unsigned int step, double time);
     void
     load_stepping();
     /** A step cannot be made: leave the last committed state on disk. */

@@ -5,8 +5,9 @@
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>
-#include <touchstone/drive/newton.h>
-#include <touchstone/drive/time_integration.h>
+#include <touchstone/drive/forcing_term.h>
+#include <touchstone/drive/step.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 #include <touchstone/solid/rigid_body_modes.h>
 
@@ -20,64 +21,45 @@
 
 namespace Touchstone
 {
-  /** @brief Balance of all bodies under loads, contact and, if the time integration has it,
-   * inertia at the end of one step. */
-  class StepProblem : public NonlinearProblem
+  /** @brief An implicit step: balance of all bodies under loads, contact and, if the time
+   * integration has it, inertia at the end of one step, solved by Newton's method. */
+  class StepProblem : public Step, public NonlinearProblem
   {
   public:
     StepProblem(const Scene &scene, const Forest &forest, Solid &solid, dealii::TimerOutput &timer);
 
-    /** @brief Look at the bodies as they are placed. @return lines on gaps and
-     * overlaps of the contact pairs. */
     std::vector<std::string>
-    start();
+    start() override;
+    unsigned int
+    solve(double t, const NewtonParameters &parameters, const Newton::Observer &observer) override;
+    StepFindings
+    findings() const override;
+    StepDifficulty
+    difficulty() const override;
+    double
+    try_commit(double smallest_part) override;
+    void
+    rollback() override;
+    StepState
+    state() const override;
+    StepTransfer
+    transfer() const override;
+    void
+    adopt(const StepTransfer &before, double t) override;
+    void
+    save(ArchiveWriter &archive) override;
+    void
+    load(const ArchiveReader &archive) override;
 
     /** @brief Start a step to time @p t from the committed state. */
     void
     begin_step(double t);
 
-    /** @brief Keep the present state: displacement and contact history. */
-    void
-    commit();
-
-    /**
-     * @brief commit(), if the energies at the end of the step allow it: always in
-     * statics.
-     * @param smallest_part A shorter part than this of the step is not worth it.
-     * @return 1 if the state is kept; else the part of the step that is to be made
-     * instead, up to where bodies meet.
-     * @throws EnergyGain
-     */
-    double
-    try_commit(double smallest_part);
-
-    /** @brief Return to the committed state. */
-    void
-    rollback();
-
-    /**
-     * @brief Look at bodies that nothing but contact holds and that touch nothing in the
-     * present state: statics does not know where they belong. Collective.
-     * @return what to tell of those that have come off without going far.
-     * @throws LostContact if one of them touched something in the committed state, and has
-     * moved much farther than anything that could have pushed it: Newton has thrown it off.
-     */
-    std::vector<std::string>
-    check_loose_bodies() const;
-
-    /** @brief Look for contact that rows of slave nodes and master faces cannot describe: its
-     * forces would be wrong. Collective. @throws UnresolvedContactFailure */
-    void
-    check_contact() const;
-
-    /** @brief Where the present state is farthest from a solution: the contact row that
-     * changes, or else the node that is farthest out of balance, with body, place and pair.
-     * Collective. */
-    std::string
-    worst_place() const;
-
+  private:
+    /** @name What Newton's method asks for */
+    /** @{ */
     NewtonState
-    residual(unsigned int caution) override;
+    residual(unsigned int damping) override;
     void
     linearize() override;
     int
@@ -86,114 +68,35 @@ namespace Touchstone
     update() override;
     void
     shorten(double fraction) override;
+    /** @} */
 
-    /** @brief Displacement without ghosts, length. */
-    const Vector &
-    displacement() const
-    {
-      return u;
-    }
-
-    /** @brief Displacement with the ghosts of the mesh. */
-    Vector
-    ghosted_displacement() const;
-
-    std::vector<Reaction>
-    reactions() const;
-
-    /** @brief Elastic energy of all bodies, force times length. */
-    double
-    strain_energy() const
-    {
-      return solid.strain_energy(u);
-    }
-
-    const TimeIntegration &
-    time_integration() const
-    {
-      return *integration;
-    }
-
-    const Contact &
-    contact_state() const
-    {
-      return contact;
-    }
-
-    /**
-     * @brief What a change of the mesh carries over: displacement and contact of the
-     * committed state, and of the present one, and what the time integration says of the
-     * former, as fields over the unknowns. Collective.
-     */
-    std::vector<Vector>
-    carry_over() const;
-
-    /**
-     * @brief Go on from fields like those of carry_over() on a new mesh, and the momenta
-     * of the committed state on the old one: the step to time @p t will begin from the
-     * committed state at time @p committed_time, and its first iteration at the other one.
-     */
+    /** See findings(). */
+    std::vector<std::string>
+    check_loose_bodies() const;
+    /** See findings(). @throws UnresolvedContactFailure */
     void
-    adopt(const std::vector<Vector>       &fields,
-          const std::vector<BodyMomentum> &momenta,
-          double                           committed_time,
-          double                           t);
-
-    /** @brief Drop what earlier solutions have left behind to speed up or judge later
-     * ones, and is in no checkpoint: a run that writes one and a run that goes on from it
-     * must take the same way. Collective. */
-    void
-    forget();
-
-    /** @brief Put the committed state and all counts into a checkpoint. Collective. */
-    void
-    save(ArchiveWriter &archive) const;
-
-    /** @brief Go on from save(); comes after start(). Collective. @throws ArchiveError */
-    void
-    load(const ArchiveReader &archive);
-
-    /** @brief Count on from what another problem has counted. */
-    void
-    count_on(const StepProblem &before);
-
+    check_contact() const;
+    std::string
+    remarks() const;
+    /** See difficulty(). */
+    std::string
+    worst_place() const;
     LinearSolverCounts
     linear_counts() const;
-
-    unsigned int
-    n_assemblies() const
-    {
-      return assemblies;
-    }
-
     unsigned int
     n_searches() const
     {
       return earlier_searches + contact.n_searches();
     }
+    /** See save(). */
+    void
+    forget();
 
-    /** @brief Why the present step may not converge: bodies that nothing but
-     * contact holds; empty if there are none. */
-    std::string
-    suspicion() const
-    {
-      return stabilised.empty()
-               ? ""
-               : "; held by contact alone, perhaps against no resistance: " + stabilised;
-    }
-
-    /** @brief What happened in the present step that the user should know: rows
-     * dropped, bodies stabilised; empty if nothing. Collective. */
-    std::string
-    remarks() const;
-
-  private:
     const Scene                    &scene;
     Solid                          &solid;
     dealii::TimerOutput            &timer;
     BoundaryConditions              boundary_conditions;
     Contact                         contact;
-    std::shared_ptr<Enforcement>    enforcement;
     std::shared_ptr<LinearSolver>   solver;
     std::unique_ptr<RigidBodyModes> modes;
 
@@ -207,12 +110,11 @@ namespace Touchstone
     /** Part of the step after which the first guess of its end has bodies meet. */
     double touch         = 1.;
     bool   touch_unknown = false;
-    /** @name What shorten() goes back to: displacement and rows before the last
+    /** @name What shorten() goes back to: the displacement before the last
      * update(), and the part of the increment that left all cells admissible */
     /** @{ */
-    Vector                               before_increment;
-    std::vector<std::vector<ContactRow>> before_rows;
-    double                               admissible_part = 1.;
+    Vector before_increment;
+    double admissible_part = 1.;
     /** @} */
     ConstraintGraph                  graph;
     std::unique_ptr<LinearSystem>    system;
@@ -236,27 +138,58 @@ namespace Touchstone
     double force_scale = 0., largest_force_scale = 0.;
     /** Diagonal of the box around all bodies, and the largest prescribed displacement that
      * the present state misses; length. */
-    double diameter = 0., missed = 0.;
-    /** Relative residual that the next linear solve needs. */
-    double linear_tolerance = 1e-3;
-    /** The one before this increment, if nothing but the residual was left to be met. */
-    double last_residual = 0.;
-    /** In this step an increment with an unchanged active set has gained little. */
-    bool slow = false;
+    double      diameter = 0., missed = 0.;
+    ForcingTerm forcing_term;
 
     /** Length against which a missed prescribed displacement is measured. */
     double length = 1.;
     /** Magnitude of the coordinates, for their round-off. */
     double extent = 0.;
 
+    /** @name Parts of residual() */
+    /** @{ */
+    /** Rows and prescribed displacements at u. */
+    void
+    update_geometry(NewtonState &state);
+    /** The forces on the nodes, without those of contact. */
+    void
+    balance(Vector &without_contact);
+    /** Residual, its scale and its round-off. */
+    void
+    judge_balance(const Vector &without_contact, NewtonState &state);
+    void
+    update_active_set(unsigned int damping, NewtonState &state);
+    /** @} */
+
+    /** @name Parts of linearize() */
+    /** @{ */
+    void
+    begin_system();
+    void
+    add_follower_pressure();
+    /** All dofs of the system that this rank refers to. */
+    dealii::IndexSet
+    dofs_of_system() const;
+    void
+    constrain_system(const dealii::IndexSet &needed);
+    void
+    change_basis(const dealii::IndexSet &needed);
+    /** Stabilise bodies that nothing but contact holds. */
     void
     check_supports();
+    /** @} */
+    /** Whether this holds on all ranks. */
+    bool
+    everywhere(bool here) const;
     /** See worst_place(); empty if no row changed. */
     std::string
     changing_place() const;
     /** @throws ExcessiveIncrement */
     void
     check_increment() const;
+    /** @throws InputError for bodies that have no support and no contact pair. */
+    void
+    check_bodies_without_support();
     /** Remember what check_loose_bodies() compares with, after a commit. */
     void
     remember_contact();

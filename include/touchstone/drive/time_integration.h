@@ -3,7 +3,7 @@
 
 #include <touchstone/algebra/vector.h>
 #include <touchstone/contact/contact.h>
-#include <touchstone/scene/scene.h>
+#include <touchstone/drive/time_parameters.h>
 #include <touchstone/solid/energies.h>
 #include <touchstone/solid/solid.h>
 
@@ -25,8 +25,8 @@ namespace Touchstone
     const Vector *normal = nullptr, *tangential = nullptr;
     /** What supports add for the nodes to move as they do. */
     const Vector *support = nullptr;
-    /** For impacts without rebound, else null: where nodes press. It gets the impulses. */
-    std::vector<PressingNode> *pressing = nullptr;
+    /** For impacts without rebound, else null; gets the impulses. */
+    std::vector<VelocityConstraint> *velocity_constraints = nullptr;
     /** Takes from forces on nodes what supports carry. */
     std::function<void(Vector &)> remove_support;
     /** Work that moving obstacles do by the normal and by the tangential contact forces,
@@ -154,7 +154,8 @@ namespace Touchstone
     }
 
     /**
-     * @brief The scheme that the scene asks for.
+     * @brief The scheme that the parameters ask for.
+     * @param step        Length of the steps asked for, time.
      * @param slaves      First unknowns of the owned slave nodes that can part from
      *                    their master.
      * @param committed_u The displacement that a step begins with, of which this
@@ -162,10 +163,11 @@ namespace Touchstone
      * Collective.
      */
     static std::unique_ptr<TimeIntegration>
-    make(const Scene           &scene,
-         const Solid           &solid,
-         const std::set<Index> &slaves,
-         const Vector          &committed_u);
+    make(const TimeIntegrationParameters &parameters,
+         double                           step,
+         const Solid                     &solid,
+         const std::set<Index>           &slaves,
+         const Vector                    &committed_u);
 
   protected:
     double   committed_time = 0.;

@@ -1,6 +1,9 @@
 #ifndef touchstone_drive_time_parameters_h
 #define touchstone_drive_time_parameters_h
 
+#include <touchstone/base/keyword.h>
+#include <touchstone/solid/mass.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -11,10 +14,26 @@ namespace Touchstone
    * motion is integrated. */
   struct TimeIntegrationParameters
   {
-    /** "static", "newmark", "hht", "generalized_alpha" or "contact_stabilized". */
-    std::string scheme = "static";
-    /** "consistent", "lumped" or "dispersion corrected". */
-    std::string mass = "consistent";
+    /** No inertia, or a member of the generalized-alpha family. */
+    enum class Scheme
+    {
+      statics,
+      newmark,
+      hht,
+      generalized_alpha,
+      /** With the mass of slave nodes moved to their neighbours. */
+      contact_stabilized
+    };
+    Keyword<Scheme>   scheme{Scheme::statics,
+                           {{"static", Scheme::statics},
+                              {"newmark", Scheme::newmark},
+                              {"hht", Scheme::hht},
+                              {"generalized_alpha", Scheme::generalized_alpha},
+                              {"contact_stabilized", Scheme::contact_stabilized}}};
+    Keyword<MassKind> mass{MassKind::consistent,
+                           {{"consistent", MassKind::consistent},
+                            {"lumped", MassKind::lumped},
+                            {"dispersion corrected", MassKind::dispersion_corrected}}};
     /** gamma of newmark; no unit. */
     double newmark_gamma = 0.5;
     /** beta of newmark, a number or "automatic": (gamma + 1/2)^2 / 4. */
@@ -24,12 +43,28 @@ namespace Touchstone
     /** Spectral radius at infinite frequency of generalized_alpha and
      * contact_stabilized, 0 to 1, a number or "automatic": 0.8 and 1. */
     std::string spectral_radius = "automatic";
-    /** "elastic", "plastic" or "automatic": what becomes of the velocity of nodes that
-     * meet. */
-    std::string impact = "automatic";
-    /** "none", "impacts": steps are shortened so that they end where bodies meet, or
-     * "automatic". */
-    std::string adapt = "automatic";
+    /** What becomes of the velocity of nodes that meet. */
+    enum class Impact
+    {
+      automatic,
+      elastic,
+      plastic
+    };
+    Keyword<Impact> impact{Impact::automatic,
+                           {{"automatic", Impact::automatic},
+                            {"elastic", Impact::elastic},
+                            {"plastic", Impact::plastic}}};
+    /** Whether steps are shortened so that they end where bodies meet. */
+    enum class Adapt
+    {
+      automatic,
+      none,
+      impacts
+    };
+    Keyword<Adapt> adapt{Adapt::automatic,
+                         {{"automatic", Adapt::automatic},
+                          {"none", Adapt::none},
+                          {"impacts", Adapt::impacts}}};
     /** Energy that contact may take or give in a step without the step being
      * shortened, relative to the energy in the bodies; no unit. */
     double impact_tolerance = 1e-4;
@@ -42,7 +77,7 @@ namespace Touchstone
     bool
     dynamic() const
     {
-      return scheme != "static";
+      return scheme != Scheme::statics;
     }
 
     /** @brief Nodes that meet do not rebound: "automatic" says so where the scheme does not
@@ -54,7 +89,7 @@ namespace Touchstone
     bool
     adapts_to_impacts() const
     {
-      return adapt == "impacts" || (adapt == "automatic" && !plastic_impacts());
+      return adapt == Adapt::impacts || (adapt == Adapt::automatic && !plastic_impacts());
     }
 
     /** @brief The numbers of the generalized-alpha family that the scheme stands for.

@@ -1,6 +1,8 @@
 #ifndef touchstone_mesh_discretisation_parameters_h
 #define touchstone_mesh_discretisation_parameters_h
 
+#include <touchstone/base/keyword.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <string>
@@ -16,8 +18,22 @@ namespace Touchstone
      * whole powers of two refine the mesh with its manifolds. Meshes from
      * files accept powers of two only. */
     double refinement_factor = 1.;
-    /** "automatic", "coordinates", "p4est", "METIS" or "METIS, cells only". */
-    std::string partitioner = "automatic";
+    /** How cells are spread over the ranks. */
+    enum class Partitioner
+    {
+      /** p4est where the run refines, coordinates elsewhere. */
+      automatic,
+      coordinates,
+      p4est,
+      metis,
+      metis_cells_only
+    };
+    Keyword<Partitioner> partitioner{Partitioner::automatic,
+                                     {{"automatic", Partitioner::automatic},
+                                      {"coordinates", Partitioner::coordinates},
+                                      {"p4est", Partitioner::p4est},
+                                      {"METIS", Partitioner::metis},
+                                      {"METIS, cells only", Partitioner::metis_cells_only}}};
     /** For p4est, contact work of a slave face over the work of a cell; no unit. */
     double contact_weight = 0.;
 

@@ -2,8 +2,8 @@
 #define touchstone_mesh_forest_h
 
 #include <touchstone/base/types.h>
+#include <touchstone/mesh/discretisation_parameters.h>
 #include <touchstone/mesh/geometry.h>
-#include <touchstone/scene/scene.h>
 
 #include <deal.II/distributed/tria_base.h>
 #include <deal.II/grid/cell_id.h>
@@ -14,6 +14,34 @@ namespace Touchstone
 {
   /** @brief Boundary ids of the faces of a boundary, or of several. */
   using BoundaryIds = std::set<dealii::types::boundary_id>;
+
+  /** @brief What a forest is made from. */
+  struct ForestInput
+  {
+    struct Body
+    {
+      std::string               name;
+      std::shared_ptr<Geometry> geometry;
+      /** Of a cell, relative to those of other bodies, for partitions. */
+      unsigned int work = 1;
+    };
+    /** Boundaries that meet, for partitions. */
+    struct Pair
+    {
+      /** For messages. */
+      std::string              section;
+      unsigned int             slave_body = 0;
+      std::vector<std::string> slave_boundaries;
+      /** Where there are no master boundaries this means nothing. */
+      unsigned int             master_body = 0;
+      std::vector<std::string> master_boundaries;
+    };
+    std::vector<Body>        bodies;
+    std::vector<Pair>        pairs;
+    DiscretisationParameters discretisation;
+    /** The mesh is going to be refined during the run. */
+    bool refines = false;
+  };
 
   /**
    * @brief All bodies of a scene in one distributed triangulation.
@@ -35,7 +63,7 @@ namespace Touchstone
 
   public:
     /** @throws InputError for bad meshes and boundaries that do not exist. */
-    Forest(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
+    Forest(const ForestInput &input, const std::string &scene_folder, MPI_Comm communicator);
 
     /** @brief From p4est it can be refined, from other partitioners it cannot. */
     dealii::parallel::TriangulationBase<dim> &triangulation;
@@ -107,7 +135,7 @@ namespace Touchstone
 
   private:
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
-    make(const Scene &scene, const std::string &scene_folder, MPI_Comm communicator);
+    make(const ForestInput &input, const std::string &scene_folder, MPI_Comm communicator);
   };
 } // namespace Touchstone
 

@@ -1,27 +1,22 @@
 #ifndef touchstone_mesh_obstacle_parameters_h
 #define touchstone_mesh_obstacle_parameters_h
 
+#include <touchstone/base/choice.h>
+
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/tensor.h>
 
 #include <string>
 
 namespace Touchstone
 {
+  class ObstacleShape;
+
   /** @brief Section "Obstacle NAME": a rigid body given by one formula. */
   struct ObstacleParameters
   {
     std::string name;
-    /** "plane", "sphere" or "cylinder". */
-    std::string shape = "plane";
-    /** A point of the plane, the centre of the sphere, or a point of the axis. */
-    dealii::Tensor<1, 3> point;
-    /** Outward normal of the plane, or direction of the cylinder's axis. */
-    dealii::Tensor<1, 3> direction{{0., 0., 1.}};
-    /** Radius of sphere or cylinder, length. */
-    double radius = 1.;
-    /** The bodies are "outside" of the sphere or cylinder, or "inside". */
-    std::string side = "outside";
+    /** The shape, whose own keys stand beside this one. */
+    Choice<Registry<ObstacleShape>> shape{"plane"};
     /** Rigid motion as expressions in t, length. */
     std::string motion_x = "0", motion_y = "0", motion_z = "0";
 
@@ -29,8 +24,9 @@ namespace Touchstone
     std::string
     section() const;
 
+    /** @param values Of this section: the shape decides on other keys. */
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
   };

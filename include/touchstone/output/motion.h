@@ -28,12 +28,31 @@ namespace Touchstone
       dealii::Tensor<1, dim> impulse;
       /** Largest contact force. */
       double peak_force = 0.;
+
+      /** @brief For checkpoints; names all members. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        auto &[from, to, opened, touches, has_touched, integral, peak] = *this;
+        archive &from &to &opened &touches &has_touched &integral &peak;
+      }
     };
     /** By name of the pair. */
     std::map<std::string, Impact> impacts;
     /** Mean velocity of each body by its name, momentum over mass; length per time. */
     std::map<std::string, dealii::Tensor<1, dim>> velocities;
     Energies                                      energies;
+
+    /** @brief For checkpoints. All members are named, so that this does not compile if one is
+     * forgotten. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      auto &[of_pairs, of_bodies, sums] = *this;
+      archive &of_pairs &of_bodies &sums;
+    }
 
     /** @brief Take note of the contact @p result of a pair at the end of the step from
      * time @p begin to @p end: its force acts over the step. */

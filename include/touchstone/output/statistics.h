@@ -2,38 +2,21 @@
 #define touchstone_output_statistics_h
 
 #include <touchstone/base/folder.h>
-#include <touchstone/contact/results.h>
+#include <touchstone/output/step_quantity.h>
 
 #include <deal.II/base/table_handler.h>
 
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace Touchstone
 {
-  /** @brief What the table has to say about a converged load step. */
-  struct StepRecord
-  {
-    unsigned int step              = 0;
-    double       time              = 0.;
-    double       step_size         = 0.;
-    unsigned int newton_iterations = 0;
-    unsigned int linear_iterations = 0;
-    /** How often the step was cut before it converged. */
-    unsigned int cuts = 0;
-    /** By name of the contact pair. */
-    std::map<std::string, PairResult> pairs;
-    /** Reaction forces, by any name, e.g. "BODY/BOUNDARY". */
-    std::map<std::string, dealii::Tensor<1, dim>> reactions;
-    /** Energies by name, force times length. */
-    std::map<std::string, double> energies;
-    /** Where there is inertia: momentum, and angular momentum about the origin. */
-    std::optional<dealii::Tensor<1, dim>> momentum, angular_momentum;
-  };
-
   /**
-   * @brief The table `statistics`: a row for each converged step.
+   * @brief The table `statistics`: a row for each converged step, with the columns of all
+   * registered StepQuantity classes.
    *
    * The columns are described in lines that begin with '#', so that gnuplot and
    * numpy.loadtxt read the file as it is.
@@ -44,37 +27,56 @@ namespace Touchstone
     /** @param folder Must outlive this object. */
     explicit Statistics(const OutputFolder &folder);
 
-    /** @brief Add a row and write the file. Collective; the record of rank 0
-     * counts. @throws OutputError */
+    /** @brief Add a row and write the file. Collective; the values of rank 0
+     * count. @throws OutputError */
     void
-    add_step(const StepRecord &record);
+    add_step(const ConvergedStep &step);
 
-    /** @brief The table as it is, for restore(). */
+    /** @brief What summary.json has to say of the last step. */
+    const std::vector<StepValue> &
+    for_summary() const
+    {
+      return last_values;
+    }
+
+    /** @name For checkpoints
+     * The table as it is, the memory of the quantities by their names, and for_summary(). */
+    /** @{ */
+    using Memories = std::map<std::string, StepQuantity::Memory>;
+
     const dealii::TableHandler &
     rows() const
     {
       return table;
     }
 
-    /** @brief Go on from rows that were written before. Collective; those of rank 0
-     * count. @throws OutputError */
+    Memories
+    memories() const;
+
+    /** @brief Continue from what was saved. Collective; that of rank 0 counts.
+     * @throws OutputError */
     void
-    restore(const dealii::TableHandler &rows);
+    restore(const dealii::TableHandler   &rows,
+            const Memories               &memories,
+            const std::vector<StepValue> &last_values);
+    /** @} */
 
   private:
     const OutputFolder  &folder;
     dealii::TableHandler table;
+    /** By name, in the order of their columns. */
+    std::vector<std::pair<std::string, std::shared_ptr<StepQuantity>>> quantities;
+    std::vector<StepValue>                                             last_values;
 
     /** @brief Add a value with the format of all real numbers of the table. */
     void
     add(const std::string &column, double value);
 
     void
-    write() const;
+    add(const StepValue &value);
 
-    /** @brief Add the three columns of a vector. */
     void
-    add(const std::string &column, const dealii::Tensor<1, dim> &value);
+    write() const;
   };
 } // namespace Touchstone
 

@@ -4,6 +4,7 @@
 #include <touchstone/contact/results.h>
 #include <touchstone/output/json.h>
 #include <touchstone/output/motion.h>
+#include <touchstone/output/step_quantity.h>
 
 #include <cstdint>
 #include <iosfwd>
@@ -34,6 +35,15 @@ namespace Touchstone
       std::uint64_t unknowns = 0;
       /** Relative error of the stress in the energy norm, estimated; no unit. */
       double estimated_error = 0.;
+
+      /** @brief For checkpoints; names all members. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        auto &[number, n_cells, n_dofs, error] = *this;
+        archive &number &n_cells &n_dofs &error;
+      }
     };
     /** Those that were estimated, in their order; empty without refinement. */
     std::vector<Mesh> meshes;
@@ -48,6 +58,16 @@ namespace Touchstone
       unsigned int linear_total = 0;
       /** Per linear solve. */
       double linear_mean = 0.;
+
+      /** @brief For checkpoints; names all members. The mean follows from the solver. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        auto &[of_newton, of_contact, shortened, of_solver, mean] = *this;
+        (void)mean;
+        archive &of_newton &of_contact &shortened &of_solver;
+      }
     };
     Iterations iterations;
 
@@ -69,6 +89,15 @@ namespace Touchstone
       double linear_solver = 0.;
       double search        = 0.;
       double output        = 0.;
+
+      /** @brief For checkpoints; names all members. */
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        auto &[of_clock, of_ranks, assembling, solving, searching, writing] = *this;
+        archive &of_clock &of_ranks &assembling &solving &searching &writing;
+      }
     };
     Seconds seconds;
 
@@ -100,6 +129,8 @@ namespace Touchstone
     std::map<std::string, std::map<std::string, dealii::Tensor<1, dim>>> reactions;
     /** Largest equivalent plastic strain of bodies that have one, by name; no unit. */
     std::map<std::string, double> plastic_strain;
+    /** Those of registered StepQuantity classes at the last step. */
+    std::vector<StepValue> quantities;
     /** Relative errors against the reference solution; no unit. */
     std::map<std::string, double> errors;
     /** Only where there is inertia. */
@@ -108,6 +139,17 @@ namespace Touchstone
     std::vector<std::string> warnings;
     /** Why the run did not converge; empty if it did. */
     std::string failure;
+
+    /** @brief For checkpoints: what is counted or known step by step; the rest is found out at
+     * the end, or saved by its owner. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int version)
+    {
+      archive &steps &meshes &contact &reactions;
+      iterations.serialize(archive, version);
+      seconds.serialize(archive, version);
+    }
 
     Json
     to_json() const;

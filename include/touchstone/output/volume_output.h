@@ -1,18 +1,23 @@
 #ifndef touchstone_output_volume_output_h
 #define touchstone_output_volume_output_h
 
-#include <touchstone/output/picture_series.h>
+#include <touchstone/output/volume_field.h>
+#include <touchstone/output/vtu_series.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace Touchstone
 {
   /**
-   * @brief Pictures of the bodies: solution.pvd.
+   * @brief VTU output of the bodies, solution.pvd, with all registered VolumeField classes.
    *
    * The geometry is the undeformed one; the displacement is there to warp it by.
    * Stresses are those of the cells averaged to the nodes with the volumes as
@@ -31,18 +36,18 @@ namespace Touchstone
       node_dofs.clear();
     }
 
-    /** @brief Write the picture of one step.
+    /** @brief Write the file of one step.
      * @param displacement With ghosts.
      * @param velocity     With ghosts; null if there is none.
      * @throws OutputError on all ranks. Collective. */
     void
     write(const Vector &displacement, const Vector *velocity, unsigned int step, double time);
 
-    /** @brief The pictures so far, which a run that goes on adds to. */
-    PictureSeries &
+    /** @brief The files so far, which a resumed run adds to. */
+    VtuSeries &
     series()
     {
-      return pictures;
+      return files;
     }
 
   private:
@@ -51,11 +56,16 @@ namespace Touchstone
     const Solid            &solid;
     dealii::FE_Q<dim>       node_fe;
     dealii::DoFHandler<dim> node_dofs;
+    /** By owned node, as node_dofs counts them: where it is among the owned nodes of the
+     * solid. */
+    std::vector<std::size_t> node_in_solid;
     /** Sum of the volumes of the cells around each node. */
-    NodeField     node_volume;
-    PictureSeries pictures;
+    NodeField node_volume;
+    VtuSeries files;
+    /** By name, in the order of the file. */
+    std::vector<std::pair<std::string, std::shared_ptr<VolumeField>>> fields;
 
-    /** @brief Number the nodes; not before there is a picture to write, for many runs
+    /** @brief Number the nodes; not before there is a file to write, for many runs
      * write none. */
     void
     number_nodes();
@@ -63,10 +73,17 @@ namespace Touchstone
     NodeField
     make_node_field() const;
 
-    /** @brief The components xx, yy, zz, xy, yz, xz at the nodes, von Mises
-     * stress and hydrostatic pressure; force per area, with ghosts. */
-    std::array<NodeField, 8>
+    /** @brief Averaged stress at the owned nodes of the solid; force per area. */
+    std::vector<dealii::SymmetricTensor<2, dim>>
     node_stress(const Vector &displacement) const;
+
+    /** @brief The values of a field of one component at nodes, with ghosts. */
+    NodeField
+    scalar_field(const std::vector<double> &values) const;
+
+    /** @brief Those of a vector, with ghosts. */
+    Vector
+    vector_field(const std::vector<double> &values) const;
   };
 } // namespace Touchstone
 

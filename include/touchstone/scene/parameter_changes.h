@@ -9,21 +9,22 @@ namespace Touchstone
   class Scene;
 
   /**
-   * @brief Whether a run may go on with another value of a key: it says where results go,
-   * or how exactly and by which way they are found, but not what they are.
+   * @brief Whether a run may be resumed with another value of a key: one that decides where
+   * results are written, or how accurately and by which method they are computed, but not
+   * what they are.
    *
-   * The one list of these keys. What is not on it changes the answer.
+   * The one list of these keys. All others change the answer.
    */
   bool
   may_change(const std::string &section, const std::string &key);
 
   /**
-   * @brief Refuse to go on with a scene that is not the one that was stopped.
+   * @brief Refuse to resume with a scene that differs from that of the checkpoint.
    *
    * Values are compared as text and, where they are numbers, as numbers.
-   * @param before Scene::complete_entries() of the run that was stopped.
-   * @param time   At which it goes on: the end must not lie before it.
-   * @return lines on what has changed and may.
+   * @param before Scene::complete_entries() of the run that wrote the checkpoint.
+   * @param time   Of the checkpoint: the end time must not lie before it.
+   * @return lines on the changes that are allowed.
    * @throws InputError with section, key and both values.
    */
   std::vector<std::string>

@@ -9,6 +9,7 @@
 #include <touchstone/drive/refinement_parameters.h>
 #include <touchstone/drive/time_parameters.h>
 #include <touchstone/mesh/discretisation_parameters.h>
+#include <touchstone/mesh/forest.h>
 #include <touchstone/mesh/obstacle_parameters.h>
 #include <touchstone/output/output_parameters.h>
 #include <touchstone/solid/body_parameters.h>
@@ -72,6 +73,10 @@ namespace Touchstone
     std::string
     complete_entries() const;
 
+    /** @brief What the forest is made from. */
+    ForestInput
+    forest_input() const;
+
     /** @brief Number of the body called @p name. */
     unsigned int
     body_index(const std::string &name) const;
@@ -92,7 +97,7 @@ namespace Touchstone
     /** Replace what stands for an automatic choice. */
     void
     resolve(const SceneText &text, const std::string &file_name);
-    /** Each section, then the rules across sections. */
+    /** Each section, then what goes across sections (combinations.h). */
     void
     check() const;
     void
@@ -103,9 +108,6 @@ namespace Touchstone
     /** Formulas of the time alone have finite values at the ends of all steps. */
     void
     check_formulas() const;
-    /** Inertia needs densities, and initial velocities need inertia. */
-    void
-    check_time_integration() const;
   };
 } // namespace Touchstone
 

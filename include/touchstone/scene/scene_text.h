@@ -53,7 +53,7 @@ namespace Touchstone
 
     /** @brief "line 12 of x.prm" or "command line". */
     std::string
-    place(unsigned int line) const;
+    location(unsigned int line) const;
 
   private:
     const std::string                   file_name;

@@ -12,7 +12,7 @@ namespace Touchstone
   /** @brief The smallest box around the vertices of each body, undeformed, over all
    * ranks; length. Collective. */
   std::vector<dealii::BoundingBox<dim>>
-  body_boxes(const Scene &scene, const Solid &solid);
+  body_boxes(const Solid &solid);
 
   /** @brief Number of the body of each owned unknown, in their order. */
   std::vector<unsigned int>

@@ -1,6 +1,7 @@
 #ifndef touchstone_solid_body_parameters_h
 #define touchstone_solid_body_parameters_h
 
+#include <touchstone/base/keyword.h>
 #include <touchstone/solid/boundary_parameters.h>
 #include <touchstone/solid/material_parameters.h>
 
@@ -19,6 +20,8 @@ namespace Touchstone
   /** @brief How the cells of a body interpolate strain. */
   enum class ElementType
   {
+    /** Chosen by degree and material law, see automatic_element(). */
+    automatic,
     full,
     b_bar,
     incompatible_modes,
@@ -33,10 +36,14 @@ namespace Touchstone
     Choice<Registry<Geometry>> geometry_type{"box"};
     /** The geometry with its own parameters read. */
     std::shared_ptr<Geometry> geometry;
-    /** "full", "b-bar", "incompatible modes" or "F-bar"; "automatic" is replaced
-     * by the scene (see automatic_element()). */
-    std::string        element_name = "automatic";
-    MaterialParameters material;
+    /** "automatic" is replaced by the scene (see automatic_element()). */
+    Keyword<ElementType> element_type{ElementType::automatic,
+                                      {{"automatic", ElementType::automatic},
+                                       {"full", ElementType::full},
+                                       {"b-bar", ElementType::b_bar},
+                                       {"incompatible modes", ElementType::incompatible_modes},
+                                       {"F-bar", ElementType::f_bar}}};
+    MaterialParameters   material;
     /** Boundaries on which the normal displacement is zero (must be plane). */
     std::vector<std::string> symmetry;
     /** Boundaries on which all displacements are zero. */
@@ -60,11 +67,14 @@ namespace Touchstone
     std::string
     section() const;
     ElementType
-    element() const;
+    element() const
+    {
+      return element_type;
+    }
     /** @brief What "automatic" stands for: full for degree 2; for degree 1 F-bar
      * with a law for finite strain, b-bar with plasticity at small strain, and else
      * incompatible modes. */
-    std::string
+    ElementType
     automatic_element(unsigned int degree) const;
 
     /**
@@ -74,13 +84,8 @@ namespace Touchstone
      */
     void
     declare(dealii::ParameterHandler &prm, const EarlyValues &values);
-    /** @param degree Polynomial degree of the discretisation. */
     void
-    check(unsigned int degree) const;
-
-  private:
-    void
-    check_element(unsigned int degree) const;
+    check() const;
   };
 } // namespace Touchstone
 

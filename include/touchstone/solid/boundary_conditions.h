@@ -39,7 +39,7 @@ namespace Touchstone
   public:
     /** @throws InputError for boundaries that do not exist, and for a symmetry
      * boundary that is not plane. */
-    BoundaryConditions(const Scene &scene, const Forest &forest, const Solid &solid);
+    BoundaryConditions(const Forest &forest, const Solid &solid);
 
     /** @brief Nodal forces of tractions, pressures and body forces at time @p t in the displacement
      * @p u, which matters to pressures that follow the surface only. Collective.

@@ -1,6 +1,7 @@
 #ifndef touchstone_solid_boundary_parameters_h
 #define touchstone_solid_boundary_parameters_h
 
+#include <touchstone/base/keyword.h>
 #include <touchstone/solid/material_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -25,16 +26,26 @@ namespace Touchstone
     /** Pressure against the outward normal, force per area: of the deformed surface if
      * it follows that. */
     std::string pressure;
-    /** What the pressure follows: "surface", "nothing", or "automatic". */
-    std::string pressure_follows = "automatic";
+    /** What the pressure follows: the deformed surface, or nothing (a dead load); automatic:
+     * the surface if the law of the material is for finite strain. */
+    enum class Follows
+    {
+      automatic,
+      surface,
+      nothing
+    };
+    Keyword<Follows> pressure_follows{Follows::automatic,
+                                      {{"automatic", Follows::automatic},
+                                       {"surface", Follows::surface},
+                                       {"nothing", Follows::nothing}}};
 
     /** @brief The pressure acts on the deformed surface: as the key says, and if that
      * says nothing for materials with a law for finite strain. */
     bool
     follows(const MaterialParameters &material) const
     {
-      return pressure_follows == "surface" ||
-             (pressure_follows == "automatic" && material.finite_strain());
+      return pressure_follows == Follows::surface ||
+             (pressure_follows == Follows::automatic && material.finite_strain());
     }
 
     /** @brief The formulas by their keys, the pressure first; empty ones too. */

@@ -48,6 +48,13 @@ namespace Touchstone
       return law;
     }
 
+    /** @brief Time since the committed state, see MaterialInput. */
+    void
+    set_step_length(const double length)
+    {
+      step_length = length;
+    }
+
     /** @brief Numbers of history of a cell: those of its points one after the other. */
     unsigned int
     n_state() const
@@ -212,6 +219,7 @@ namespace Touchstone
     std::vector<double> unit_weights;
     std::vector<double> virgin, present_state;
     const double       *committed_state = nullptr;
+    double              step_length     = 0.;
     bool                all_solved      = true;
 
     std::vector<double> nodal_force, blocks, matrix;

@@ -16,7 +16,7 @@ namespace Touchstone
   struct Energies
   {
     double kinetic = 0., strain = 0.;
-    /** Dissipated by plastic flow. */
+    /** Dissipated by materials, by plastic flow for example. */
     double plastic = 0.;
     /** Work against the normal contact forces: taken by impacts, or stored in
      * springs of a penalty. */
@@ -31,6 +31,16 @@ namespace Touchstone
     double initial = 0.;
     /** The largest energy so far, to compare with. */
     double largest = 0.;
+
+    /** @brief For checkpoints. All members are named, so that this does not compile if one is
+     * forgotten. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      auto &[k, s, p, c, f, d, e, first, most] = *this;
+      archive &k &s &p &c &f &d &e &first &most;
+    }
 
     /** @brief What the bodies have. */
     double

@@ -17,7 +17,7 @@ namespace Touchstone
    * @param u With ghosts.
    */
   dealii::Vector<double>
-  jump_errors(const Scene &scene, const Solid &solid, const Vector &u);
+  jump_errors(const Solid &solid, const Vector &u);
 
   /**
    * @brief The same from the distance between the stress of the cells and the
@@ -27,7 +27,7 @@ namespace Touchstone
    * so that nothing is averaged over a contact.
    */
   dealii::Vector<double>
-  recovery_errors(const Scene &scene, const Solid &solid, const Vector &u);
+  recovery_errors(const Solid &solid, const Vector &u);
 } // namespace Touchstone
 
 #endif

@@ -2,7 +2,6 @@
 #define touchstone_solid_mass_h
 
 #include <touchstone/algebra/vector.h>
-#include <touchstone/scene/scene.h>
 #include <touchstone/solid/solid.h>
 
 #include <set>
@@ -10,6 +9,17 @@
 
 namespace Touchstone
 {
+  /** @brief How the mass of a cell is spread over its nodes. */
+  enum class MassKind
+  {
+    /** Integral of products of shape functions. */
+    consistent,
+    /** On the diagonal. */
+    lumped,
+    /** Integrated such that the errors of mesh and step cancel in the speed of waves. */
+    dispersion_corrected
+  };
+
   /**
    * @brief The mass of the bodies, as the matrix of their kinetic energy.
    *
@@ -36,7 +46,7 @@ namespace Touchstone
      * @param step     The time step, for the Courant numbers.
      * @throws InputError if too few nodes of a body would have mass. Collective.
      */
-    Mass(const Scene &scene, const Solid &solid, const std::set<Index> &massless, double step);
+    Mass(MassKind kind, const Solid &solid, const std::set<Index> &massless, double step);
 
     /** @brief y = M x; neither has ghosts. */
     void
@@ -63,7 +73,7 @@ namespace Touchstone
     /** Factors of the density of each cell, by its active index, that make up for the
      * moments that massless nodes would change. */
     static std::vector<double>
-    density_factors(const Scene           &scene,
+    density_factors(MassKind               kind,
                     const Solid           &solid,
                     const std::set<Index> &massless,
                     const Vector          &no_mass,

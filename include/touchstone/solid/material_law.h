@@ -10,11 +10,25 @@ namespace Touchstone
 {
   struct MaterialParameters;
 
-  /** @brief What a material answers at one quadrature point. */
+  /** @brief What a material is asked at one quadrature point. */
+  struct MaterialInput
+  {
+    /** Finite strain: deformation gradient F, det F > 0. Small strain: the displacement
+     * gradient, of which the symmetric part counts. */
+    const dealii::Tensor<2, dim> &deformation;
+    /** State at the end of the last step. */
+    const double *committed;
+    /** Time since then; 0 where no time passes: at the end of a step that has been committed,
+     * and for the stiffness before the first step. */
+    double step_length;
+  };
+
+  /** @brief What it answers. */
   struct MaterialResponse
   {
-    /** Energy per reference volume that is stored and dissipated from the committed state on:
-     * where the law is symmetric the stress is its derivative. */
+    /** Potential of the stress per reference volume, up to a constant of the step: the stress
+     * of a symmetric law is its derivative. The elastic energy, and what the step dissipates
+     * (half of that where the dissipation is quadratic in the rate). */
     double energy = 0.;
     /** Elastic energy per reference volume. */
     double elastic_energy = 0.;
@@ -44,10 +58,6 @@ namespace Touchstone
   class MaterialLaw
   {
   public:
-    /** Where laws with history keep the equivalent plastic strain and the plastic work per
-     * reference volume since the start. */
-    static constexpr unsigned int plastic_strain = 0, plastic_work = 1;
-
     virtual ~MaterialLaw() = default;
 
     /** @brief How many numbers of history a point has. */
@@ -69,6 +79,29 @@ namespace Touchstone
     {
     }
 
+    /** @brief Energy per reference volume that has been dissipated, or stored for good, since
+     * the start. */
+    virtual double
+    dissipation(const double * /*state*/) const
+    {
+      return 0.;
+    }
+
+    /** @brief Whether there is plastic flow: results then show the equivalent plastic
+     * strain. */
+    virtual bool
+    plastic() const
+    {
+      return false;
+    }
+
+    /** @brief Equivalent plastic strain of a plastic() law; no unit. */
+    virtual double
+    plastic_strain(const double * /*state*/) const
+    {
+      return 0.;
+    }
+
     /** @brief Whether the tangent is symmetric, A[i][J][k][L] = A[k][L][i][J]. */
     virtual bool
     symmetric() const
@@ -78,17 +111,13 @@ namespace Touchstone
 
     /**
      * @brief The response to a deformation that follows upon the committed state.
-     * @param deformation Finite strain: deformation gradient F, det F > 0. Small strain:
-     *                    the displacement gradient, of which the symmetric part counts.
-     * @param committed   State at the end of the last step.
-     * @param present     State that belongs to the deformation.
+     * @param present State that belongs to the deformation.
      */
     virtual void
-    respond(const dealii::Tensor<2, dim> &deformation,
-            const double                 *committed,
-            Demand                        demand,
-            MaterialResponse             &response,
-            double                       *present) const = 0;
+    respond(const MaterialInput &input,
+            Demand               demand,
+            MaterialResponse    &response,
+            double              *present) const = 0;
   };
 
   /** @brief A law with history for small strain. */

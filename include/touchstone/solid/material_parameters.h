@@ -52,9 +52,6 @@ namespace Touchstone
     {
       return law.name == "linear elastic";
     }
-    /** @brief Whether the law has history: it is a SmallStrainLaw or a FiniteStrainLaw. */
-    bool
-    plastic() const;
     /** @brief Whether the law is for finite strain. */
     bool
     finite_strain() const;

@@ -2,7 +2,7 @@
 #define touchstone_solid_nonlinear_cells_h
 
 #include <touchstone/algebra/matrix.h>
-#include <touchstone/scene/scene.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/cell_kernel.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -29,7 +29,7 @@ namespace Touchstone
   class NonlinearCells
   {
   public:
-    NonlinearCells(const Scene &scene, const dealii::FESystem<dim> &fe);
+    NonlinearCells(const std::vector<BodyParameters> &bodies, const dealii::FESystem<dim> &fe);
 
     /** @brief Find the cells, and where in @p stiffness their nodes are. */
     void
@@ -50,6 +50,17 @@ namespace Touchstone
     {
       return any_history;
     }
+
+    /** @brief Whether any body has a law with plastic flow; the same on all ranks. */
+    bool
+    plastic() const
+    {
+      return any_plastic;
+    }
+
+    /** @brief Time since the committed state for all materials, see MaterialInput. */
+    void
+    set_step_length(double length);
 
     /** @brief Whether all tangents are symmetric; the same on all ranks. */
     bool
@@ -129,7 +140,7 @@ namespace Touchstone
     law(unsigned int body) const;
 
     /** @brief Visit the quadrature points with history of the owned cells: body, active
-     * cell, reference volume, present state. */
+     * cell, reference volume, present state (for which law() has the meaning). */
     void
     for_each_state(
       const std::function<
@@ -148,7 +159,7 @@ namespace Touchstone
       std::size_t state;
     };
 
-    bool         any_body = false, any_history = false, all_symmetric = true;
+    bool         any_body = false, any_history = false, any_plastic = false, all_symmetric = true;
     unsigned int n_nodes;
     std::vector<std::unique_ptr<CellKernel>> kernels;
     std::vector<Cell>                        cells;

@@ -34,7 +34,7 @@ namespace Touchstone
   class RigidBodyModes
   {
   public:
-    RigidBodyModes(const Scene &scene, const Solid &solid);
+    explicit RigidBodyModes(const Solid &solid);
 
     const RigidMotions &
     motions() const
@@ -68,7 +68,6 @@ namespace Touchstone
                   double            smallest) const;
 
   private:
-    const Scene                    &scene;
     const Solid                    &solid;
     std::unique_ptr<RigidMotions>   rigid;
     std::vector<dealii::Point<dim>> centres;

@@ -3,7 +3,7 @@
 
 #include <touchstone/algebra/vector.h>
 #include <touchstone/mesh/forest.h>
-#include <touchstone/scene/scene.h>
+#include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/nonlinear_cells.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -28,12 +28,18 @@ namespace Touchstone
   class Solid
   {
   public:
-    Solid(const Scene &scene, const Forest &forest, MPI_Comm communicator);
+    /** @param bodies In the order of the forest; kept by reference.
+     * @param degree Polynomial degree of the displacements. */
+    Solid(const std::vector<BodyParameters> &bodies,
+          unsigned int                       degree,
+          const Forest                      &forest,
+          MPI_Comm                           communicator);
 
-    const dealii::FESystem<dim> fe;
-    const dealii::MappingQ<dim> mapping;
-    dealii::DoFHandler<dim>     dof_handler;
-    dealii::IndexSet            owned;
+    const std::vector<BodyParameters> &bodies;
+    const dealii::FESystem<dim>        fe;
+    const dealii::MappingQ<dim>        mapping;
+    dealii::DoFHandler<dim>            dof_handler;
+    dealii::IndexSet                   owned;
     /** Owned unknowns and those of ghost cells. */
     dealii::IndexSet relevant;
     const MPI_Comm   communicator;
@@ -131,7 +137,7 @@ namespace Touchstone
     std::vector<dealii::SymmetricTensor<2, dim>>
     cell_stress(const Vector &u) const;
 
-    /** @name History of the material (plasticity)
+    /** @name History of the material
      * The present state is a function of the committed one and of the displacement of the
      * last internal_force(). reinit() brings back virgin material. */
     /** @{ */
@@ -141,17 +147,34 @@ namespace Touchstone
       return nonlinear->has_history();
     }
 
-    /** @brief Keep the state of the last internal_force(). */
+    /** @brief Whether any law has plastic flow. */
+    bool
+    plastic() const
+    {
+      return nonlinear->plastic();
+    }
+
+    /** @brief Forces and stiffness are now those of a state that follows upon the committed
+     * one after the time @p length, until commit() or rollback(). */
+    void
+    begin_step(const double length)
+    {
+      nonlinear->set_step_length(length);
+    }
+
+    /** @brief Keep the state of the last internal_force(); no time passes any more. */
     void
     commit()
     {
       nonlinear->commit();
+      nonlinear->set_step_length(0.);
     }
 
     void
     rollback()
     {
       nonlinear->rollback();
+      nonlinear->set_step_length(0.);
     }
 
     /** @brief Committed state of an owned active cell; empty if it has none. The numbers of
@@ -183,14 +206,14 @@ namespace Touchstone
     unsigned int
     n_bodies() const
     {
-      return scene.bodies.size();
+      return bodies.size();
     }
 
-    /** @brief Plastic work of all bodies since the start, dissipated or, with hardening,
-     * stored for good in the material, at the state of the last internal_force(); force
-     * times length. Collective. */
+    /** @brief Energy that all bodies have dissipated, or stored for good, since the start, at
+     * the state of the last internal_force(): plastic work, for example; force times length.
+     * Collective. */
     double
-    plastic_dissipation() const;
+    dissipation() const;
 
     /** @brief Equivalent plastic strain averaged per owned cell, in the order of active cell
      * indices, zero elsewhere. */
@@ -198,15 +221,14 @@ namespace Touchstone
     cell_plastic_strain() const;
 
     /** @brief Largest equivalent plastic strain at a quadrature point by body number, of
-     * bodies with history. Collective. */
+     * bodies with plastic flow. Collective. */
     std::map<unsigned int, double>
     largest_plastic_strain() const;
     /** @} */
 
   private:
-    const Scene &scene;
-    Matrix       matrix;
-    bool         any_hanging = false;
+    Matrix matrix;
+    bool   any_hanging = false;
     /** Sum of the absolute entries of each owned row. */
     std::vector<double> row_sums;
     /** Behind a pointer: its kernels are scratch space of const functions. */

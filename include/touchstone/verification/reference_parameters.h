@@ -1,6 +1,8 @@
 #ifndef touchstone_verification_reference_parameters_h
 #define touchstone_verification_reference_parameters_h
 
+#include <touchstone/base/choice.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <map>
@@ -8,6 +10,9 @@
 
 namespace Touchstone
 {
+  class ReferenceSolution;
+  class Scene;
+
   /**
    * @brief Section "Reference solution": the exact answer that the result is
    * held against; what it gives stands under `errors` in summary.json.
@@ -16,7 +21,7 @@ namespace Touchstone
   {
     /** Name under which the reference is registered ("none",
      * "interference fit", "hertz", "uniform stress", ...). */
-    std::string type = "none";
+    Choice<Registry<ReferenceSolution, const Scene &>> type{"none"};
     /** The contact pair that is compared; empty: the first. */
     std::string pair;
     /** Named numbers that the type asks for ("radius: 10, pressure: 5"). */
@@ -28,8 +33,9 @@ namespace Touchstone
     std::map<std::string, double>
     numbers(const std::string &section) const;
 
+    /** @param values Of this section: the type decides on other keys. */
     void
-    declare(dealii::ParameterHandler &prm);
+    declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
   };

@@ -9,16 +9,16 @@ namespace Touchstone
   {
     constexpr int none = -1;
 
-    /** Where most of the neighbours have their place; the first of equals. */
+    /** The aggregate of most of the neighbours; of several the one that is met first. */
     int
-    most_frequent(const std::vector<int> &neighbours, const std::vector<int> &place)
+    most_frequent(const std::vector<int> &neighbours, const std::vector<int> &of_node)
     {
       std::map<int, int> votes;
       int                best = none, most = 0;
       for (const int j : neighbours)
-        if (place[j] != none && ++votes[place[j]] > most)
+        if (of_node[j] != none && ++votes[of_node[j]] > most)
           {
-            best = place[j];
+            best = of_node[j];
             most = votes[best];
           }
       return best;
@@ -41,31 +41,31 @@ namespace Touchstone
       }
 
     Aggregates        result;
-    std::vector<int> &place = result.of_node;
-    place.assign(n_nodes, none);
-    const auto free   = [&](const int j) { return place[j] == none; };
+    std::vector<int> &of_node = result.of_node;
+    of_node.assign(n_nodes, none);
+    const auto free   = [&](const int j) { return of_node[j] == none; };
     const auto gather = [&](const int root) {
       for (const int j : graph[root])
         if (free(j))
-          place[j] = result.n;
-      place[root] = result.n++;
+          of_node[j] = result.n;
+      of_node[root] = result.n++;
     };
     // Whole neighbourhoods that do not overlap.
     for (int i = 0; i < n_nodes; ++i)
       if (free(i) && !graph[i].empty() && std::all_of(graph[i].begin(), graph[i].end(), free))
         gather(i);
     // What is left between them joins one of them; what touches none makes its own.
-    const std::vector<int> whole = place;
+    const std::vector<int> whole = of_node;
     for (int i = 0; i < n_nodes; ++i)
       if (free(i))
-        place[i] = most_frequent(graph[i], whole);
+        of_node[i] = most_frequent(graph[i], whole);
     for (int i = 0; i < n_nodes; ++i)
       if (free(i))
         {
           if (std::any_of(graph[i].begin(), graph[i].end(), free))
             gather(i);
           else
-            place[i] = most_frequent(graph[i], place);
+            of_node[i] = most_frequent(graph[i], of_node);
         }
     return result;
   }

@@ -18,18 +18,18 @@ namespace Touchstone
     /** A block of P for ranks that refer to its node. */
     struct SentBlockOfP
     {
-      Index                            node, aggregate; // global numbers
+      Index                            node, aggregate; // global indices
       std::array<float, dim * n_modes> entries;
     };
 
     /** A block of P^T A P for the rank that owns its row. */
     struct SentCoarseBlock
     {
-      Index                                 row, column; // aggregates, global numbers
+      Index                                 row, column; // aggregates, global indices
       std::array<double, n_modes * n_modes> entries;
     };
 
-    /** Rows of P over nodes, by local numbers of nodes: where their blocks and the columns
+    /** Rows of P over nodes, by local indices of nodes: where their blocks and the columns
      * of these begin, and how many there are. */
     struct RowOfP
     {
@@ -42,7 +42,7 @@ namespace Touchstone
     TOUCHSTONE_VECTORISED void
     add_product(const RowOfBlocks<BlockRows::Block> &row,
                 const std::vector<RowOfP>           &p,
-                RowOfBlocks<OctetsOfNode>           &product)
+                RowOfBlocks<NodeRows>               &product)
     {
       for (unsigned int k = 0; k < row.columns.size(); ++k)
         {
@@ -56,9 +56,9 @@ namespace Touchstone
 
     /** to += p^T ap, of a block of P and one of A P. */
     TOUCHSTONE_VECTORISED void
-    add_transposed_product(const float *p, const OctetsOfNode &ap, Prolongation::AggregateBlock &to)
+    add_transposed_product(const float *p, const NodeRows &ap, Prolongation::AggregateBlock &to)
     {
-      const Octet ap0 = ap[0], ap1 = ap[1], ap2 = ap[2];
+      const Vector8 ap0 = ap[0], ap1 = ap[1], ap2 = ap[2];
       for (unsigned int i = 0; i < n_modes; ++i)
         to[i] +=
           double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 + double(p[2 * n_modes + i]) * ap2;
@@ -68,8 +68,8 @@ namespace Touchstone
     class AggregateRows : public BlockRows
     {
     public:
-      /** @param rows By global numbers of aggregates.
-       *  @param coarse Has the unknowns of this rank. */
+      /** @param rows By global indices of aggregates.
+       *  @param coarse Has the dofs of this rank. */
       AggregateRows(std::vector<Prolongation::AggregateRow> &&rows, const Partitioner &coarse)
         : BlockRows(make_partitioner(rows, coarse))
         , rows(std::move(rows))
@@ -82,7 +82,7 @@ namespace Touchstone
             for (unsigned int i = 0; i < n_modes; ++i)
               if (own[i][i] == 0.)
                 own[i][i] = 1.;
-            for (auto &[aggregate, place] : this->rows[row].places)
+            for (auto &[aggregate, position] : this->rows[row].positions)
               aggregate = static_cast<int>(
                 partitioner->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
           }
@@ -93,10 +93,10 @@ namespace Touchstone
       {
         present.clear();
         const Prolongation::AggregateRow &row = rows[node / n_parts];
-        for (const auto &[aggregate, place] : row.places)
+        for (const auto &[aggregate, position] : row.positions)
           for (unsigned int part = 0; part < n_parts; ++part)
             {
-              const Prolongation::AggregateBlock &from = row.blocks[place];
+              const Prolongation::AggregateBlock &from = row.blocks[position];
               Block &to = present.at(static_cast<int>(n_parts * aggregate + part));
               for (unsigned int r = 0; r < dim; ++r)
                 for (unsigned int c = 0; c < dim; ++c)
@@ -110,7 +110,7 @@ namespace Touchstone
       {
         std::size_t n = 0;
         for (const auto &row : rows)
-          n += row.places.size();
+          n += row.positions.size();
         return n_parts * n_parts * n;
       }
 
@@ -124,7 +124,7 @@ namespace Touchstone
       {
         std::vector<Index> far;
         for (const auto &row : rows)
-          for (const auto &[aggregate, place] : row.places)
+          for (const auto &[aggregate, position] : row.positions)
             for (unsigned int m = 0; m < n_modes; ++m)
               if (const Index i = n_modes * static_cast<Index>(aggregate) + m;
                   !coarse.in_local_range(i))
@@ -200,7 +200,7 @@ namespace Touchstone
     // Row by row of A P, added to the rows of the aggregates to which the node belongs.
     std::vector<AggregateRow> sums((coarse->locally_owned_size() + coarse->n_ghost_indices()) /
                                    n_modes);
-    RowOfBlocks<OctetsOfNode> product;
+    RowOfBlocks<NodeRows>     product;
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
         product.clear();
@@ -221,9 +221,9 @@ namespace Touchstone
   {
     for (AggregateRow &part : parts)
       {
-        for (auto &[aggregate, place] : part.places)
+        for (auto &[aggregate, position] : part.positions)
           aggregate = global[aggregate];
-        std::sort(part.places.begin(), part.places.end());
+        std::sort(part.positions.begin(), part.positions.end());
       }
 
     // What belongs to other ranks goes there.
@@ -234,10 +234,10 @@ namespace Touchstone
       {
         auto &to = messages[rank];
         for (const unsigned int end = row + n / n_modes; row < end; ++row)
-          for (const auto &[aggregate, place] : parts[row].places)
+          for (const auto &[aggregate, position] : parts[row].positions)
             {
               to.push_back({static_cast<Index>(global[row]), static_cast<Index>(aggregate), {}});
-              const AggregateBlock &from = parts[row].blocks[place];
+              const AggregateBlock &from = parts[row].blocks[position];
               for (unsigned int i = 0; i < n_modes; ++i)
                 for (unsigned int m = 0; m < n_modes; ++m)
                   to.back().entries[n_modes * i + m] = from[i][m];
@@ -260,7 +260,7 @@ namespace Touchstone
   std::unique_ptr<BlockRows>
   Prolongation::galerkin(BlockRows &matrix) const
   {
-    // Aggregates by local numbers: those of the rows of this rank first, then what their
+    // Aggregates by local indices: those of the rows of this rank first, then what their
     // neighbours' rows refer to.
     std::vector<int> known;
     for (unsigned int i = 0; i < coarse->locally_owned_size() + coarse->n_ghost_indices();

@@ -22,7 +22,7 @@ namespace Touchstone
     constexpr unsigned int estimate_iterations = 10;
     constexpr double       margin              = 1.2;
 
-    /** Unknowns of a system that is solved directly. */
+    /** Dofs of a system that is solved directly. */
     constexpr Index few = 1000;
 
     /** Whatever one rank meets, all leave. */

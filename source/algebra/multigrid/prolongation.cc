@@ -56,7 +56,7 @@ namespace Touchstone
       return graph;
     }
 
-    /** Orthonormal columns from the motions of an aggregate, in place, and the factor that
+    /** Orthonormal columns from the motions of an aggregate, in column_of, and the factor that
      * takes them back; columns that depend on those before them become zero. */
     Factor
     orthonormalise(std::vector<Modes> &q)
@@ -104,35 +104,35 @@ namespace Touchstone
       return result;
     }
 
-    /** row += (1 - damping A) P_0, of a node: a motion of its own, if it has a place, less
+    /** row += (1 - damping A) P_0, of a node: a motion of its own, if it is in an aggregate, less
      * those that its neighbours take. */
     TOUCHSTONE_VECTORISED void
     add_smoothed(const BlockMatrix<float>::Rows::Row &of_matrix,
                  const unsigned int                   node,
                  const std::array<double, dim>       &damping,
-                 const std::vector<int>              &place,
+                 const std::vector<int>              &column_of,
                  const std::vector<float>            &tentative,
-                 RowOfBlocks<OctetsOfNode>           &row)
+                 RowOfBlocks<NodeRows>               &row)
     {
       constexpr unsigned int block = dim * Prolongation::n_modes;
-      if (place[node] >= 0)
+      if (column_of[node] >= 0)
         {
           const BlockRows::Block one = {{1., 0., 0., 0., 1., 0., 0., 0., 1.}};
-          add_product(one, tentative.data() + block * node, row.at(place[node]));
+          add_product(one, tentative.data() + block * node, row.at(column_of[node]));
         }
       for (std::size_t k = 0; k < of_matrix.columns.size(); ++k)
-        if (const unsigned int other = of_matrix.columns[k]; place[other] >= 0)
+        if (const unsigned int other = of_matrix.columns[k]; column_of[other] >= 0)
           {
             BlockRows::Block a;
             for (unsigned int r = 0; r < dim; ++r)
               for (unsigned int c = 0; c < dim; ++c)
                 a[dim * r + c] = -damping[r] * of_matrix.blocks[k][dim * c + r];
-            add_product(a, tentative.data() + block * other, row.at(place[other]));
+            add_product(a, tentative.data() + block * other, row.at(column_of[other]));
           }
     }
 
-    /** An aggregate without place. */
-    constexpr double nowhere = -1.;
+    /** Of nodes that belong to no aggregate. */
+    constexpr double no_aggregate = -1.;
   } // namespace
 
 
@@ -165,7 +165,7 @@ namespace Touchstone
     coarse_kernel          = std::make_unique<Epetra_MultiVector>(coarse_map, n_modes);
     body_of_aggregate.resize(aggregates.n);
     std::vector<std::vector<double>> tentative(n_modes, std::vector<double>(dim * n_nodes, 0.));
-    std::vector<double>              target(dim * n_nodes, nowhere);
+    std::vector<double>              target(dim * n_nodes, no_aggregate);
     const unsigned int               n_given = near_kernel.NumVectors();
     std::vector<Modes>               q;
     for (int a = 0; a < aggregates.n; ++a)
@@ -199,7 +199,7 @@ namespace Touchstone
     const unsigned int n_local = fine->locally_owned_size() + fine->n_ghost_indices();
     std::vector<Index> far;
     for (unsigned int i = fine->locally_owned_size(); i < n_local; ++i)
-      if (aim->local_element(i) != nowhere)
+      if (aim->local_element(i) != no_aggregate)
         for (unsigned int m = 0; m < n_modes; ++m)
           far.push_back(n_modes * static_cast<Index>(aim->local_element(i)) + m);
     std::sort(far.begin(), far.end());
@@ -210,20 +210,20 @@ namespace Touchstone
     coarse = std::make_shared<Partitioner>(owned, ghosts, fine->get_mpi_communicator());
 
     // P = (1 - omega D^-1 A) P_0, with the omega that makes the motions cost the least.
-    std::vector<int>   place(n_local / dim, -1);
-    std::vector<float> tentative_blocks(block * place.size() + 2);
-    for (unsigned int node = 0; node < place.size(); ++node)
-      if (const double aggregate = aim->local_element(dim * node); aggregate != nowhere)
+    std::vector<int>   column_of(n_local / dim, -1);
+    std::vector<float> tentative_blocks(block * column_of.size() + 2);
+    for (unsigned int node = 0; node < column_of.size(); ++node)
+      if (const double aggregate = aim->local_element(dim * node); aggregate != no_aggregate)
         {
-          place[node] = static_cast<int>(
+          column_of[node] = static_cast<int>(
             coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
           for (unsigned int r = 0; r < dim; ++r)
             for (unsigned int m = 0; m < n_modes; ++m)
               tentative_blocks[block * node + n_modes * r + m] =
                 static_cast<float>(shape[m]->local_element(dim * node + r));
         }
-    const double              omega = 4. / 3. / largest;
-    RowOfBlocks<OctetsOfNode> row;
+    const double          omega = 4. / 3. / largest;
+    RowOfBlocks<NodeRows> row;
     start.push_back(0);
     // Seldom more; what is not used is address space and no memory.
     constexpr std::size_t enough = 8;
@@ -235,7 +235,7 @@ namespace Touchstone
         for (unsigned int r = 0; r < dim; ++r)
           damping[r] = omega / diagonal[dim * node + r];
         row.clear();
-        add_smoothed(rows.read(node), node, damping, place, tentative_blocks, row);
+        add_smoothed(rows.read(node), node, damping, column_of, tentative_blocks, row);
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           {
             column.push_back(row.columns[k]);

@@ -1,4 +1,6 @@
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/friction/friction_response.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -11,12 +13,12 @@ namespace Touchstone
 
   namespace
   {
-    /** The state that a row asks for, and how strongly: a nondimensional gap, 0 if
-     * it asks for nothing. */
-    struct Wish
+    /** The status that a row should have, and how strongly its present one is violated: a
+     * nondimensional gap, 0 if it is not. */
+    struct StatusViolation
     {
-      double        strength = 0.;
-      ContactStatus status   = ContactStatus::open;
+      double        size   = 0.;
+      ContactStatus status = ContactStatus::open;
     };
 
     /** Relative distance from the friction cone at which a node is taken to be on
@@ -34,9 +36,9 @@ namespace Touchstone
     {
       if (!row.friction)
         return ContactStatus::slip;
-      const FrictionState &f = *row.friction;
-      return (f.start - row.stiffness * f.slip).norm() >
-                 f.cone(-row.stiffness * row.gap, /*sliding=*/false).force
+      const SlipKinematics &k = row.friction->kinematics;
+      return (k.start - row.stiffness * k.slip).norm() >
+                 row.friction->cone(-row.stiffness * row.gap, /*sliding=*/false).force
                ? ContactStatus::slip
                : ContactStatus::stick;
     }
@@ -46,38 +48,39 @@ namespace Touchstone
     /** Slip that friction should not have let happen: all of it while sticking, else what is
      * across the force, or what the error of the force would move an elastic body by. */
     double
-    slip_off_direction(const ContactRow &row)
+    slip_off_direction(const ContactRow &row, const RowState &state)
     {
-      const FrictionState &f = *row.friction;
-      if (row.status == ContactStatus::stick)
-        return f.slip.norm();
-      const double slip = f.slip.norm();
-      if (row.status != ContactStatus::slip || slip == 0.)
+      const FrictionForce  &f    = state.friction;
+      const Tensor<1, dim> &slip = row.friction->kinematics.slip;
+      const double          size = slip.norm();
+      if (state.status == ContactStatus::stick)
+        return size;
+      if (state.status != ContactStatus::slip || size == 0.)
         return 0.;
-      const double across = (f.slip - (f.slip * f.direction) * f.direction).norm();
-      return across * std::min(1., f.limit / (row.stiffness * slip));
+      const double across = (slip - (slip * f.direction) * f.direction).norm();
+      return across * std::min(1., f.limit / (row.stiffness * size));
     }
 
 
 
-    Wish
-    wish(const ContactRow &row, const double gap_tolerance)
+    StatusViolation
+    status_violation(const ContactRow &row, const RowState &state, const double gap_tolerance)
     {
-      if (row.tied || row.status == ContactStatus::no_partner)
+      if (row.tied || state.status == ContactStatus::no_partner)
         return {};
-      if (!row.active())
+      if (!state.active())
         return {-row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.,
                 status_of_closing(row)};
       const double scale = row.stiffness * row.size;
-      const double trial = row.lambda / scale - row.gap / row.size;
+      const double trial = state.lambda / scale - row.gap / row.size;
       if (trial < -gap_tolerance)
         return {-trial, ContactStatus::open};
-      if (!row.friction || row.dropped())
+      if (!row.friction || state.dropped())
         return {};
-      const FrictionState &f = *row.friction;
+      const FrictionForce &f = state.friction;
       // The second part is what round-off makes of a slip.
       const double tolerance = on_the_cone * f.limit + 1e-4 * gap_tolerance * scale;
-      if (row.status == ContactStatus::stick)
+      if (state.status == ContactStatus::stick)
         return {f.excess > tolerance ? f.excess / scale : 0., ContactStatus::slip};
       // Slip that turns round within an iteration has come to rest on the way: left
       // to slip, the node would go back and forth for ever.
@@ -90,139 +93,162 @@ namespace Touchstone
 
 
 
-    void
-    change_status(ContactRow &row, const ContactStatus status)
+    /** What the state of a row misses of the conditions that it should meet, relative to the size
+     * of the faces. */
+    double
+    violated_gap(const ContactRow &row, const RowState &state)
     {
-      const bool was_active = row.active();
-      row.status            = status;
-      if (!was_active || !row.active())
-        {
-          row.clear_force();
-          if (row.friction && row.active())
-            {
-              row.friction->base = row.friction->start;
-              // Springs of regularised friction resist from the next linear system on; their
-              // force acts after it.
-              if (row.friction->carried)
-                respond(row);
-              row.force = Tensor<1, dim>();
-            }
-          return;
-        }
-      if (row.status == ContactStatus::stick && !row.friction->carried)
-        {
-          // The force stays what it is until the next solution.
-          row.friction->base           = row.force - row.lambda * row.normal;
-          row.friction->last_direction = Tensor<1, dim>();
-        }
-      respond(row);
+      double gap = 0.;
+      if ((row.tied ? state.refused == 0 : state.normal_accepted) &&
+          (state.active() || row.gap < 0.))
+        gap = (row.tied ? row.gap_vector.norm() - state.admissible_gap
+                        : std::abs(row.gap - (state.active() ? state.admissible_gap : 0.))) /
+              row.size;
+      if (!row.friction)
+        return gap;
+      // What is left of a gap is elastic slip of the other rows of a shared node, and so
+      // friction.
+      if (state.friction.shared && state.active() && state.normal_accepted)
+        gap = std::max(gap,
+                       std::abs(row.gap - state.admissible_gap) / row.size * state.friction.c /
+                         row.stiffness);
+      // What sticks without elastic slip must not have moved.
+      if (!state.friction.carried && !state.dropped())
+        gap = std::max(gap, slip_off_direction(row, state) / row.size);
+      return gap;
+    }
+
+
+
+    /** A position of a row in an order that does not depend on the partition, as the numbers of
+     * nodes do. */
+    std::vector<double>
+    order(const ContactRow &row)
+    {
+      const Point<dim> &x = row.reference;
+      return {static_cast<double>(row.pair), x[0], x[1], x[2]};
+    }
+
+
+
+    /** The first row in this order, over all ranks, whose status is violated. */
+    std::vector<double>
+    first_violated(const ContactRows                               &rows,
+                   const std::function<double(const ContactRow &)> &violation,
+                   const MPI_Comm                                   communicator)
+    {
+      std::vector<double> first;
+      for (const ContactRow &row : rows)
+        if (violation(row) > 0. && (first.empty() || order(row) < first))
+          first = order(row);
+      for (const auto &other : Utilities::MPI::all_gather(communicator, first))
+        if (!other.empty() && (first.empty() || other < first))
+          first = other;
+      return first;
+    }
+
+
+
+    /** A number that identifies the status of a row; a sum of well-mixed numbers does not depend
+     * on the partition. */
+    std::uint64_t
+    signature(const ContactRow &row, const ContactStatus status)
+    {
+      std::uint64_t h =
+        (row.slave + 1) * 0x9E3779B97F4A7C15ull + 8 * row.pair + static_cast<std::uint64_t>(status);
+      h ^= h >> 31;
+      h *= 0xBF58476D1CE4E5B9ull;
+      return h ^ (h >> 27);
     }
   } // namespace
 
 
 
-  std::vector<double>
-  Contact::order(const ContactRow &row) const
+  void
+  Enforcement::change_status(const ContactRow &row, const ContactStatus status)
   {
-    // Numbers of nodes depend on the partition, places do not.
-    const auto      &nodes = pairs[row.pair].slave->owned_nodes();
-    const auto       found = std::lower_bound(nodes.begin(),
-                                        nodes.end(),
-                                        row.slave,
-                                        [](const SurfaceNode &node, const Index index) {
-                                          return node.node < index;
-                                        });
-    const Point<dim> x     = found->reference;
-    return {static_cast<double>(row.pair), x[0], x[1], x[2]};
+    RowState  &state      = row_states[row];
+    const bool was_active = state.active();
+    state.status          = status;
+    if (!was_active || !state.active())
+      {
+        clear(row);
+        if (row.friction && state.active())
+          {
+            state.friction.base = row.friction->kinematics.start;
+            // Springs of regularised friction resist from the next linear system on; their
+            // force acts after it.
+            if (state.friction.carried)
+              friction_response(row, state.status, state.lambda, state.friction);
+          }
+        return;
+      }
+    if (state.status == ContactStatus::stick && !state.friction.carried)
+      {
+        // The force stays what it is until the next solution.
+        state.friction.base           = state.force - state.lambda * row.normal;
+        state.friction.last_direction = Tensor<1, dim>();
+      }
+    evaluate_force(row, state);
   }
 
 
 
-  std::vector<double>
-  Contact::first_in_order(const std::function<double(const ContactRow &)> &demand) const
+  ActiveSetUpdate
+  Enforcement::update_active_set(const Contact     &contact,
+                                 const double       gap_tolerance,
+                                 const unsigned int damping)
   {
-    std::vector<double> first;
-    for (const auto &pair_rows : rows)
-      for (const ContactRow &row : pair_rows)
-        if (demand(row) > 0. && (first.empty() || order(row) < first))
-          first = order(row);
-    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, first))
-      if (!other.empty() && (first.empty() || other < first))
-        first = other;
-    return first;
-  }
+    const MPI_Comm     communicator = contact.communicator();
+    const ContactRows &rows         = contact.rows();
+    const auto         violation    = [&](const ContactRow &row) {
+      return status_violation(row, row_states[row], gap_tolerance).size;
+    };
 
-
-
-  Contact::ActiveSetUpdate
-  Contact::update_active_set(const double gap_tolerance, const unsigned int caution)
-  {
-    const auto demand = [&](const ContactRow &row) { return wish(row, gap_tolerance).strength; };
-
-    // With caution only the rows that ask more than half as strongly as the
-    // strongest change, then only the first row that asks at all: that rule ends
+    // With damping only the rows whose status is violated more than half as much as the
+    // worst change, then only the first row that is violated at all: that rule ends
     // for every linear problem with a unique solution.
     // Murty (1974), Math. Programming 7.
     double              threshold = 0.;
     std::vector<double> only;
-    if (caution == 1)
+    if (damping == 1)
       {
-        for (const auto &pair_rows : rows)
-          for (const ContactRow &row : pair_rows)
-            threshold = std::max(threshold, demand(row));
-        threshold = 0.5 * Utilities::MPI::max(threshold, solid.communicator);
+        for (const ContactRow &row : rows)
+          threshold = std::max(threshold, violation(row));
+        threshold = 0.5 * Utilities::MPI::max(threshold, communicator);
       }
-    else if (caution > 1)
-      only = first_in_order(demand);
+    else if (damping > 1)
+      only = first_violated(rows, violation, communicator);
 
     ActiveSetUpdate result;
-    for (auto &pair_rows : rows)
-      for (ContactRow &row : pair_rows)
-        {
-          if (row.status == ContactStatus::no_partner)
-            {
-              if (row.lambda != 0. || row.force.norm() != 0.)
-                ++result.changes;
-              row.clear_force();
-              continue;
-            }
-          if ((row.tied ? row.refused == 0 : row.normal_accepted) && (row.active() || row.gap < 0.))
-            result.gap =
-              std::max(result.gap,
-                       (row.tied ? row.gap_vector.norm() - row.granted_gap
-                                 : std::abs(row.gap - (row.active() ? row.granted_gap : 0.))) /
-                         row.size);
-          // What is left of a gap is elastic slip of the other rows of a shared node, and so
-          // friction.
-          if (row.friction && row.friction->shared && row.active() && row.normal_accepted)
-            result.gap = std::max(result.gap,
-                                  std::abs(row.gap - row.granted_gap) / row.size * row.friction->c /
-                                    row.stiffness);
-          // What sticks without elastic slip must not have moved.
-          if (row.friction && !row.friction->carried && !row.dropped())
-            result.gap = std::max(result.gap, slip_off_direction(row) / row.size);
-          const Wish next = wish(row, gap_tolerance);
-          if (next.strength > 0. && next.strength >= threshold &&
-              (only.empty() || only == order(row)))
-            {
-              change_status(row, next.status);
+    for (const ContactRow &row : rows)
+      {
+        RowState &state = row_states[row];
+        if (state.status == ContactStatus::no_partner)
+          {
+            if (state.lambda != 0. || state.force.norm() != 0.)
               ++result.changes;
-            }
-          if (row.active())
-            {
-              ++result.active;
-              // A sum of well-mixed numbers does not depend on the partition.
-              std::uint64_t h = (row.slave + 1) * 0x9E3779B97F4A7C15ull + 8 * row.pair +
-                                static_cast<std::uint64_t>(row.status);
-              h ^= h >> 31;
-              h *= 0xBF58476D1CE4E5B9ull;
-              result.signature += h ^ (h >> 27);
-            }
-        }
-    result.gap       = Utilities::MPI::max(result.gap, solid.communicator);
-    result.active    = Utilities::MPI::sum(result.active, solid.communicator);
-    result.changes   = Utilities::MPI::sum(result.changes, solid.communicator);
-    result.signature = Utilities::MPI::sum(result.signature, solid.communicator);
+            clear(row);
+            continue;
+          }
+        result.gap                 = std::max(result.gap, violated_gap(row, state));
+        const StatusViolation next = status_violation(row, state, gap_tolerance);
+        if (next.size > 0. && next.size >= threshold && (only.empty() || only == order(row)))
+          {
+            change_status(row, next.status);
+            ++result.changes;
+            result.changed.push_back(&row);
+          }
+        if (state.active())
+          {
+            ++result.active;
+            result.signature += signature(row, state.status);
+          }
+      }
+    result.gap       = Utilities::MPI::max(result.gap, communicator);
+    result.active    = Utilities::MPI::sum(result.active, communicator);
+    result.changes   = Utilities::MPI::sum(result.changes, communicator);
+    result.signature = Utilities::MPI::sum(result.signature, communicator);
     return result;
   }
 } // namespace Touchstone

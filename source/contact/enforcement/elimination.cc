@@ -1,5 +1,7 @@
+#include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/exact_enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/friction/friction_response.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -21,14 +23,14 @@ namespace Touchstone
       {
       }
 
+    protected:
       /** Whatever is not round-off must not lead back. */
       double
-      smallest_circle() const override
+      cycle_threshold() const override
       {
         return 1e-12;
       }
 
-    protected:
       ConstraintGraph::Treatment
       treatment(const ContactRow &row) const override
       {
@@ -37,17 +39,17 @@ namespace Touchstone
       }
 
       void
-      prepare(Contact &contact, LinearSystem &system) override
+      prepare(const Contact &contact, LinearSystem &system) override
       {
         const MPI_Comm communicator = system.rhs.get_mpi_communicator();
         kept.clear();
         eliminated = active_slaves(contact, communicator);
         if (system.takes_multipliers && !system.keep_symmetric)
           {
-            for (auto &pair_rows : contact.rows)
-              for (ContactRow &row : pair_rows)
-                if (row.active() && row.friction && row.derivative && refers_to_others(row))
-                  kept.insert({row.pair, row.slave});
+            for (const ContactRow &row : contact.rows())
+              if (row_states[row].active() && row.friction && row.derivative &&
+                  refers_to_others(row))
+                kept.insert({row.pair, row.slave});
             for (const auto &of_rank : Utilities::MPI::all_gather(
                    communicator,
                    std::vector<std::pair<unsigned int, Index>>(kept.begin(), kept.end())))
@@ -55,9 +57,8 @@ namespace Touchstone
                 eliminated.erase(slave);
           }
         if (system.keep_symmetric)
-          for (auto &pair_rows : contact.rows)
-            for (ContactRow &row : pair_rows)
-              lag_friction(row, row.lambda);
+          for (const ContactRow &row : contact.rows())
+            lag_friction(row, row_states[row], row_states[row].lambda);
       }
 
       /** Slave nodes whose conditions refer to each other cannot all be eliminated: each
@@ -109,8 +110,8 @@ namespace Touchstone
       refers_to_others(const ContactRow &row) const
       {
         constexpr double much = 0.05;
-        ContactRow       copy(row);
-        for (const Condition &condition : start_row(copy, /*keep_symmetric=*/false))
+        for (const Condition &condition :
+             row_conditions(row, row_states[row], /*keep_symmetric=*/false))
           {
             double others = 0.;
             for (const auto &[node, coefficients] : condition.gradient)
@@ -124,18 +125,17 @@ namespace Touchstone
 
       /** Pairs and slave nodes of all active rows, if any of this rank's rows has a
        * derivative. Collective. */
-      static Slaves
-      active_slaves(const Contact &contact, const MPI_Comm communicator)
+      Slaves
+      active_slaves(const Contact &contact, const MPI_Comm communicator) const
       {
         int                                         needed = 0;
         std::vector<std::pair<unsigned int, Index>> mine;
-        for (const auto &pair_rows : contact.rows)
-          for (const ContactRow &row : pair_rows)
-            if (row.active())
-              {
-                mine.emplace_back(row.pair, row.slave);
-                needed |= (row.derivative != nullptr);
-              }
+        for (const ContactRow &row : contact.rows())
+          if (row_states[row].active())
+            {
+              mine.emplace_back(row.pair, row.slave);
+              needed |= (row.derivative != nullptr);
+            }
         Slaves all;
         if (Utilities::MPI::max(needed, communicator) == 1)
           for (const auto &of_rank : Utilities::MPI::all_gather(communicator, mine))

@@ -1,5 +1,7 @@
+#include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/exact_enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/friction/friction_response.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -11,49 +13,50 @@ namespace Touchstone
   using namespace dealii;
 
   void
-  ExactEnforcement::recover(Contact &contact, const Vector &, const ConstraintGraph &)
+  ExactEnforcement::evaluate(const Contact &contact, const Vector &, const ConstraintGraph &)
   {
-    for (auto &pair_rows : contact.rows)
-      for (ContactRow &row : pair_rows)
-        {
-          // Of open rows, too: they may close before the next linear system.
-          if (row.friction)
-            choose_friction(row);
-          if (!row.active() || row.tied)
-            continue;
-          if (solved && row.held())
-            row.friction->augment_unheld(row.stiffness);
-          respond(row);
-        }
+    for (const ContactRow &row : contact.rows())
+      {
+        RowState &state = row_states[row];
+        // Of open rows, too: they may close before the next linear system.
+        if (row.friction)
+          choose_friction(row, state);
+        if (!state.active() || row.tied)
+          continue;
+        if (solved && state.fully_constrained())
+          augment_unconstrained(row, state);
+        evaluate_force(row, state);
+      }
     solved = false;
   }
 
 
 
   void
-  ExactEnforcement::enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system)
+  ExactEnforcement::constrain(const Contact &contact, ConstraintGraph &graph, LinearSystem &system)
   {
     accepted.clear();
     prepare(contact, system);
-    const auto offer = [&](ContactRow &row, Condition &condition) {
+    const auto offer = [&](const ContactRow &row, Condition &condition) {
       const ConstraintGraph::Treatment way = treatment(row);
       adjust(row, condition);
-      if (row.take(condition, graph.accept(condition, way)))
-        accepted.push_back({&row, condition, graph.accepted().size() - 1, way});
+      if (row_states[row].record(condition, graph.accept(condition, way)))
+        accepted.push_back({&row, condition, graph.accepted().size() - 1, way, row.normal});
     };
-    // Nothing may penetrate: what closes gaps precedes what holds nodes along surfaces.
-    std::vector<std::pair<ContactRow *, std::vector<Condition>>> stick;
-    for (auto &pair_rows : contact.rows)
-      for (ContactRow &row : pair_rows)
-        {
-          std::vector<Condition> conditions = start_row(row, system.keep_symmetric);
-          const std::size_t      n          = row.tied ? conditions.size() : 1;
-          for (std::size_t k = 0; k < std::min(n, conditions.size()); ++k)
-            offer(row, conditions[k]);
-          if (conditions.size() > n)
-            stick.emplace_back(&row,
-                               std::vector<Condition>(conditions.begin() + n, conditions.end()));
-        }
+    // Nothing may penetrate: what closes gaps precedes what constrains nodes along surfaces.
+    std::vector<std::pair<const ContactRow *, std::vector<Condition>>> stick;
+    for (const ContactRow &row : contact.rows())
+      {
+        start_row(row_states[row]);
+        std::vector<Condition> conditions =
+          row_conditions(row, row_states[row], system.keep_symmetric);
+        const std::size_t n = row.tied ? conditions.size() : 1;
+        for (std::size_t k = 0; k < std::min(n, conditions.size()); ++k)
+          offer(row, conditions[k]);
+        if (conditions.size() > n)
+          stick.emplace_back(&row,
+                             std::vector<Condition>(conditions.begin() + n, conditions.end()));
+      }
     for (auto &[row, conditions] : stick)
       for (Condition &condition : conditions)
         offer(*row, condition);
@@ -113,24 +116,25 @@ namespace Touchstone
 
 
   void
-  ExactEnforcement::update(Contact &)
+  ExactEnforcement::set_forces(const Contact &)
   {
     for (const Accepted &entry : accepted)
-      entry.row->force = Tensor<1, dim>();
+      row_states[*entry.row].force = Tensor<1, dim>();
     for (std::size_t k = 0; k < accepted.size(); ++k)
-      accepted[k].row->force += forces[k] * accepted[k].condition.direction;
-    std::set<ContactRow *> found;
+      row_states[*accepted[k].row].force += forces[k] * accepted[k].condition.direction;
+    std::set<const ContactRow *> found;
     for (const Accepted &entry : accepted)
       {
-        ContactRow &row = *entry.row;
+        const ContactRow &row = *entry.row;
         if (!found.insert(&row).second)
           continue;
-        row.lambda = row.force * row.normal;
-        if (!row.friction || !row.held())
+        RowState &state = row_states[row];
+        state.lambda    = state.force * entry.normal;
+        if (!row.friction || !state.fully_constrained())
           continue;
-        for (const Tensor<1, dim> &tangent : row.friction->unheld)
-          row.force += (row.friction->base * tangent) * tangent;
-        row.friction->base = row.force - row.lambda * row.normal;
+        for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
+          state.force += (state.friction.base * tangent) * tangent;
+        state.friction.base = state.force - state.lambda * entry.normal;
       }
     solved = true;
   }

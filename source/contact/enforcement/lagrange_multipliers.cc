@@ -15,6 +15,12 @@ namespace Touchstone
       {
       }
 
+      bool
+      uses_multipliers() const override
+      {
+        return true;
+      }
+
     protected:
       ConstraintGraph::Treatment
       treatment(const ContactRow &) const override
@@ -23,7 +29,7 @@ namespace Touchstone
       }
 
       void
-      prepare(Contact &, LinearSystem &system) override
+      prepare(const Contact &, LinearSystem &system) override
       {
         // Whatever the solver is.
         system.takes_multipliers = true;

@@ -1,5 +1,7 @@
+#include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/friction/friction_response.h>
 
 #include <cmath>
 #include <limits>
@@ -23,7 +25,8 @@ namespace Touchstone
     public:
       /** @param factor Spring stiffness over ContactRow::stiffness. */
       explicit SpringEnforcement(const double factor)
-        : factor(factor)
+        : augmentation(*this, "augmentation")
+        , factor(factor)
       {
       }
 
@@ -31,73 +34,6 @@ namespace Touchstone
       begin_step() override
       {
         solved = false;
-      }
-
-      void
-      recover(Contact &contact, const Vector &, const ConstraintGraph &) override
-      {
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            {
-              if (!row.active() || row.dropped())
-                continue;
-              if (solved && !row.friction && !by_gap(row))
-                respond(row); // the force of the linear solve
-              else
-                evaluate(row);
-              grant(row, solved);
-            }
-        solved = false;
-      }
-
-      void
-      enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
-      {
-        // The system starts from the forces after augmentation, the residual has
-        // been judged with those before.
-        Vector residual;
-        if (system.keep_symmetric)
-          {
-            residual = system.rhs;
-            contact.add_forces(residual);
-          }
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            if (row.active() && row.friction)
-              {
-                const Tensor<1, dim> force  = row.force;
-                const double         lambda = row.lambda;
-                evaluate(row);
-                row.force  = force;
-                row.lambda = lambda;
-                if (system.keep_symmetric)
-                  lag_friction(row, balancing_force(row, residual, graph));
-              }
-
-        springs.clear();
-        RowTerms terms(system);
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            for (const Condition &condition : start_row(row, system.keep_symmetric))
-              {
-                if (!row.take(condition,
-                              graph.accept(condition, ConstraintGraph::Treatment::spring)))
-                  continue;
-                if (!condition.symmetric())
-                  system.symmetric = false;
-                // The force after the iteration is lambda_k - epsilon (g + dg),
-                // and the condition's value is -g.
-                const double         epsilon   = factor * row.stiffness;
-                const Tensor<1, dim> direction = condition.force();
-                const double         augmented =
-                  row.tied ? row.augmented * direction : row.augmented_lambda;
-                const double force = augmented + epsilon * condition.value;
-                terms.add_load(row, force * direction);
-                terms.add_stiffness(row, epsilon * direction, condition.motion_form());
-                if (!by_gap(row))
-                  springs.push_back({&row, condition, force, epsilon});
-              }
-        terms.finish();
       }
 
       void
@@ -111,37 +47,116 @@ namespace Touchstone
           springs[k].force -= springs[k].epsilon * elongations[k];
       }
 
-      void
-      update(Contact &) override
-      {
-        for (const Spring &spring : springs)
-          spring.row->force = Tensor<1, dim>();
-        for (const Spring &spring : springs)
-          spring.row->force += spring.force * spring.condition.direction;
-        for (const Spring &spring : springs)
-          spring.row->lambda = spring.row->force * spring.row->normal;
-        solved = true;
-      }
-
       double
-      round_off_squared(const Contact &contact, const double length) const override
+      round_off_squared(const ContactRows &rows, const double length) const override
       {
         double sum = 0.;
-        for (const auto &pair_rows : contact.rows)
-          for (const ContactRow &row : pair_rows)
-            if (row.active() && by_gap(row))
-              sum += std::pow(4. * std::numeric_limits<double>::epsilon() * length * factor *
-                                row.stiffness,
-                              2);
+        for (const ContactRow &row : rows)
+          if (row_states[row].active() && by_gap(row))
+            sum += std::pow(4. * std::numeric_limits<double>::epsilon() * length * factor *
+                              row.stiffness,
+                            2);
         return sum;
       }
 
     protected:
-      /** Decide what gap the row may have, and whether its force is augmented;
+      /** Force at the last augmentation: normal force, and the rest of it. */
+      struct Augmentation
+      {
+        double         lambda = 0.;
+        Tensor<1, dim> rest;
+
+        template <class Self, class Visitor>
+        static void
+        visit_state(Self &self, Visitor &&visit)
+        {
+          visit(self.lambda);
+          visit(self.rest);
+        }
+      };
+      Memory<Augmentation> augmentation;
+
+      void
+      evaluate(const Contact &contact, const Vector &, const ConstraintGraph &) override
+      {
+        for (const ContactRow &row : contact.rows())
+          {
+            RowState &state = row_states[row];
+            if (!state.active() || state.dropped())
+              continue;
+            if (solved && !row.friction && !by_gap(row))
+              evaluate_force(row, state); // the force of the linear solve
+            else
+              evaluate_row(row, state);
+            admit_gap(row, solved);
+          }
+        solved = false;
+      }
+
+      void
+      constrain(const Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
+      {
+        // The system starts from the forces after augmentation, the residual has
+        // been judged with those before.
+        Vector residual;
+        if (system.keep_symmetric)
+          {
+            residual = system.rhs;
+            contact.add_forces(residual);
+          }
+        for (const ContactRow &row : contact.rows())
+          if (RowState &state = row_states[row]; state.active() && row.friction)
+            {
+              choose_formulation(row, state, factor * row.stiffness);
+              friction_response(row, state.status, normal_force(row), state.friction);
+              if (system.keep_symmetric)
+                lag_friction(row, state, balancing_force(row, residual, graph));
+            }
+
+        springs.clear();
+        RowTerms terms(system);
+        for (const ContactRow &row : contact.rows())
+          {
+            start_row(row_states[row]);
+            for (const Condition &condition :
+                 row_conditions(row, row_states[row], system.keep_symmetric))
+              add_spring(row, condition, graph, system, terms);
+          }
+        terms.finish();
+      }
+
+      void
+      set_forces(const Contact &) override
+      {
+        for (const Spring &spring : springs)
+          row_states[*spring.row].force = Tensor<1, dim>();
+        for (const Spring &spring : springs)
+          row_states[*spring.row].force += spring.force * spring.condition.direction;
+        for (const Spring &spring : springs)
+          row_states[*spring.row].lambda = row_states[*spring.row].force * spring.normal;
+        solved = true;
+      }
+
+      void
+      adopted(const ContactRow &row) override
+      {
+        augment(row);
+      }
+
+      /** The next force of the spring is added to the present one. */
+      void
+      augment(const ContactRow &row)
+      {
+        const RowState &state    = row_states[row];
+        augmentation[row].rest   = row.tied ? state.force : state.force - state.lambda * row.normal;
+        augmentation[row].lambda = state.lambda;
+      }
+
+      /** Set the admissible gap of the row, and decide whether its force is augmented;
        * @p solved says that the gap is the outcome of a solve, and not the
        * overlap that a step begins with. */
       virtual void
-      grant(ContactRow &row, bool solved) const = 0;
+      admit_gap(const ContactRow &row, bool solved) = 0;
 
       /** Whether the force of the row is that of its spring at the present gap, and not that
        * which the spring had in the last linear solve. */
@@ -154,16 +169,17 @@ namespace Touchstone
       /** Decide what the friction of the row starts from; @p epsilon is the
        * stiffness of the normal spring. */
       virtual void
-      choose_friction(ContactRow &row, double epsilon) const = 0;
+      choose_formulation(const ContactRow &row, RowState &state, double epsilon) const = 0;
 
     private:
-      /** A condition that a spring meets: its force before a solve, then after it; its stiffness.
-       */
+      /** A condition that a spring meets: its force before a solve, then after it; its stiffness;
+       * the normal of the row in the linear system. */
       struct Spring
       {
-        ContactRow *row;
-        Condition   condition;
-        double      force, epsilon;
+        const ContactRow *row;
+        Condition         condition;
+        double            force, epsilon;
+        Tensor<1, dim>    normal;
       };
 
       const double        factor;
@@ -177,32 +193,67 @@ namespace Touchstone
        * friction lagged with that force would push the nodes along by it, to the next
        * such error: with stiff springs on warped faces for ever.
        */
-      static double
-      balancing_force(const ContactRow &row, const Vector &residual, const ConstraintGraph &graph)
+      double
+      balancing_force(const ContactRow      &row,
+                      const Vector          &residual,
+                      const ConstraintGraph &graph) const
       {
         Tensor<1, dim> rest;
         for (unsigned int d = 0; d < dim; ++d)
           rest[d] = residual(dim * row.slave + d);
-        return row.lambda - graph.free_part(row.slave, rest) * row.normal;
+        return row_states[row].lambda - graph.free_part(row.slave, rest) * row.normal;
+      }
+
+      /** With friction the force of a linear solve stays until the next one. */
+      double
+      normal_force(const ContactRow &row) const
+      {
+        return !row.friction || by_gap(row)
+                 ? augmentation[row].lambda - factor * row.stiffness * row.gap
+                 : row_states[row].lambda;
       }
 
       /** Forces of an active row from its gap and slip. */
       void
-      evaluate(ContactRow &row) const
+      evaluate_row(const ContactRow &row, RowState &state)
       {
         const double epsilon = factor * row.stiffness;
         if (row.tied)
           {
-            row.force  = row.augmented - epsilon * row.gap_vector;
-            row.lambda = row.force * row.normal;
+            state.force  = augmentation[row].rest - epsilon * row.gap_vector;
+            state.lambda = state.force * row.normal;
             return;
           }
-        // With friction the force of a linear solve stays until the next one.
-        if (!row.friction || by_gap(row))
-          row.lambda = row.augmented_lambda - epsilon * row.gap;
+        state.lambda = normal_force(row);
         if (row.friction)
-          choose_friction(row, epsilon);
-        respond(row);
+          choose_formulation(row, state, epsilon);
+        evaluate_force(row, state);
+      }
+
+      /** Meet a condition of a row by a spring, if the graph accepts it. */
+      void
+      add_spring(const ContactRow &row,
+                 const Condition  &condition,
+                 ConstraintGraph  &graph,
+                 LinearSystem     &system,
+                 RowTerms         &terms)
+      {
+        if (!row_states[row].record(condition,
+                                    graph.accept(condition, ConstraintGraph::Treatment::spring)))
+          return;
+        if (!condition.symmetric())
+          system.symmetric = false;
+        // The force after the iteration is lambda_k - epsilon (g + dg),
+        // and the condition's value is -g.
+        const double         epsilon   = factor * row.stiffness;
+        const Tensor<1, dim> direction = condition.force();
+        const double         augmented =
+          row.tied ? augmentation[row].rest * direction : augmentation[row].lambda;
+        const double force = augmented + epsilon * condition.value;
+        terms.add_load(row, force * direction);
+        terms.add_stiffness(row, epsilon * direction, condition.motion_form());
+        if (!by_gap(row))
+          springs.push_back({&row, condition, force, epsilon, row.normal});
       }
     };
 
@@ -219,7 +270,7 @@ namespace Touchstone
 
       /** Each row has a spring of its own. */
       double
-      smallest_circle() const override
+      cycle_threshold() const override
       {
         return 2.;
       }
@@ -228,13 +279,15 @@ namespace Touchstone
       const double factor;
 
       void
-      grant(ContactRow &row, bool) const override
+      admit_gap(const ContactRow &row, bool) override
       {
+        RowState &state = row_states[row];
         if (by_gap(row))
-          row.granted_gap = row.tied ? row.gap_vector.norm() : row.gap;
+          state.admissible_gap = row.tied ? row.gap_vector.norm() : row.gap;
         else
           // After a change of the mesh springs begin with the force from before.
-          row.granted_gap = (row.augmented_lambda - row.lambda) / (factor * row.stiffness);
+          state.admissible_gap =
+            (augmentation[row].lambda - state.lambda) / (factor * row.stiffness);
       }
 
       /** Friction and stick go by the normal force. Before balance that of the gap is as wrong as
@@ -247,9 +300,9 @@ namespace Touchstone
       }
 
       void
-      choose_friction(ContactRow &row, double) const override
+      choose_formulation(const ContactRow &row, RowState &state, double) const override
       {
-        row.friction->regularise();
+        regularise_friction(row, state);
       }
     };
 
@@ -258,25 +311,24 @@ namespace Touchstone
     public:
       explicit AugmentedLagrange(const ContactParameters &parameters)
         : SpringEnforcement(20. * parameters.penalty_factor)
-        , merged(parameters.augmentation == "merged")
+        , merged(parameters.augmentation == ContactParameters::Augmentation::merged)
       {
       }
 
       void
-      balanced(Contact &contact) override
+      balanced(const Contact &contact) override
       {
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            augment(row);
+        for (const ContactRow &row : contact.rows())
+          augment(row);
       }
 
     private:
       const bool merged;
 
       void
-      grant(ContactRow &row, const bool solved) const override
+      admit_gap(const ContactRow &row, const bool solved) override
       {
-        row.granted_gap = 0.;
+        row_states[row].admissible_gap = 0.;
         if (merged && solved)
           augment(row);
       }
@@ -291,24 +343,19 @@ namespace Touchstone
       }
 
       void
-      choose_friction(ContactRow &row, const double epsilon) const override
+      choose_formulation(const ContactRow &row,
+                         RowState         &state,
+                         const double      epsilon) const override
       {
-        FrictionState &f = *row.friction;
-        if (!f.exact || f.shared)
+        FrictionForce &f = state.friction;
+        if (!row.friction->exact || f.shared)
           {
-            f.regularise();
+            regularise_friction(row, state);
             return;
           }
-        f.hold = f.carried = false;
-        f.c                = epsilon;
-        f.base             = row.augmented;
-      }
-
-      static void
-      augment(ContactRow &row)
-      {
-        row.augmented        = row.tied ? row.force : row.force - row.lambda * row.normal;
-        row.augmented_lambda = row.lambda;
+        f.constrained = f.carried = false;
+        f.c                       = epsilon;
+        f.base                    = augmentation[row].rest;
       }
     };
 

@@ -1,4 +1,5 @@
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/friction/friction.h>
 
 #include <map>
 
@@ -41,7 +42,7 @@ namespace Touchstone
     slip_form(const ContactRow &row, const Tensor<1, dim> &direction)
     {
       NodalForm form;
-      for (const auto &[node, matrix] : row.friction->slip_gradient)
+      for (const auto &[node, matrix] : row.friction->kinematics.slip_gradient)
         form.emplace_back(node, direction * matrix);
       return form;
     }
@@ -64,11 +65,12 @@ namespace Touchstone
 
 
   std::vector<Condition>
-  elastic_stick(const ContactRow &row)
+  elastic_stick(const ContactRow &row, const RowState &state)
   {
     std::vector<Condition> conditions;
-    if (row.friction && row.status == ContactStatus::stick && !row.held() && !row.dropped())
-      for (const Tensor<1, dim> &tangent : row.friction->tangents)
+    if (row.friction && state.status == ContactStatus::stick && !state.fully_constrained() &&
+        !state.dropped())
+      for (const Tensor<1, dim> &tangent : row.friction->kinematics.tangents)
         {
           conditions.push_back(blank_condition(row));
           conditions.back().direction = tangent;
@@ -79,40 +81,45 @@ namespace Touchstone
 
 
   std::vector<Condition>
-  friction_springs(const ContactRow &row)
+  friction_springs(const ContactRow &row, const RowState &state)
   {
-    std::vector<Condition> conditions = elastic_stick(row);
+    std::vector<Condition> conditions = elastic_stick(row, state);
     // Friction that turns with the slip resists across it like a spring. A soft one is not worth
     // an unknown that multigrid keeps out of its coarse spaces.
-    if (row.friction && row.status == ContactStatus::slip && !row.dropped() &&
-        row.friction->slope.norm() > 10. * row.stiffness)
+    if (row.friction && state.status == ContactStatus::slip && !state.dropped() &&
+        state.friction.tangent.norm() > 10. * row.stiffness)
       {
         conditions.push_back(blank_condition(row));
-        conditions.back().direction = cross_product_3d(row.normal, row.friction->direction);
+        conditions.back().direction = cross_product_3d(row.normal, state.friction.direction);
       }
     for (Condition &condition : conditions)
-      if (!row.friction->slip_gradient.empty())
+      if (!row.friction->kinematics.slip_gradient.empty())
         condition.gradient = slip_form(row, condition.direction);
     return conditions;
   }
 
 
 
-  std::vector<Condition>
-  start_row(ContactRow &row, const bool keep_symmetric)
+  void
+  start_row(RowState &state)
   {
-    row.accepted = row.refused = 0;
-    row.normal_accepted        = true;
-    if (row.friction)
-      row.friction->unheld.clear();
-    if (!row.active())
-      return {};
-    if (row.closes_circle)
+    state.accepted = state.refused = 0;
+    state.normal_accepted          = true;
+    state.friction.unconstrained.clear();
+    if (state.active() && state.redundant)
       {
-        row.refused         = 1;
-        row.normal_accepted = false;
-        return {};
+        state.refused         = 1;
+        state.normal_accepted = false;
       }
+  }
+
+
+
+  std::vector<Condition>
+  row_conditions(const ContactRow &row, const RowState &state, const bool keep_symmetric)
+  {
+    if (!state.active() || state.redundant)
+      return {};
     Condition              condition = blank_condition(row);
     std::vector<Condition> conditions;
     if (row.tied)
@@ -131,38 +138,21 @@ namespace Touchstone
     condition.value     = -row.gap;
     if (row.derivative && !keep_symmetric)
       condition.gradient = gap_gradient(row);
-    if (row.friction && row.friction->coupling.norm_square() > 0.)
-      condition.force_direction = row.normal + row.friction->coupling;
+    if (row.friction && state.friction.d_lambda.norm_square() > 0.)
+      condition.force_direction = row.normal + state.friction.d_lambda;
     conditions.push_back(condition);
-    if (row.held())
-      for (const Tensor<1, dim> &tangent : row.friction->tangents)
+    if (state.fully_constrained())
+      for (const Tensor<1, dim> &tangent : row.friction->kinematics.tangents)
         {
           condition.direction       = tangent;
           condition.force_direction = Tensor<1, dim>();
-          condition.value           = -(tangent * row.friction->slip);
+          condition.value           = -(tangent * row.friction->kinematics.slip);
           condition.gradient.clear();
-          if (!row.friction->slip_gradient.empty() && !keep_symmetric)
+          if (!row.friction->kinematics.slip_gradient.empty() && !keep_symmetric)
             condition.gradient = slip_form(row, tangent);
           conditions.push_back(condition);
         }
     return conditions;
-  }
-
-
-
-  void
-  lag_friction(ContactRow &row, const double lambda)
-  {
-    if (!row.friction || !row.active() || row.tied)
-      return;
-    const Tensor<1, dim> force   = row.force;
-    const double         present = row.lambda;
-    row.lambda                   = std::max(lambda, 0.);
-    respond(row);
-    row.friction->rest += row.lambda * row.friction->coupling;
-    row.friction->coupling = Tensor<1, dim>();
-    row.force              = force;
-    row.lambda             = present;
   }
 
 
@@ -206,13 +196,13 @@ namespace Touchstone
 
 
   void
-  RowTerms::add_geometric(const ContactRow &row)
+  RowTerms::add_geometric(const ContactRow &row, const RowState &state)
   {
     // f = lambda n + t with t turning with the normal: df = lambda dn - n (t . dn).
     const RowDerivative &derivative = *row.derivative;
-    const Tensor<1, dim> tangential = row.force - row.lambda * row.normal;
+    const Tensor<1, dim> tangential = state.force - state.lambda * row.normal;
     const Tensor<2, dim> turn       = outer_product(row.normal, tangential) -
-                                row.lambda * Tensor<2, dim>(unit_symmetric_tensor<dim>());
+                                state.lambda * Tensor<2, dim>(unit_symmetric_tensor<dim>());
     NodalMatrices change;
     for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
       change.emplace_back(derivative.nodes[a], turn * derivative.normal[a]);
@@ -224,69 +214,71 @@ namespace Touchstone
         for (std::size_t a = 0; a < derivative.nodes.size(); ++a)
           weight.emplace_back(derivative.nodes[a], derivative.weights[m][a]);
         system.terms.push_back(
-          {by_unknowns({{row.stencil[m].node, row.force}}), by_unknowns(weight)});
+          {by_unknowns({{row.stencil[m].node, state.force}}), by_unknowns(weight)});
       }
   }
 
 
 
   void
-  RowTerms::add_row(ContactRow &row)
+  RowTerms::add_row(const ContactRow &row, const RowState &state)
   {
-    if (row.active() && row.dropped())
-      row.clear_force();
-    if (!row.active() || row.dropped())
-      return;
     if (row.derivative && !system.keep_symmetric)
       {
-        add_geometric(row);
+        add_geometric(row, state);
         system.symmetric = false;
       }
-    if (!row.friction)
-      return;
-    FrictionState &f     = *row.friction;
-    f.last_direction     = f.direction;
-    f.last_slope         = f.slope;
-    Tensor<1, dim> rest  = f.rest;
-    Tensor<2, dim> slope = f.slope;
-    if (row.held())
-      for (const Tensor<1, dim> &tangent : f.unheld)
+    if (row.friction)
+      add_friction(row, state);
+  }
+
+
+
+  void
+  RowTerms::add_friction(const ContactRow &row, const RowState &state)
+  {
+    const SlipKinematics &k        = row.friction->kinematics;
+    const FrictionForce  &f        = state.friction;
+    Tensor<1, dim>        constant = f.constant;
+    Tensor<2, dim>        tangent  = f.tangent;
+    if (state.fully_constrained())
+      for (const Tensor<1, dim> &direction : f.unconstrained)
         {
-          const double spring = FrictionState::unheld_stiffness(row.stiffness);
-          rest += (f.base * tangent - spring * (f.slip * tangent)) * tangent;
-          slope += spring * outer_product(tangent, tangent);
+          const double spring = FrictionForce::unconstrained_stiffness(row.stiffness);
+          constant += (f.base * direction - spring * (k.slip * direction)) * direction;
+          tangent += spring * outer_product(direction, direction);
         }
-    add_load(row, rest);
+    add_load(row, constant);
     // A limit that falls with the slip is no spring: symmetric systems lag it.
-    if (f.slip_coupling.norm_square() > 0. && !system.keep_symmetric)
+    if (f.d_slip.norm_square() > 0. && !system.keep_symmetric)
       {
-        slope -= outer_product(f.slip_coupling, f.slip_direction);
+        tangent -= outer_product(f.d_slip, f.slip_direction);
         system.symmetric = false;
       }
-    if (slope.norm_square() > 0.)
+    if (tangent.norm_square() > 0.)
       {
         NodalMatrices change;
-        if (f.slip_gradient.empty() || system.keep_symmetric)
+        if (k.slip_gradient.empty() || system.keep_symmetric)
           {
-            change.emplace_back(row.slave, slope);
+            change.emplace_back(row.slave, tangent);
             for (const StencilEntry &entry : row.stencil)
-              change.emplace_back(entry.node, -entry.weight * slope);
+              change.emplace_back(entry.node, -entry.weight * tangent);
           }
         else
-          for (const auto &[node, matrix] : f.slip_gradient)
-            change.emplace_back(node, slope * matrix);
+          for (const auto &[node, matrix] : k.slip_gradient)
+            change.emplace_back(node, tangent * matrix);
         add_stiffness(row, change);
       }
     if (row.derivative && !row.derivative->area.empty() && !system.keep_symmetric &&
-        f.area_coupling.norm_square() > 0.)
+        f.d_area.norm_square() > 0.)
       {
         NodalForm area;
         for (std::size_t a = 0; a < row.derivative->nodes.size(); ++a)
           area.emplace_back(row.derivative->nodes[a], row.derivative->area[a]);
-        add_stiffness(row, -f.area_coupling, area);
+        add_stiffness(row, -f.d_area, area);
       }
-    if (!f.spin_gradient.empty() && !system.keep_symmetric && f.turn.norm_square() > 0.)
-      add_stiffness(row, f.turn, f.spin_gradient);
+    if (!k.spin_gradient.empty() && !system.keep_symmetric && f.d_spin.norm_square() > 0.)
+      add_stiffness(row, f.d_spin, k.spin_gradient);
   }
 
 

@@ -72,67 +72,70 @@ namespace Touchstone
 
 
 
-  FaceDerivative
-  FaceDifferentiator::at(const std::array<double, 2> &xi) const
+  void
+  FaceDifferentiator::differentiate_position(FaceDerivative              &result,
+                                             const std::array<double, 2> &xi) const
   {
-    const Face          &face = geometry.face();
-    const unsigned int   n    = face.n_nodes();
+    const FaceShapes    &shapes = result.shapes;
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-    FaceDerivative       result{
-      FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}, {}, {}, {}, {}, {}, {}};
-    const FaceShapes &shapes = result.shapes;
-
-    if (patch)
+    if (!patch)
       {
-        // The point is linear in the control points.
-        const GregoryPatch::Basis basis(xi);
-        for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
-          for (unsigned int m = 0; m < 8; ++m)
-            {
-              const Tensor<2, dim> &d = (*patch)[k][m];
-              const bool            p = m < 4;
-              const unsigned int    i = m % 4;
-              (p ? result.x_position : result.x_normal)[i] += basis.value[k] * d;
-              for (unsigned int a = 0; a < 2; ++a)
-                (p ? result.tangent_position : result.tangent_normal)[a][i] +=
-                  basis.gradient[k][a] * d;
-            }
+        // On an exact surface, too, only displacements change.
+        for (unsigned int m = 0; m < geometry.face().n_nodes(); ++m)
+          {
+            result.x_position[m] = shapes.value[m] * identity;
+            for (unsigned int a = 0; a < 2; ++a)
+              result.tangent_position[a][m] = shapes.gradient[m][a] * identity;
+          }
+        return;
       }
-    else
-      for (unsigned int m = 0; m < n; ++m)
+    // The point is linear in the control points.
+    const GregoryPatch::Basis basis(xi);
+    for (unsigned int k = 0; k < GregoryPatch::n_control_points; ++k)
+      for (unsigned int m = 0; m < 8; ++m)
         {
-          // On an exact surface, too, only displacements change.
-          result.x_position[m] = shapes.value[m] * identity;
+          const Tensor<2, dim> &d = (*patch)[k][m];
+          const bool            p = m < 4;
+          const unsigned int    i = m % 4;
+          (p ? result.x_position : result.x_normal)[i] += basis.value[k] * d;
           for (unsigned int a = 0; a < 2; ++a)
-            result.tangent_position[a][m] = shapes.gradient[m][a] * identity;
+            (p ? result.tangent_position : result.tangent_normal)[a][i] += basis.gradient[k][a] * d;
         }
+  }
 
-    // The normal of the surface itself, where it counts.
-    const bool           interpolated = geometry.interpolates_normals();
-    const Tensor<1, dim> own_normal   = result.point.normal();
-    if (!interpolated || geometry.exact_surface())
-      {
-        const auto by_tangents = own_normal_derivative(result.point);
-        const auto second      = geometry.second_derivatives(xi);
-        for (unsigned int b = 0; b < 2; ++b)
-          result.normal_xi[b] = by_tangents[0] * second[b] + by_tangents[1] * second[b + 1];
-        for (unsigned int m = 0; m < n; ++m)
-          for (unsigned int a = 0; a < 2; ++a)
-            if (patch)
-              {
-                result.normal_position[m] += by_tangents[a] * result.tangent_position[a][m];
-                result.normal_normal[m] += by_tangents[a] * result.tangent_normal[a][m];
-              }
-            else
-              result.normal_position[m] += shapes.gradient[m][a] * by_tangents[a];
-      }
-    if (!interpolated)
-      {
-        result.normal = own_normal;
-        return result;
-      }
 
-    Tensor<1, dim> sum;
+
+  void
+  FaceDifferentiator::differentiate_own_normal(FaceDerivative              &result,
+                                               const std::array<double, 2> &xi) const
+  {
+    const auto by_tangents = own_normal_derivative(result.point);
+    const auto second      = geometry.second_derivatives(xi);
+    for (unsigned int b = 0; b < 2; ++b)
+      result.normal_xi[b] = by_tangents[0] * second[b] + by_tangents[1] * second[b + 1];
+    for (unsigned int m = 0; m < geometry.face().n_nodes(); ++m)
+      for (unsigned int a = 0; a < 2; ++a)
+        if (patch)
+          {
+            result.normal_position[m] += by_tangents[a] * result.tangent_position[a][m];
+            result.normal_normal[m] += by_tangents[a] * result.tangent_normal[a][m];
+          }
+        else
+          result.normal_position[m] += result.shapes.gradient[m][a] * by_tangents[a];
+  }
+
+
+
+  void
+  FaceDifferentiator::differentiate_interpolated_normal(FaceDerivative       &result,
+                                                        const Tensor<1, dim> &own_normal) const
+  {
+    // n = s / |s|: s = sum_m N_m n_m on facets; on an exact surface its own normal with the
+    // jumps at the nodes taken out (doc/theory.md 4, "Normals").
+    const Face        &face   = geometry.face();
+    const unsigned int n      = face.n_nodes();
+    const FaceShapes  &shapes = result.shapes;
+    Tensor<1, dim>     sum;
     if (geometry.exact_surface())
       {
         sum = own_normal;
@@ -162,6 +165,33 @@ namespace Touchstone
         if (geometry.exact_surface())
           result.normal_position[m] = direction * result.normal_position[m];
       }
+  }
+
+
+
+  FaceDerivative
+  FaceDifferentiator::at(const std::array<double, 2> &xi) const
+  {
+    FaceDerivative result{FaceShapes(geometry.face().degree, xi),
+                          geometry.evaluate(xi),
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {},
+                          {}};
+    differentiate_position(result, xi);
+    // The normal of the surface itself, where it counts.
+    const bool           interpolated = geometry.interpolates_normals();
+    const Tensor<1, dim> own_normal   = result.point.normal();
+    if (!interpolated || geometry.exact_surface())
+      differentiate_own_normal(result, xi);
+    if (interpolated)
+      differentiate_interpolated_normal(result, own_normal);
+    else
+      result.normal = own_normal;
     return result;
   }
 

@@ -2,22 +2,10 @@
 #include <touchstone/contact/tolerances.h>
 
 #include <cmath>
-#include <map>
 
 namespace Touchstone
 {
   using namespace dealii;
-
-  MasterNormal
-  master_normal(const std::string &name)
-  {
-    static const std::map<std::string, MasterNormal> kinds = {{"face", MasterNormal::face},
-                                                              {"averaged", MasterNormal::averaged},
-                                                              {"smoothed", MasterNormal::smoothed}};
-    return kinds.at(name);
-  }
-
-
 
   FaceGeometry::FaceGeometry(const Face            &face,
                              const AnalyticSurface *exact,

@@ -40,13 +40,13 @@ namespace Touchstone
                    ? input.search_distance
                    : std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
         , facing(search,
                  Tolerances::negligible_motion *
                    std::min(input.slave->shortest_edge(), input.master->shortest_edge()))
-        , kind(master_normal(input.parameters->master_normal))
-        , tied(input.parameters->behaviour.name == "tied")
+        , kind(input.parameters->master_normal)
+        , tied(input.parameters->tied())
       {
         for (const SurfaceNode &node : input.slave->owned_nodes())
           row_of_node.emplace(node.node, static_cast<int>(row_of_node.size()));
@@ -407,14 +407,13 @@ namespace Touchstone
           row.stencil.clear();
           if (!sum.suffices(nodes[k].area))
             {
-              row.status = ContactStatus::no_partner;
-              row.gap    = 0.;
-              row.share  = 1.;
-              row.lever  = Tensor<1, dim>();
+              row.has_partner = false;
+              row.gap         = 0.;
+              row.share       = 1.;
+              row.lever       = Tensor<1, dim>();
               continue;
             }
-          if (row.status == ContactStatus::no_partner)
-            row.status = ContactStatus::open;
+          row.has_partner = true;
           for (const StencilEntry &entry : sum.stencil)
             if (std::abs(entry.weight) > Tolerances::negligible_weight * sum.area)
               row.stencil.push_back({entry.node, entry.weight / sum.kept});
@@ -435,12 +434,12 @@ namespace Touchstone
     {
       AveragedDerivative derivative(search.exchange(), slave_exchange.get(), /*gradual=*/!tied);
       for (const ContactRow &row : rows)
-        if (row.active())
+        if (row.was_active)
           derivative.add_row(row.slave,
                              row.stencil,
                              sums[row_of_node.at(row.slave)],
                              row.size,
-                             row.friction.has_value());
+                             row.friction != nullptr);
       for (const auto &[slave, masters] : slave_faces)
         if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
           derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
@@ -448,7 +447,7 @@ namespace Touchstone
                               masters_of(masters));
       const auto derivatives = derivative.finish();
       for (ContactRow &row : rows)
-        row.derivative = row.active() ? derivatives.at(row.slave) : nullptr;
+        row.derivative = row.was_active ? derivatives.at(row.slave) : nullptr;
     }
   } // namespace
 } // namespace Touchstone

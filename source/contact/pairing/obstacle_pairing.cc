@@ -1,6 +1,7 @@
 #include <touchstone/base/formula.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/row_derivative.h>
+#include <touchstone/mesh/obstacle_shape.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -20,15 +21,8 @@ namespace Touchstone
       explicit ObstaclePairing(const PairingInput &input)
         : Pairing(input)
       {
-        const ObstacleParameters &o       = *input.obstacle;
-        const bool                outside = (o.side == "outside");
-        if (o.shape == "plane")
-          surface = make_plane(Point<dim>(o.point), o.direction / o.direction.norm());
-        else if (o.shape == "sphere")
-          surface = make_sphere(Point<dim>(o.point), o.radius, outside);
-        else
-          surface =
-            make_cone(Point<dim>(o.point), o.direction / o.direction.norm(), o.radius, 0., outside);
+        const ObstacleParameters &o     = *input.obstacle;
+        surface                         = o.shape.make()->surface();
         const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
         for (unsigned int d = 0; d < dim; ++d)
           motion[d] = formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
@@ -44,12 +38,11 @@ namespace Touchstone
             const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
             ContactRow      &row = rows[k];
             row.stencil.clear();
-            row.shift      = shift;
-            row.normal     = surface->normal(x);
-            row.gap_vector = x - surface->project(x);
-            row.gap        = row.gap_vector * row.normal;
-            if (row.status == ContactStatus::no_partner)
-              row.status = ContactStatus::open;
+            row.shift       = shift;
+            row.normal      = surface->normal(x);
+            row.gap_vector  = x - surface->project(x);
+            row.gap         = row.gap_vector * row.normal;
+            row.has_partner = true;
           }
       }
 
@@ -63,7 +56,7 @@ namespace Touchstone
           {
             ContactRow &row = rows[k];
             row.derivative.reset();
-            if (!row.active())
+            if (!row.was_active)
               continue;
             const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
             RowDerivativeBuilder builder(0);

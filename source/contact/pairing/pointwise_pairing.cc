@@ -24,7 +24,7 @@ namespace Touchstone
                    ? input.search_distance
                    : 4. * std::max(input.slave->largest_face(), input.master->largest_face()),
                  input.parameters->edge_tolerance,
-                 master_normal(input.parameters->master_normal),
+                 input.parameters->master_normal,
                  input.solid->communicator)
       {
         search.commit(nullptr);
@@ -98,19 +98,18 @@ namespace Touchstone
           const auto &partner = partners[k] = search.find({positions[k],
                                                            start[k],
                                                            input.slave->normal(nodes[k].node),
-                                                           row.active(),
+                                                           row.was_active,
                                                            present_faces[k]});
           present_faces[k] =
             partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
           row.stencil.clear();
           if (!partner)
             {
-              row.status = ContactStatus::no_partner;
-              row.gap    = 0.;
+              row.has_partner = false;
+              row.gap         = 0.;
               continue;
             }
-          if (row.status == ContactStatus::no_partner)
-            row.status = ContactStatus::open;
+          row.has_partner = true;
           const FaceShapes shapes(partner->face->degree, partner->xi);
           for (unsigned int m = 0; m < partner->face->n_nodes(); ++m)
             if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
@@ -148,6 +147,7 @@ namespace Touchstone
         for (unsigned int i = 0; i < 2; ++i)
           {
             const double scale = point.tangents[i].norm_square();
+            // Free in the middle, or at an edge from which the point does not pull away.
             free[i] = std::abs(xi[i]) < 1. || xi[i] * (point.tangents[i] * r) <= 1e-12 * scale;
             // At a centre of curvature the closest point is not unique.
             free[i] = free[i] && a[i][i] > 1e-6 * scale;
@@ -180,12 +180,158 @@ namespace Touchstone
 
 
 
+    /**
+     * The derivative of one row: what moves has a direct effect on gap vector and normal, and one
+     * over the closest point xi (doc/theory.md 4, "Derivatives of rows").
+     */
+    class PointwiseRowDerivative
+    {
+    public:
+      /** @param gap_vector r, length. */
+      PointwiseRowDerivative(const FaceGeometry   &geometry,
+                             const ContactPartner &partner,
+                             const Tensor<1, dim> &gap_vector)
+        : geometry(geometry)
+        , partner(partner)
+        , r(gap_vector)
+        , master(FaceDifferentiator(geometry).at(partner.xi))
+        , closest(geometry, partner.xi, master.point, r)
+        , by_slave(closest(master.point.tangents[0], master.point.tangents[1]))
+        , by_gap_vector(partner.wedge * normalisation_derivative(r))
+      {
+      }
+
+      /** Whether the weight of node @p m of the master face changes with the slave node. */
+      bool
+      weight_changes(const unsigned int m) const
+      {
+        return (master.shapes.gradient[m][0] * by_slave[0] +
+                master.shapes.gradient[m][1] * by_slave[1])
+                 .norm() > 0.;
+      }
+
+      double
+      weight(const unsigned int m) const
+      {
+        return master.shapes.value[m];
+      }
+
+      /** @param of_normals Derivatives of the nodal normals of the face, or null. */
+      std::shared_ptr<const RowDerivative>
+      compute(const Index                          slave,
+              const Stencil                       &stencil,
+              const std::vector<NormalDerivative> *of_normals) const;
+
+    private:
+      const FaceGeometry          &geometry;
+      const ContactPartner        &partner;
+      const Tensor<1, dim>         r;
+      const FaceDerivative         master;
+      const ClosestPointDerivative closest;
+      const CoordinateDerivative   by_slave;
+      /** Over an edge the normal is the direction of the gap vector; zero elsewhere. */
+      const Tensor<2, dim> by_gap_vector;
+
+      /** d xi, where the point at a fixed xi moves by @p x and its tangents by the others. */
+      CoordinateDerivative
+      coordinates(const Tensor<2, dim> &x,
+                  const Tensor<2, dim> &t_0,
+                  const Tensor<2, dim> &t_1) const
+      {
+        const auto &t = master.point.tangents;
+        return closest(r * t_0 - t[0] * x, r * t_1 - t[1] * x);
+      }
+
+      /** Add the effect of a node: that on gap vector and normal at a fixed xi, and that on xi.
+       * @param local Numbers on the face of the nodes of the stencil.
+       * @param chain What the node moves, by its position; null for itself. */
+      void
+      add(const Index                      node,
+          const Tensor<2, dim>            &gap_vector,
+          const Tensor<2, dim>            &normal,
+          const CoordinateDerivative      &xi,
+          const Tensor<2, dim>            *chain,
+          const std::vector<unsigned int> &local,
+          RowDerivativeBuilder            &builder) const;
+    };
+
+
+
+    void
+    PointwiseRowDerivative::add(const Index                      node,
+                                const Tensor<2, dim>            &gap_vector,
+                                const Tensor<2, dim>            &normal,
+                                const CoordinateDerivative      &xi,
+                                const Tensor<2, dim>            *chain,
+                                const std::vector<unsigned int> &local,
+                                RowDerivativeBuilder            &builder) const
+    {
+      Tensor<2, dim> d_gap = gap_vector, d_normal = normal;
+      for (unsigned int a = 0; a < 2; ++a)
+        {
+          d_gap -= outer_product(master.point.tangents[a], xi[a]);
+          d_normal += outer_product(master.normal_xi[a], xi[a]);
+        }
+      if (partner.wedge != 0)
+        d_normal = by_gap_vector * d_gap;
+      const unsigned int i = builder.index(node);
+      builder.result->gap_vector[i] += chain ? d_gap * *chain : d_gap;
+      builder.result->normal[i] += chain ? d_normal * *chain : d_normal;
+      for (std::size_t m = 0; m < local.size(); ++m)
+        {
+          const auto          &gradient = master.shapes.gradient[local[m]];
+          const Tensor<1, dim> d_weight = gradient[0] * xi[0] + gradient[1] * xi[1];
+          builder.result->weights[m][i] += chain ? d_weight * *chain : d_weight;
+        }
+    }
+
+
+
+    std::shared_ptr<const RowDerivative>
+    PointwiseRowDerivative::compute(const Index                          slave,
+                                    const Stencil                       &stencil,
+                                    const std::vector<NormalDerivative> *of_normals) const
+    {
+      const Face               &face = geometry.face();
+      std::vector<unsigned int> local;
+      for (const StencilEntry &entry : stencil)
+        local.push_back(std::find(face.nodes.begin(), face.nodes.end(), entry.node) -
+                        face.nodes.begin());
+      RowDerivativeBuilder builder(stencil.size());
+      const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+      add(slave, identity, {}, by_slave, nullptr, local, builder);
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        add(face.nodes[m],
+            -1. * master.x_position[m],
+            master.normal_position[m],
+            coordinates(master.x_position[m],
+                        master.tangent_position[0][m],
+                        master.tangent_position[1][m]),
+            nullptr,
+            local,
+            builder);
+      if (of_normals && (partner.wedge == 0 || geometry.smooth()))
+        for (const NormalDerivative &d : *of_normals)
+          add(d.node,
+              -1. * master.x_normal[d.m],
+              master.normal_normal[d.m],
+              coordinates(master.x_normal[d.m],
+                          master.tangent_normal[0][d.m],
+                          master.tangent_normal[1][d.m]),
+              &d.value,
+              local,
+              builder);
+      return builder.result;
+    }
+
+
+
     void
     PointwisePairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
       std::vector<const Face *> needed;
       for (std::size_t k = 0; k < rows.size(); ++k)
-        if (rows[k].active())
+        if (rows[k].was_active)
           needed.push_back(partners[k]->face);
       const auto normal_derivatives = search.normal_derivatives(needed);
 
@@ -193,82 +339,22 @@ namespace Touchstone
         {
           ContactRow &row = rows[k];
           row.derivative.reset();
-          if (!row.active())
+          if (!row.was_active)
             continue;
-          const ContactPartner        &partner  = *partners[k];
-          const Face                  &face     = *partner.face;
+          const Face                  &face     = *partners[k]->face;
           const FaceGeometry           geometry = search.geometry(face);
-          const FaceDerivative         master   = FaceDifferentiator(geometry).at(partner.xi);
-          const auto                  &tangents = master.point.tangents;
-          const Tensor<1, dim>        &r        = row.gap_vector;
-          const ClosestPointDerivative closest(geometry, partner.xi, master.point, r);
-
+          const PointwiseRowDerivative derivative(geometry, *partners[k], row.gap_vector);
           // A weight that is zero on the edge of the face can still change.
-          const auto on_edge = closest(tangents[0], tangents[1]);
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            if (std::abs(master.shapes.value[m]) <= Tolerances::negligible_weight &&
-                (master.shapes.gradient[m][0] * on_edge[0] +
-                 master.shapes.gradient[m][1] * on_edge[1])
-                    .norm() > 0.)
+            if (std::abs(derivative.weight(m)) <= Tolerances::negligible_weight &&
+                derivative.weight_changes(m))
               row.stencil.push_back({face.nodes[m], 0.});
-          std::vector<unsigned int> local;
-          for (const StencilEntry &entry : row.stencil)
-            local.push_back(std::find(face.nodes.begin(), face.nodes.end(), entry.node) -
-                            face.nodes.begin());
-
-          RowDerivativeBuilder builder(row.stencil.size());
-          const Tensor<2, dim> turn = partner.wedge * normalisation_derivative(row.gap_vector);
-          // What moves has a direct effect on gap vector and normal, and one over xi.
-          const auto add = [&](const Index                 node,
-                               const Tensor<2, dim>       &gap_vector,
-                               const Tensor<2, dim>       &normal,
-                               const CoordinateDerivative &xi,
-                               const Tensor<2, dim>       *chain) {
-            Tensor<2, dim> d_gap = gap_vector, d_normal = normal;
-            for (unsigned int a = 0; a < 2; ++a)
-              {
-                d_gap -= outer_product(tangents[a], xi[a]);
-                d_normal += outer_product(master.normal_xi[a], xi[a]);
-              }
-            // Over an edge the normal is the direction of the gap.
-            if (partner.wedge != 0)
-              d_normal = turn * d_gap;
-            const unsigned int i = builder.index(node);
-            builder.result->gap_vector[i] += chain ? d_gap * *chain : d_gap;
-            builder.result->normal[i] += chain ? d_normal * *chain : d_normal;
-            for (std::size_t m = 0; m < local.size(); ++m)
-              {
-                const auto          &gradient = master.shapes.gradient[local[m]];
-                const Tensor<1, dim> d_weight = gradient[0] * xi[0] + gradient[1] * xi[1];
-                builder.result->weights[m][i] += chain ? d_weight * *chain : d_weight;
-              }
-          };
-          const auto coordinates =
-            [&](const Tensor<2, dim> &x, const Tensor<2, dim> &t_0, const Tensor<2, dim> &t_1) {
-              return closest(r * t_0 - tangents[0] * x, r * t_1 - tangents[1] * x);
-            };
-
-          const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-          add(row.slave, identity, {}, on_edge, nullptr);
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            add(face.nodes[m],
-                -1. * master.x_position[m],
-                master.normal_position[m],
-                coordinates(master.x_position[m],
-                            master.tangent_position[0][m],
-                            master.tangent_position[1][m]),
-                nullptr);
-          const auto derivatives = normal_derivatives.find(&face);
-          if (derivatives != normal_derivatives.end() && (partner.wedge == 0 || geometry.smooth()))
-            for (const NormalDerivative &d : derivatives->second)
-              add(d.node,
-                  -1. * master.x_normal[d.m],
-                  master.normal_normal[d.m],
-                  coordinates(master.x_normal[d.m],
-                              master.tangent_normal[0][d.m],
-                              master.tangent_normal[1][d.m]),
-                  &d.value);
-          row.derivative = builder.result;
+          const auto of_normals = normal_derivatives.find(&face);
+          row.derivative =
+            derivative.compute(row.slave,
+                               row.stencil,
+                               of_normals == normal_derivatives.end() ? nullptr
+                                                                      : &of_normals->second);
         }
     }
   } // namespace

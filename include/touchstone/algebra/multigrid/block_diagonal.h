@@ -16,7 +16,7 @@ namespace Touchstone
   {
   public:
     /**
-     * @param map  Of the unknowns.
+     * @param map  Of the dofs.
      * @param rows The matrix, read here and not kept.
      * @throws LinearSolverFailure if a block is singular, on all ranks.
      */

@@ -20,7 +20,7 @@ namespace Touchstone
    * @brief Multigrid by smoothed aggregation, for systems of displacements.
    *
    * All levels work in single precision on 3 x 3 blocks, for their speed is that of the
-   * memory; what is left of a few unknowns is solved directly (KLU, by Amesos).
+   * memory; what is left of a few dofs is solved directly (KLU, by Amesos).
    *
    * Vanek, Mandel and Brezina (1996), Computing 56; smoothing by Chebyshev polynomials:
    * Adams, Brezina, Hu and Tuminaro (2003), J. Comput. Phys. 188.
@@ -29,10 +29,10 @@ namespace Touchstone
   {
   public:
     /**
-     * @param map         Of the unknowns.
+     * @param map         Of the dofs.
      * @param rows        The matrix, read here and not kept.
      * @param near_kernel Motions with little or no energy that the coarse levels must be
-     *                    able to represent, zero at constrained unknowns.
+     *                    able to represent, zero at constrained dofs.
      * @param body        Body of each row of this rank: aggregates() are within one.
      * @param symmetric   The matrix is, and half of it is enough.
      * @throws LinearSolverFailure if the coarsest level is singular, or a level is indefinite or
@@ -81,7 +81,7 @@ namespace Touchstone
     void
     make_coarsest(BlockRows &rows);
 
-    /** @brief One cycle from level @p k on, over the unknowns of this rank; @p rhs and @p
+    /** @brief One cycle from level @p k on, over the dofs of this rank; @p rhs and @p
      * solution may be the same. */
     template <typename Number>
     void

@@ -2,7 +2,7 @@
 #define touchstone_algebra_multigrid_prolongation_h
 
 #include <touchstone/algebra/block_matrix.h>
-#include <touchstone/algebra/multigrid/octet.h>
+#include <touchstone/algebra/multigrid/padded_rows.h>
 #include <touchstone/algebra/transformation.h>
 
 #include <Epetra_MultiVector.h>
@@ -18,7 +18,7 @@ namespace Touchstone
    * @brief Takes corrections from a level of multigrid to the next finer one, and forces
    * back: smoothed aggregation.
    *
-   * Three unknowns make a node, on all levels. An aggregate() of the finer level has six
+   * Three dofs make a node, on all levels. An aggregate() of the finer level has six
    * on the coarser one, its rigid motions: a pair of nodes there, which stay together. They
    * are smoothed by one step of Jacobi's method. Entries are kept in single precision, those
    * of galerkin() are exact for them. The product A P is never stored: for linear cells it
@@ -37,11 +37,11 @@ namespace Touchstone
     /** @brief Nodes that an aggregate is on the coarser level. */
     static constexpr unsigned int n_nodes_of_aggregate = n_modes / dim;
 
-    /** @brief Block of the rows of an aggregate over the unknowns of another. */
-    using AggregateBlock = Octets<n_modes>;
+    /** @brief Block of the rows of an aggregate over the dofs of another. */
+    using AggregateBlock = PaddedRows<n_modes>;
 
-    /** @brief A row over aggregates that stays open while others are worked on; they go by
-     * local or by global numbers. */
+    /** @brief A row of P^T A P under construction: blocks over aggregates, which are named by
+     * local or by global indices. */
     class AggregateRow
     {
     public:
@@ -49,22 +49,22 @@ namespace Touchstone
       at(const int aggregate)
       {
         const auto found =
-          std::lower_bound(places.begin(), places.end(), std::make_pair(aggregate, 0U));
-        if (found != places.end() && found->first == aggregate)
+          std::lower_bound(positions.begin(), positions.end(), std::make_pair(aggregate, 0U));
+        if (found != positions.end() && found->first == aggregate)
           return blocks[found->second];
-        places.emplace(found, aggregate, blocks.size());
+        positions.emplace(found, aggregate, blocks.size());
         blocks.push_back({});
         return blocks.back();
       }
 
-      /** @brief In ascending order of the aggregates: where their block is. */
-      std::vector<std::pair<int, unsigned int>> places;
+      /** @brief Aggregates in ascending order, with the number of their block. */
+      std::vector<std::pair<int, unsigned int>> positions;
       std::vector<AggregateBlock>               blocks;
     };
 
     /**
      * @param matrix      Symmetric pattern.
-     * @param near_kernel Rigid motions, zero at constrained unknowns; at most n_modes.
+     * @param near_kernel Rigid motions, zero at constrained dofs; at most n_modes.
      * @param body        Of this rank's nodes, or of its groups of nodes.
      * @param group       Nodes that follow each other and stay together: one on the finest
      *                    level, the nodes of an aggregate on the others.
@@ -114,8 +114,8 @@ namespace Touchstone
     static constexpr unsigned int block = dim * n_modes;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> fine, coarse;
-    /** Where the blocks of a node of this rank begin; their column, a local number of an
-     * aggregate; their entries, row by row. */
+    /** P by rows of nodes of this rank: row pointers, aggregates by local index, and entries of
+     * the blocks, row by row. */
     std::vector<std::size_t>  start;
     std::vector<unsigned int> column;
     /** Read beyond their end, as those of FarRow. */
@@ -125,7 +125,7 @@ namespace Touchstone
     std::vector<unsigned int>           body_of_aggregate;
 
     /** The rows of nodes of other ranks that this one refers to, by node: aggregates by
-     * their global numbers, and blocks. */
+     * their global indices, and blocks. */
     struct FarRow
     {
       std::vector<Index> aggregates;
@@ -134,13 +134,13 @@ namespace Touchstone
     std::vector<FarRow>
     far_rows() const;
 
-    /** @brief This rank's part of P^T A P, rows by local numbers of aggregates, columns by
+    /** @brief This rank's part of P^T A P, rows by local indices of aggregates, columns by
      * @p indices. */
     std::vector<AggregateRow>
     part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const;
 
     /** @brief Make of @p parts the rows of this rank's aggregates, with the parts of all
-     * ranks, by the global numbers of aggregates. */
+     * ranks, by the global indices of aggregates. */
     void
     sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const;
   };

@@ -5,7 +5,7 @@
 
 namespace Touchstone
 {
-  /** @brief A row of blocks under construction, of columns that are met in any order. */
+  /** @brief A row of blocks under construction, whose columns are met in any order. */
   template <typename Block>
   class RowOfBlocks
   {
@@ -16,28 +16,29 @@ namespace Touchstone
     Block &
     at(const int column)
     {
-      if (static_cast<std::size_t>(column) >= place.size())
-        place.resize(2 * static_cast<std::size_t>(column) + 64, -1);
-      if (place[column] < 0)
+      if (static_cast<std::size_t>(column) >= position.size())
+        position.resize(2 * static_cast<std::size_t>(column) + 64, -1);
+      if (position[column] < 0)
         {
-          place[column] = static_cast<int>(columns.size());
+          position[column] = static_cast<int>(columns.size());
           columns.push_back(column);
           blocks.push_back({});
         }
-      return blocks[place[column]];
+      return blocks[position[column]];
     }
 
     void
     clear()
     {
       for (const int column : columns)
-        place[column] = -1;
+        position[column] = -1;
       columns.clear();
       blocks.clear();
     }
 
   private:
-    std::vector<int> place;
+    /** Where a column stands in the row; -1: not there. */
+    std::vector<int> position;
   };
 } // namespace Touchstone
 

@@ -4,20 +4,26 @@
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/linear_system.h>
 #include <touchstone/base/registry.h>
-#include <touchstone/contact/contact.h>
+#include <touchstone/contact/contact_parameters.h>
+#include <touchstone/contact/row_array.h>
+#include <touchstone/contact/row_state.h>
 
+#include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace Touchstone
 {
+  class Contact;
+
   /** @brief What a linear solve has found. */
   struct LinearSolution
   {
     /** The system, and the graph with its conditions. */
     const LinearSystem    &system;
     const ConstraintGraph &graph;
-    /** Displacement increment of this rank's unknowns, all of it. */
+    /** Displacement increment of this rank's dofs, all of it. */
     const Vector &increment;
     /** Extra unknowns of this rank. */
     const std::vector<double> &extra;
@@ -25,18 +31,67 @@ namespace Touchstone
     std::function<void(Vector &)> condense;
   };
 
+  /** @brief What an update of the active set did, over all ranks. */
+  struct ActiveSetUpdate
+  {
+    unsigned int active  = 0;
+    unsigned int changes = 0;
+    /** Identifies the set, to notice that it comes back. */
+    std::uint64_t signature = 0;
+    /** Largest |gap| of active and penetration of open rows, relative to the
+     * size of the faces. */
+    double gap = 0.;
+    /** Rows of this rank whose status has changed. */
+    std::vector<const ContactRow *> changed;
+  };
+
   /**
    * @brief Turns active rows into parts of the linear system, and its solution
    * into contact forces. Never asks where a row came from. Registered by name.
    *
+   * It owns the state of the rows, status and forces, and whatever it remembers of them
+   * (Memory), and decides by the active set strategy which rows are active.
+   *
    * In each Newton iteration: recover() with the prescribed displacements in the
-   * graph, then the active set is updated, then enforce(), then the system is
-   * solved, then take() and update().
+   * graph, update_active_set(), enforce() and add_friction(), then the system is
+   * solved, then take() and update(). A derived class implements the protected functions of
+   * this cycle.
    */
-  class Enforcement
+  class Enforcement : public Stateful
   {
   public:
-    virtual ~Enforcement() = default;
+    Enforcement();
+
+    /** @brief Begin with rows that have no partner yet. */
+    void
+    reinit(const ContactRows &rows);
+
+    /** @brief The present and committed states of the rows. */
+    const RowArray<RowState> &
+    states() const
+    {
+      return row_states;
+    }
+
+    /** @brief Replace the present states. */
+    void
+    set_states(const RowArray<RowState> &states)
+    {
+      row_states = states;
+    }
+
+    /** @brief The pairings have been updated: rows find and lose their partners.
+     * @param first The bodies are as they are placed: what touches starts in contact. */
+    void
+    update_partners(const ContactRows &rows, bool first);
+
+    /** @brief Whether contact forces are unknowns of the linear system, which then is not
+     * definite. */
+    virtual bool
+    uses_multipliers() const
+    {
+      return false;
+    }
 
     /** @brief A step begins, or begins again: no linear solve has come before. */
     virtual void
@@ -45,42 +100,39 @@ namespace Touchstone
     }
 
     /**
-     * @brief Bring the contact forces of the rows up to date before they are
-     * judged, by respond() where there may be friction.
+     * @brief Bring the contact forces of the rows up to date before they are judged.
      * @param unbalanced External minus internal forces, without contact forces.
      * @param graph      Holds the prescribed displacements only.
      */
-    virtual void
-    recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) = 0;
+    void
+    recover(const Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph);
+
+    /**
+     * @brief Decide which rows are active: lambda - c g > 0.
+     *
+     * @param damping Damping level of the active set: 0 changes every row whose status is
+     *                violated, 1 only those where it is violated most, more only one: this
+     *                breaks cycles.
+     */
+    ActiveSetUpdate
+    update_active_set(const Contact &contact, double gap_tolerance, unsigned int damping);
 
     /** @brief Offer the active rows to the graph and add terms and extra unknowns
-     * to the system, whose right-hand side holds no contact forces: RowTerms adds
-     * those of friction afterwards. Rows take note of what the graph refuses. */
-    virtual void
-    enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) = 0;
+     * to the system, whose right-hand side holds no contact forces. Rows that are part of a
+     * cyclic dependency between pairs are left out. Collective. */
+    void
+    enforce(const Contact &contact, ConstraintGraph &graph, LinearSystem &system);
+
+    /** @brief Add what friction and the change of normals and stencils contribute to the
+     * system. Collective. */
+    void
+    add_friction(const Contact &contact, LinearSystem &system);
 
     /** @brief The forces are in balance with the active set as it is; called
      * before convergence is judged by the gaps. */
     virtual void
-    balanced(Contact &)
+    balanced(const Contact &)
     {
-    }
-
-    /** @brief Contact::drop_circles() takes out rows that depend on each other in a circle
-     * by components of their normals larger than this: by default those that are about
-     * dependent, and say the same thing twice. */
-    virtual double
-    smallest_circle() const
-    {
-      return 0.3;
-    }
-
-    /** @brief Force that the round-off of positions of magnitude @p length leads
-     * to: the residual cannot fall below it. Of this rank's rows, squared. */
-    virtual double
-    round_off_squared(const Contact &, const double) const
-    {
-      return 0.;
     }
 
     /** @brief Take from a solution what contact forces are made of. Collective. */
@@ -89,10 +141,98 @@ namespace Touchstone
     {
     }
 
-    /** @brief Set the forces of the rows to those of the last solution; called again, with the
-     * rows as they were before, where a part of the increment is taken back. */
+    /** @brief Set the forces of the rows to those of the last solution.
+     * @param may_shorten shorten() may follow: keep what it returns to. */
+    void
+    update(const Contact &contact, bool may_shorten);
+
+    /** @brief Take the part @p fraction of the change of forces that the last update() made.
+     * The active set is again that of the last linear system. */
+    void
+    shorten(const Contact &contact, double fraction);
+
+    /** @brief Begin with this status and force, after a change of the mesh. */
+    void
+    adopt(const ContactRow &row, ContactStatus status, const dealii::Tensor<1, dim> &force);
+
+    /** @brief Force that the round-off of positions of magnitude @p length leads
+     * to: the residual cannot fall below it. Of this rank's rows, squared. */
+    virtual double
+    round_off_squared(const ContactRows &, const double) const
+    {
+      return 0.;
+    }
+
+    void
+    commit() override;
+    void
+    rollback() override;
+    void
+    save(ArchiveWriter &archive) const override;
+    void
+    load(const ArchiveReader &archive) override;
+
+  protected:
+    /** @brief What a kind of enforcement remembers of each row, as a member of its class:
+     * committed and rolled back, saved in checkpoints, and set to default values where a row has
+     * no contact force. T as for RowArray. */
+    template <class T>
+    class Memory : public RowArray<T>
+    {
+    public:
+      Memory(Enforcement &owner, const std::string &name)
+        : RowArray<T>(name)
+      {
+        owner.arrays.push_back(this);
+      }
+      Memory(const Memory &) = delete;
+    };
+
+    /** @brief Evaluate the contact forces of the rows, by evaluate_force() where there may be
+     * friction; see recover(). */
     virtual void
-    update(Contact &contact) = 0;
+    evaluate(const Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) = 0;
+
+    /** @brief See enforce(); start_row() and row_conditions() give the conditions of a row, and
+     * RowState::record() notes what the graph has accepted. */
+    virtual void
+    constrain(const Contact &contact, ConstraintGraph &graph, LinearSystem &system) = 0;
+
+    /** @brief Set the forces of the rows to those of the last solution; called again, with the
+     * states as they were before, where a part of the increment is taken back. */
+    virtual void
+    set_forces(const Contact &contact) = 0;
+
+    /** @brief The state of a row was set from outside, by adopt(): let the memory be that of a
+     * row that begins with this force. */
+    virtual void
+    adopted(const ContactRow &)
+    {
+    }
+
+    /** @brief Components of unit normals larger than this count in the search for cyclic
+     * dependencies between pairs: by default those of constraints that are about linearly
+     * dependent. */
+    virtual double
+    cycle_threshold() const
+    {
+      return 0.3;
+    }
+
+    /** @brief No contact force of any kind in this row. */
+    void
+    clear(const ContactRow &row);
+
+    RowArray<RowState> row_states;
+
+  private:
+    /** The states and all memory. */
+    std::vector<RowArrayBase *> arrays;
+
+    void
+    find_shared_nodes(const Contact &contact, const ConstraintGraph &supports);
+    void
+    change_status(const ContactRow &row, ContactStatus status);
   };
 
   using EnforcementRegistry = Registry<Enforcement, const ContactParameters &>;

@@ -26,29 +26,33 @@ namespace Touchstone
     }
 
     void
-    recover(Contact &contact, const Vector &unbalanced, const ConstraintGraph &graph) override;
-
-    void
-    enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override;
-
-    void
     take(const LinearSolution &solution) override
     {
       forces = multipliers(accepted, solution);
     }
 
-    void
-    update(Contact &contact) override;
-
   protected:
-    /** A condition of a row that the graph has accepted, its number there, and how it is met. */
+    /** A condition of a row that the graph has accepted, its number there, how it is met, and the
+     * normal of the row in the linear system. */
     struct Accepted
     {
-      ContactRow                *row;
+      const ContactRow          *row;
       Condition                  condition;
       std::size_t                number;
       ConstraintGraph::Treatment treatment;
+      dealii::Tensor<1, dim>     normal;
     };
+
+    void
+    evaluate(const Contact         &contact,
+             const Vector          &unbalanced,
+             const ConstraintGraph &graph) override;
+
+    void
+    constrain(const Contact &contact, ConstraintGraph &graph, LinearSystem &system) override;
+
+    void
+    set_forces(const Contact &contact) override;
 
     /** @brief How the conditions of a row are met. */
     virtual ConstraintGraph::Treatment
@@ -67,7 +71,7 @@ namespace Touchstone
 
     /** @brief Conditions are about to be offered. Collective. */
     virtual void
-    prepare(Contact & /*contact*/, LinearSystem & /*system*/)
+    prepare(const Contact & /*contact*/, LinearSystem & /*system*/)
     {
     }
 
@@ -80,7 +84,7 @@ namespace Touchstone
     /** Of the last system, and what its solution has made of them. */
     std::vector<Accepted> accepted;
     std::vector<double>   forces;
-    /** A linear solve has come after the last recover(). */
+    /** A linear solve has come after the last evaluate(). */
     bool solved = false;
   };
 } // namespace Touchstone

@@ -3,7 +3,7 @@
 
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/linear_system.h>
-#include <touchstone/contact/row.h>
+#include <touchstone/contact/row_state.h>
 
 #include <vector>
 
@@ -17,38 +17,32 @@ namespace Touchstone
   NodalForm
   gap_gradient(const ContactRow &row);
 
+  /** @brief A new linear system begins: no condition of the row has been offered to the graph. A
+   * redundant row counts as refused. */
+  void
+  start_row(RowState &state);
+
   /**
    * @brief The conditions that an active row puts on the displacement increment:
-   * along the normal if it is free to slide, in all directions if it is held; none
-   * if it is open. Resets its count of accepted and refused conditions.
+   * along the normal if it is free to slide, in all directions if it is fully constrained; none
+   * if it is open or redundant.
    *
    * @param keep_symmetric Leave the force along the normal when it drags friction
    *                       along with it.
    */
   std::vector<Condition>
-  start_row(ContactRow &row, bool keep_symmetric);
+  row_conditions(const ContactRow &row, const RowState &state, bool keep_symmetric);
 
-  /** @brief The motions that a sticking node resists elastically, without being
-   * held by conditions: they support its body, too. */
+  /** @brief The displacements that a sticking node resists elastically, without being
+   * constrained by conditions: they support its body, too. */
   std::vector<Condition>
-  elastic_stick(const ContactRow &row);
+  elastic_stick(const ContactRow &row, const RowState &state);
 
   /** @brief The directions in which friction resists an increment like a spring: along the surface
    * where the row sticks elastically, across the slip where it slips. As conditions without
    * value, for a change of basis that takes their elongations for unknowns. */
   std::vector<Condition>
-  friction_springs(const ContactRow &row);
-
-  /**
-   * @brief Let the friction of a row stay what it is at the normal force @p lambda,
-   * so that it changes with its slip only and the system stays symmetric.
-   *
-   * Where @p lambda comes from decides whether the iteration converges: it should be
-   * the force that balances the slave node, and not a stiff spring times what a
-   * linearisation has left of the gap.
-   */
-  void
-  lag_friction(ContactRow &row, double lambda);
+  friction_springs(const ContactRow &row, const RowState &state);
 
   /** @brief Matrix terms and loads at nodes, which may belong to any rank. */
   class RowTerms
@@ -74,13 +68,10 @@ namespace Touchstone
                   const dealii::Tensor<1, dim> &force,
                   const NodalForm              &form);
 
-    /**
-     * @brief Add what friction and the change of normal and stencil contribute to
-     * the system, whatever the enforcement; takes note of the response that has
-     * been used.
-     */
+    /** @brief Add what friction and the change of normal and stencil contribute to
+     * the system, whatever the enforcement, doc/theory.md 5 and 6.3. */
     void
-    add_row(ContactRow &row);
+    add_row(const ContactRow &row, const RowState &state);
 
     /** @brief Add the loads to the right-hand side. Collective. */
     void
@@ -92,7 +83,10 @@ namespace Touchstone
     std::vector<double> loads;
 
     void
-    add_geometric(const ContactRow &row);
+    add_geometric(const ContactRow &row, const RowState &state);
+    /** The change of the friction force with slip, area and frame. */
+    void
+    add_friction(const ContactRow &row, const RowState &state);
   };
 } // namespace Touchstone
 

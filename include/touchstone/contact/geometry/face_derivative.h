@@ -73,6 +73,17 @@ namespace Touchstone
     std::array<NodeMatrices, Face::max_nodes>           own;
 
     std::unique_ptr<GregoryPatch::Derivative> patch;
+
+    /** Set x_position, x_normal and those of the tangents. */
+    void
+    differentiate_position(FaceDerivative &result, const std::array<double, 2> &xi) const;
+    /** Set normal_xi, normal_position and normal_normal to those of t_1 x t_2 / |t_1 x t_2|. */
+    void
+    differentiate_own_normal(FaceDerivative &result, const std::array<double, 2> &xi) const;
+    /** Set the interpolated normal and its derivatives from those of the surface itself. */
+    void
+    differentiate_interpolated_normal(FaceDerivative               &result,
+                                      const dealii::Tensor<1, dim> &own_normal) const;
   };
 
   /** @brief The matrix A of the cross product, A b = a x b. */

@@ -3,6 +3,7 @@
 
 #include <touchstone/contact/geometry/bilinear.h>
 #include <touchstone/contact/geometry/gregory_patch.h>
+#include <touchstone/contact/geometry/master_normal.h>
 
 #include <optional>
 #include <string>
@@ -10,21 +11,6 @@
 
 namespace Touchstone
 {
-  /** @brief Where the normal of a row comes from, and what the gap is measured to. */
-  enum class MasterNormal
-  {
-    /** The face at the contact point. */
-    face,
-    /** Interpolation of the averaged normals of its nodes. */
-    averaged,
-    /** A smooth patch over the face, to which the gap is measured as well. */
-    smoothed
-  };
-
-  /** @brief From the key "Master normal". @throws std::out_of_range */
-  MasterNormal
-  master_normal(const std::string &name);
-
   /**
    * @brief The surface over a face to which gaps are measured, and its normal.
    *

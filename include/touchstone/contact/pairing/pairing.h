@@ -56,8 +56,8 @@ namespace Touchstone
     virtual ~Pairing() = default;
 
     /**
-     * @brief Read the deformed surfaces: set stencil, normal, gap_vector, gap and
-     * status (no_partner where there is none) of all rows. What else the rows
+     * @brief Read the deformed surfaces: set has_partner, stencil, normal, gap_vector and gap
+     * of all rows, and area, share, lever and shift where they change. What else the rows
      * hold is left alone.
      * @param u    Displacement with ghosts; the surfaces have been moved to it.
      * @param time For obstacles that move.
@@ -67,8 +67,8 @@ namespace Touchstone
     update(const Vector &u, double time, std::vector<ContactRow> &rows) = 0;
 
     /**
-     * @brief Set the derivative of the active rows, for the consistent
-     * linearisation. Called after update() with the same arguments, on all ranks.
+     * @brief Set the derivative of the rows that were active (ContactRow::was_active), for the
+     * consistent linearisation. Called after update() with the same arguments, on all ranks.
      *
      * A pairing that does not implement it keeps normals and stencils constant
      * within a Newton iteration.

@@ -2,6 +2,7 @@
 #define touchstone_contact_search_face_exchange_h
 
 #include <touchstone/contact/geometry/surface.h>
+#include <touchstone/contact/search/search_work.h>
 
 #include <deal.II/base/bounding_box.h>
 
@@ -12,25 +13,6 @@
 
 namespace Touchstone
 {
-  /** @brief What searches came to so far, on this rank. */
-  struct SearchWork
-  {
-    /** Faces that a point was projected on or a path crossed with, or that stood near a
-     * slave face. */
-    std::uint64_t candidates = 0;
-    /** Other ranks that master faces were sent to, and those faces. */
-    std::uint64_t messages = 0, faces_sent = 0;
-
-    SearchWork &
-    operator+=(const SearchWork &other)
-    {
-      candidates += other.candidates;
-      messages += other.messages;
-      faces_sent += other.faces_sent;
-      return *this;
-    }
-  };
-
   /**
    * @brief Brings the master faces to the ranks whose slave nodes they are near.
    *

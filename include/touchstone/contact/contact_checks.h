@@ -1,0 +1,21 @@
+#ifndef touchstone_contact_contact_checks_h
+#define touchstone_contact_contact_checks_h
+
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  class Contact;
+
+  /** @brief Text on gaps and overlaps as the bodies are placed, a line per pair. Collective. */
+  std::vector<std::string>
+  start_report(const Contact &contact);
+
+  /** @brief Contact in the state of the last update that rows of slave nodes and master faces
+   * cannot describe, in words; empty if there is none. Collective. */
+  std::string
+  unresolved_contact(const Contact &contact);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,222 @@
+#ifndef touchstone_contact_contact_pair_h
+#define touchstone_contact_contact_pair_h
+
+#include <touchstone/contact/contact_parameters.h>
+#include <touchstone/contact/friction/friction.h>
+#include <touchstone/contact/geometry/surface.h>
+#include <touchstone/contact/pairing/pairing.h>
+#include <touchstone/contact/row.h>
+#include <touchstone/contact/stateful.h>
+#include <touchstone/mesh/forest.h>
+#include <touchstone/solid/solid.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What a contact pair is made from. */
+  struct ContactPairInput
+  {
+    const ContactPairParameters &parameters;
+    /** Null for a master body. */
+    const ObstacleParameters *obstacle;
+    const Solid              &solid;
+    const Forest             &forest;
+    /** Number of the pair. */
+    unsigned int number = 0;
+    /** Numbers of the bodies; no master body with an obstacle. */
+    unsigned int slave_body = 0, master_body = dealii::numbers::invalid_unsigned_int;
+    /** Young's modulus of the softer body: a force is small or large by what this makes of
+     * it. */
+    double modulus = 1.;
+    /** End of the time in which an initial overlap grows ("ramp"). */
+    double end_time = 1.;
+  };
+
+  /**
+   * @brief A contact pair: its surfaces, its pairing, and the rows that this makes.
+   *
+   * It applies small sliding and the treatment of initial overlaps; nobody else writes rows.
+   */
+  class ContactPair : public Stateful
+  {
+  public:
+    /** @throws InputError for boundaries that do not exist, and surfaces without faces.
+     * Collective. */
+    explicit ContactPair(const ContactPairInput &input);
+
+    const std::vector<ContactRow> &
+    rows() const
+    {
+      return present;
+    }
+
+    /** @brief The rows of the last committed state. */
+    const std::vector<ContactRow> &
+    committed_rows() const
+    {
+      return committed;
+    }
+
+    const ContactPairParameters &
+    parameters() const
+    {
+      return input.parameters;
+    }
+
+    const Surface &
+    slave() const
+    {
+      return *slave_surface;
+    }
+
+    /** @brief Null for an obstacle. */
+    const Surface *
+    master() const
+    {
+      return master_surface.get();
+    }
+
+    Pairing &
+    pairing() const
+    {
+      return *pairing_method;
+    }
+
+    unsigned int
+    slave_body() const
+    {
+      return input.slave_body;
+    }
+    unsigned int
+    master_body() const
+    {
+      return input.master_body;
+    }
+
+    bool
+    tied() const
+    {
+      return is_tied;
+    }
+
+    /** @brief Pairing of the reference state, kept for small sliding and tied. */
+    bool
+    small_sliding() const
+    {
+      return small;
+    }
+
+    /** @brief Initial overlap of a row that does not count, or not yet, <= 0; length. */
+    double
+    overlap(const std::size_t k) const
+    {
+      return overlaps[k];
+    }
+
+    /** @brief Give the rows their numbers among all of this rank, from @p first_index on. */
+    void
+    number_rows(std::size_t first_index);
+
+    /** @brief Point the rows to their friction, by row index; null without. */
+    void
+    set_friction(const std::function<const FrictionRow *(std::size_t)> &friction);
+
+    /** Normals of the planes of symmetry that nodes lie on. */
+    using Mirrors = std::map<Index, std::vector<dealii::Tensor<1, dim>>>;
+
+    /** @brief The constants of the friction of each row.
+     * @param mirrors Of owned nodes, by node. */
+    std::vector<FrictionRow>
+    friction_rows(const Mirrors &mirrors, const ContactParameters &contact) const;
+
+    /**
+     * @brief Make the rows describe a displacement. Collective.
+     *
+     * @param u       Displacement of owned dofs.
+     * @param ghosted The same with the ghosts of the surfaces; must live until commit() or the
+     *                next update.
+     * @param active  Whether a row is active at present.
+     * @throws InputError in the first update, if the surfaces do not face each other.
+     */
+    void
+    update(const Vector                                  &u,
+           const Vector                                  &ghosted,
+           double                                         time,
+           const std::function<bool(const ContactRow &)> &active);
+
+    /** @brief Set the derivatives of the active rows in the displacement of the
+     * last update(), for the consistent linearisation. Collective. */
+    void
+    differentiate(const std::function<bool(const ContactRow &)> &active);
+
+    /** @brief Move the surfaces to a displacement with ghosts; update() does so, too.
+     * Collective. */
+    void
+    move_surfaces(const Vector &ghosted);
+
+    unsigned int
+    n_searches() const
+    {
+      return searches;
+    }
+
+    void
+    commit() override;
+    void
+    rollback() override;
+    void
+    save(ArchiveWriter &archive) const override;
+
+    /** @brief Comes after an update in the reference state, and set_displacement(). */
+    void
+    load(const ArchiveReader &archive) override;
+
+    /** @brief The surfaces are at the displacement @p ghosted, see update(). */
+    void
+    set_displacement(const Vector &ghosted)
+    {
+      displacement = &ghosted;
+    }
+
+  private:
+    const ContactPairInput   input;
+    const bool               is_tied, small;
+    std::unique_ptr<Surface> slave_surface, master_surface;
+    std::shared_ptr<Pairing> pairing_method;
+    std::vector<ContactRow>  present, committed;
+    /** Small sliding: the rows of the reference state, and the displacement with the ghosts that
+     * their stencils need. */
+    std::vector<ContactRow> reference;
+    Vector                  stencil_values;
+    std::vector<double>     overlaps;
+    const Vector           *displacement = nullptr;
+    double                  time         = 0.;
+    unsigned int            searches     = 0;
+    bool                    started      = false;
+
+    std::unique_ptr<Surface>
+    make_surface(unsigned int                    body,
+                 const std::vector<std::string> &boundaries,
+                 const std::string              &key) const;
+    std::shared_ptr<Pairing>
+    make_pairing(double search_distance) const;
+    void
+    search(const Vector &u);
+    /** After the first search: make a deeper one if the bodies overlap more than it
+     * reaches. @throws InputError if the surfaces do not face each other. */
+    void
+    check_start(const Vector &u);
+    void
+    make_reference();
+    void
+    update_small_sliding(const Vector &u);
+    void
+    apply_overlap();
+  };
+} // namespace Touchstone
+
+#endif

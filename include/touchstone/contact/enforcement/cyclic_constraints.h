@@ -1,0 +1,45 @@
+#ifndef touchstone_contact_enforcement_cyclic_constraints_h
+#define touchstone_contact_enforcement_cyclic_constraints_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/contact/contact_pair.h>
+
+#include <memory>
+#include <vector>
+
+namespace Touchstone
+{
+  class Contact;
+
+  /**
+   * @brief Finds rows that depend on each other in a cycle over several pairs.
+   *
+   * The slave nodes of a row move with its master nodes, and these, if they are slaves
+   * of other active rows, with further ones. Where that leads back to a row, those
+   * of the later pair are redundant: up to discretisation error they repeat constraints that are
+   * already imposed. Kept, they would make multipliers dependent, could not
+   * be eliminated, and would let the surfaces fit together only as far as both
+   * meshes represent the same functions (locking).
+   */
+  class CyclicConstraints
+  {
+  public:
+    /** @brief Find the pairs that can be part of a cycle. Collective. */
+    void
+    reinit(const std::vector<std::unique_ptr<ContactPair>> &pairs, MPI_Comm communicator);
+
+    /**
+     * @brief Whether the rows of this rank, by their index, are redundant. Collective.
+     * @param graph     The prescribed displacements: rows that these determine lead nowhere.
+     * @param threshold Smaller components of unit normals do not count.
+     */
+    std::vector<bool>
+    redundant_rows(const Contact &contact, const ConstraintGraph &graph, double threshold) const;
+
+  private:
+    /** Pairs whose rows can depend on each other in a cycle, in their order. */
+    std::vector<unsigned int> cyclic;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,105 @@
+#ifndef touchstone_contact_friction_friction_force_h
+#define touchstone_contact_friction_friction_force_h
+
+#include <touchstone/base/types.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief The tangential force of a row as an enforcement makes it: the formulation that it
+   * chooses, and the response that enters the linear system.
+   *
+   * The tangential force follows a trial force, t_tr = base - c s, with the slip s
+   * of the step: inside the cone of radius L(lambda) the node sticks, outside it
+   * slips with t = L t_tr / |t_tr|. What base and c are makes the formulation:
+   * - regularised (elastic-plastic slip): the force at the start of the step,
+   *   carried along with the slave surface, and alpha_t;
+   * - augmented Lagrangian: the force at the last augmentation, and its penalty;
+   * - exact: the force of the last iteration, and the complementarity constant.
+   *   The node is then constrained while it sticks.
+   *
+   * Simo and Laursen (1992), Comput. Struct. 42; Alart and Curnier (1991), Comput.
+   * Methods Appl. Mech. Engng 92; Hueeber, Stadler and Wohlmuth (2008), SIAM J. Sci.
+   * Comput. 30; doc/theory.md, sections 6.1 to 6.3.
+   */
+  struct FrictionForce
+  {
+    using Vec = dealii::Tensor<1, dim>;
+    using Mat = dealii::Tensor<2, dim>;
+
+    /** @name Formulation, chosen by the enforcement */
+    /** @{ */
+    /** The relative displacement of a node that sticks is constrained by conditions. */
+    bool constrained = false;
+    /** Tangents along which no condition constrains it, because a support or another pair
+     * determines its displacement there: springs with an augmented force do. */
+    std::vector<Vec> unconstrained;
+    double           c = 1.;
+    Vec              base;
+    /** The base is the force that is carried along with the slave surface. */
+    bool carried = false;
+    /** The force of stick is not unique: see find_shared_nodes(). */
+    bool shared = false;
+    /** @} */
+
+    /** @name Response, see friction_response.h */
+    /** @{ */
+    /** Direction of the force and stiffness, now and in the last linear system;
+     * the direction is zero while sticking. */
+    Vec direction, last_direction;
+    Mat tangent, last_tangent;
+    /** Linearised, t = constant + d_lambda lambda + d_area dA - tangent ds - d_spin omega
+     * + d_slip (slip_direction . ds), the last where the limit depends on the slip. */
+    Vec constant, d_lambda, d_area, d_spin, d_slip, slip_direction;
+    /** Radius of the cone, force. */
+    double limit = 0.;
+    /** |t_tr| - L, force: positive asks for slip, negative for stick. */
+    double excess = 0.;
+    /** @} */
+
+    /** @brief No force; the formulation stays. */
+    void
+    clear()
+    {
+      base = direction = last_direction = constant = d_lambda = d_area = d_spin = Vec();
+      d_slip = slip_direction = Vec();
+      unconstrained.clear();
+      tangent = last_tangent = Mat();
+      limit = excess = 0.;
+    }
+
+    /** @brief Force per length of the springs along unconstrained tangents.
+     * @param stiffness ContactRow::stiffness. */
+    static double
+    unconstrained_stiffness(const double stiffness)
+    {
+      return 100. * stiffness;
+    }
+
+    /** @brief The one list of what checkpoints hold. */
+    template <class Force, class Visitor>
+    static void
+    visit_state(Force &f, Visitor &&visit)
+    {
+      visit(f.constrained);
+      visit(f.c);
+      visit(f.base);
+      visit(f.carried);
+      visit(f.direction);
+      visit(f.last_direction);
+      visit(f.tangent);
+      visit(f.last_tangent);
+      visit(f.constant);
+      visit(f.d_lambda);
+      visit(f.d_spin);
+      visit(f.limit);
+      visit(f.excess);
+    }
+  };
+} // namespace Touchstone
+
+#endif

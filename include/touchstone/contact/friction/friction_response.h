@@ -1,0 +1,59 @@
+#ifndef touchstone_contact_friction_friction_response_h
+#define touchstone_contact_friction_friction_response_h
+
+#include <touchstone/contact/row_state.h>
+
+namespace Touchstone
+{
+  /**
+   * @brief The tangential force of an active row with friction under the normal force
+   * @p lambda, doc/theory.md 6.1: sets the response in @p f, from the formulation there, and
+   * returns the force.
+   */
+  dealii::Tensor<1, dim>
+  friction_response(const ContactRow &row, ContactStatus status, double lambda, FrictionForce &f);
+
+  /**
+   * @brief Evaluate the contact force of an active row from its normal force, slip and
+   * status: force and response of @p state. A row without friction gets
+   * force = lambda n; one that is tied is left alone.
+   */
+  void
+  evaluate_force(const ContactRow &row, RowState &state);
+
+  /**
+   * @brief Let the friction of a row stay what it is at the normal force @p lambda,
+   * so that it changes with its slip only and the system stays symmetric: changes the
+   * response, and not the force.
+   *
+   * Where @p lambda comes from decides whether the iteration converges: it should be
+   * the force that balances the slave node, and not a stiff spring times what a
+   * linearisation has left of the gap.
+   */
+  void
+  lag_friction(const ContactRow &row, RowState &state, double lambda);
+
+  /** @brief Take the regularised formulation. */
+  void
+  regularise_friction(const ContactRow &row, RowState &state);
+
+  /** @brief Take the formulation of an enforcement that constrains what sticks by
+   * conditions: exact, unless the scene asks for regularised stick. */
+  void
+  choose_friction(const ContactRow &row, RowState &state);
+
+  /** @brief Let the springs along unconstrained tangents take the force that the present slip
+   * asks for. */
+  void
+  augment_unconstrained(const ContactRow &row, RowState &state);
+
+  /** @brief The slip of the present step without its elastic part, the change of
+   * the springs that regularised friction stores its force in.
+   * @param force The present tangential force. */
+  dealii::Tensor<1, dim>
+  irreversible_slip(const FrictionRow            &friction,
+                    const FrictionForce          &f,
+                    const dealii::Tensor<1, dim> &force);
+} // namespace Touchstone
+
+#endif

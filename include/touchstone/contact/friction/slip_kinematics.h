@@ -1,0 +1,50 @@
+#ifndef touchstone_contact_friction_slip_kinematics_h
+#define touchstone_contact_friction_slip_kinematics_h
+
+#include <touchstone/algebra/vector.h>
+#include <touchstone/contact/friction/friction.h>
+#include <touchstone/contact/row.h>
+
+namespace Touchstone
+{
+  /** @brief Positions of nodes, now and when the step began, with the ghosts that rows refer
+   * to. */
+  struct NodePositions
+  {
+    Vector present, start;
+
+    dealii::Tensor<1, dim>
+    at(Index node) const;
+
+    /** @brief Displacement since the step began. */
+    dealii::Tensor<1, dim>
+    displacement(Index node) const;
+  };
+
+  /** @brief Displacement of the slave node relative to its convected contact point, with what of
+   * it lies across the surface, length. */
+  dealii::Tensor<1, dim>
+  displacement_since_anchor(const ContactRow      &row,
+                            const FrictionHistory &history,
+                            const NodePositions   &positions);
+
+  /** @brief Slip and frame of a row with a partner, doc/theory.md 6.2: a function of the
+   * history and of present positions alone. @param step Length of the step in time. */
+  SlipKinematics
+  slip_kinematics(const ContactRow &row, const NodePositions &positions, double time, double step);
+
+  /** @brief Set the gradients of slip and frame of a row with a derivative. */
+  void
+  differentiate_slip(const ContactRow    &row,
+                     const NodePositions &positions,
+                     SlipKinematics      &kinematics);
+
+  /** @brief Let slip count from the present contact point, doc/theory.md 6.2. */
+  void
+  set_anchor(const ContactRow     &row,
+             const SlipKinematics &kinematics,
+             const NodePositions  &positions,
+             FrictionHistory      &history);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,107 @@
+#ifndef touchstone_contact_row_state_h
+#define touchstone_contact_row_state_h
+
+#include <touchstone/contact/friction/friction_force.h>
+#include <touchstone/contact/row.h>
+
+namespace Touchstone
+{
+  /** @brief What a contact row does at present. */
+  enum class ContactStatus : int
+  {
+    /** No master face within reach, or beyond the edge of the master surface. */
+    no_partner = -1,
+    /** A master face is there, but the gap is open. */
+    open = 0,
+    /** In contact, free to slide. */
+    slip = 1,
+    /** In contact, held in the tangential directions. */
+    stick = 2,
+    /** All components constrained, compression and tension. */
+    tied = 3
+  };
+
+  /** @brief Status and contact force of a row. Owned by the Enforcement: nobody else writes
+   * them. */
+  struct RowState
+  {
+    ContactStatus status = ContactStatus::no_partner;
+    /** Contact force on the slave node, force: lambda_n n + t_T. */
+    dealii::Tensor<1, dim> force;
+    /** Normal contact force, >= 0 in compression. */
+    double lambda = 0.;
+    /** Gap admitted when convergence is judged: the penetration of a penalty, length. */
+    double admissible_gap = 0.;
+    /** Conditions of the row that the constraint graph accepted and refused: what a
+     * refused one asks for is determined by others. */
+    unsigned int accepted = 0, refused = 0;
+    /** The condition along the normal was accepted. */
+    bool normal_accepted = true;
+    /** Part of a cyclic dependency between contact pairs: imposes no constraint. */
+    bool redundant = false;
+    /** Only of rows with friction. */
+    FrictionForce friction;
+
+    bool
+    active() const
+    {
+      return status >= ContactStatus::slip;
+    }
+
+    /** @brief All components of the relative displacement are constrained: tied, or stick that
+     * is not left to springs. */
+    bool
+    fully_constrained() const
+    {
+      return status == ContactStatus::tied ||
+             (status == ContactStatus::stick && friction.constrained);
+    }
+
+    /** @brief Active, but all that it asks for is determined by others. */
+    bool
+    dropped() const
+    {
+      return accepted == 0 && refused > 0;
+    }
+
+    /** @brief No contact force of any kind. */
+    void
+    clear_force()
+    {
+      lambda = 0.;
+      force  = dealii::Tensor<1, dim>();
+      friction.clear();
+    }
+
+    /** @brief Record whether the constraint graph accepted a condition, the one
+     * along the normal first; returns that. */
+    bool
+    record(const Condition &condition, const bool was_accepted)
+    {
+      if (accepted + refused == 0)
+        normal_accepted = was_accepted;
+      else if (!was_accepted && status == ContactStatus::stick && friction.constrained)
+        friction.unconstrained.push_back(condition.direction);
+      ++(was_accepted ? accepted : refused);
+      return was_accepted;
+    }
+
+    /** @brief The one list of what checkpoints hold. */
+    template <class State, class Visitor>
+    static void
+    visit_state(State &state, Visitor &&visit)
+    {
+      visit(state.status);
+      visit(state.accepted);
+      visit(state.refused);
+      visit(state.redundant);
+      visit(state.normal_accepted);
+      visit(state.admissible_gap);
+      visit(state.force);
+      visit(state.lambda);
+      FrictionForce::visit_state(state.friction, visit);
+    }
+  };
+} // namespace Touchstone
+
+#endif

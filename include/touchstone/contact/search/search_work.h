@@ -1,0 +1,28 @@
+#ifndef touchstone_contact_search_search_work_h
+#define touchstone_contact_search_search_work_h
+
+#include <cstdint>
+
+namespace Touchstone
+{
+  /** @brief What searches came to so far, on this rank. */
+  struct SearchWork
+  {
+    /** Faces that a point was projected on or a path crossed with, or that stood near a
+     * slave face. */
+    std::uint64_t candidates = 0;
+    /** Other ranks that master faces were sent to, and those faces. */
+    std::uint64_t messages = 0, faces_sent = 0;
+
+    SearchWork &
+    operator+=(const SearchWork &other)
+    {
+      candidates += other.candidates;
+      messages += other.messages;
+      faces_sent += other.faces_sent;
+      return *this;
+    }
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,34 @@
+#ifndef touchstone_contact_velocity_constraints_h
+#define touchstone_contact_velocity_constraints_h
+
+#include <touchstone/algebra/constraint_graph.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace Touchstone
+{
+  class Contact;
+
+  /** @brief Velocity constraint of an active contact node: an impact without rebound. */
+  struct VelocityConstraint
+  {
+    /** Of the node and what it touches, with the velocity that they should have,
+     * length per time. */
+    Condition condition;
+    /** Along the normal, not across it. */
+    bool normal;
+    /** ContactRow::index. */
+    std::size_t row;
+    /** What was taken to make it so, force times time. */
+    double impulse = 0.;
+  };
+
+  /** @brief Velocity constraints of all nodes that are active at velocity level, in a step
+   * of length @p step: along normals, and across them where nodes stick; those implied by
+   * @p supports are omitted. */
+  std::vector<VelocityConstraint>
+  velocity_constraints(const Contact &contact, const ConstraintGraph &supports, double step);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,56 @@
+#ifndef touchstone_drive_forcing_term_h
+#define touchstone_drive_forcing_term_h
+
+#include <touchstone/drive/newton.h>
+
+namespace Touchstone
+{
+  /**
+   * @brief How well the linear system of a Newton iteration is to be solved: well enough, and not
+   * better than the next iteration makes use of.
+   *
+   * Eisenstat and Walker (1996), SIAM J. Sci. Comput. 17, the first of their choices.
+   */
+  class ForcingTerm
+  {
+  public:
+    /** @param usual              Relative residual that iterative solutions reach.
+     * @param residual_tolerance Of Newton's method.
+     * @param friction           Stick and slip have to be told apart. */
+    ForcingTerm(double usual, double residual_tolerance, bool friction);
+
+    void
+    begin_step();
+
+    /** @brief A state has been evaluated.
+     * @param leaves_out The linear system leaves out part of the tangent, as symmetric ones do. */
+    void
+    update(const NewtonState &state, bool leaves_out);
+
+    /** @brief Relative residual that the next linear solve needs. */
+    double
+    tolerance() const
+    {
+      return next;
+    }
+
+    /** @brief In this step an increment with an unchanged active set has gained little: frozen
+     * normals and contact points leave too much. */
+    bool
+    slow() const
+    {
+      return has_been_slow;
+    }
+
+  private:
+    const double usual, residual_tolerance;
+    const bool   friction;
+    double       next = 1e-3;
+    /** Residual before the last increment, if nothing but the residual was left to be met; else
+     * zero. */
+    double last_residual = 0.;
+    bool   has_been_slow = false;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,195 @@
+#ifndef touchstone_drive_step_h
+#define touchstone_drive_step_h
+
+#include <touchstone/algebra/linear_solver.h>
+#include <touchstone/contact/contact.h>
+#include <touchstone/drive/newton.h>
+#include <touchstone/drive/time_integration.h>
+#include <touchstone/solid/boundary_conditions.h>
+
+#include <deal.II/base/timer.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Work of all steps so far. */
+  struct StepCounts
+  {
+    LinearSolverCounts linear;
+    unsigned int       assemblies = 0, searches = 0;
+  };
+
+  /** @brief The present state of a step, as results are made from it. */
+  struct StepState
+  {
+    /** Displacement without ghosts, length. */
+    const Vector          &displacement;
+    const Contact         &contact;
+    const TimeIntegration &time_integration;
+    const Solid           &solid;
+    StepCounts             counts;
+    /** Forces of the supports. */
+    std::function<std::vector<Reaction>()> reactions;
+  };
+
+  /** @brief What is to be said of a step that has been solved. */
+  struct StepFindings
+  {
+    /** What happened that the user should know: rows dropped, bodies stabilised; empty if
+     * nothing. */
+    std::string remarks;
+    /** Bodies that have come off what they touched without going far. */
+    std::vector<std::string> warnings;
+  };
+
+  /** @brief Where a step that was not solved is farthest from a solution, and why it may be. */
+  struct StepDifficulty
+  {
+    /** The contact row that changes, or else the node that is farthest out of balance, with
+     * body, position and pair. */
+    std::string position;
+    /** Bodies that nothing but contact holds; empty if there are none. */
+    std::string suspicion;
+  };
+
+  /** @brief What a change of the mesh carries over to the step on the new mesh. */
+  struct StepTransfer
+  {
+    /** Displacement and contact of the committed state, and of the present one, and rates of
+     * the former, as fields over the dofs. */
+    std::vector<Vector>       fields;
+    std::vector<BodyMomentum> momenta;
+    double                    committed_time = 0.;
+    Energies                  energies;
+    double                    largest_force_scale = 0.;
+    StepCounts                counts;
+  };
+
+  /**
+   * @brief A step in time, or of the load, of all bodies: what Simulation and Refinement know
+   * of it. An implicit step is solved by Newton's method (StepProblem).
+   */
+  class Step
+  {
+  public:
+    virtual ~Step() = default;
+
+    /** @brief The kind of step that the scene asks for. Collective. */
+    static std::unique_ptr<Step>
+    make(const Scene &scene, const Forest &forest, Solid &solid, dealii::TimerOutput &timer);
+
+    /** @brief Look at the bodies as they are placed. @return lines on gaps and
+     * overlaps of the contact pairs. @throws InputError if nothing holds a body. */
+    virtual std::vector<std::string>
+    start() = 0;
+
+    /** @brief Go from the committed state to time @p t, without keeping it. @return the number of
+     * iterations. @throws NonConvergence */
+    virtual unsigned int
+    solve(double t, const NewtonParameters &parameters, const Newton::Observer &observer) = 0;
+
+    /**
+     * @brief What is to be said of the present state. Collective.
+     * @throws LostContact if a body that nothing but contact holds has moved much farther than
+     * anything that could have pushed it: Newton has thrown it off.
+     * @throws UnresolvedContactFailure for contact that rows of slave nodes and master faces
+     * cannot describe: its forces would be wrong.
+     */
+    virtual StepFindings
+    findings() const = 0;
+
+    /** @brief Why the present step may not be solved. Collective. */
+    virtual StepDifficulty
+    difficulty() const = 0;
+
+    /**
+     * @brief Keep the present state, displacement and contact history, if the energies at the
+     * end of the step allow it: always in statics.
+     * @param smallest_part A shorter part than this of the step is not worth it; above 1 the
+     *                      state is kept whatever its energies.
+     * @return 1 if the state is kept; else the part of the step that is to be made
+     * instead, up to where bodies meet.
+     * @throws EnergyGain
+     */
+    virtual double
+    try_commit(double smallest_part) = 0;
+
+    /** @brief Return to the committed state. */
+    virtual void
+    rollback() = 0;
+
+    virtual StepState
+    state() const = 0;
+
+    /** @brief What a change of the mesh carries over. Collective. */
+    virtual StepTransfer
+    transfer() const = 0;
+
+    /**
+     * @brief Continue from a transfer() whose fields have been taken to the new mesh; comes after
+     * start(): the step to time @p t will begin from the committed state, and its first
+     * iteration at the present one. Collective.
+     */
+    virtual void
+    adopt(const StepTransfer &before, double t) = 0;
+
+    /** @brief Put the committed state and all counts into a checkpoint. Drops what earlier
+     * solutions have left behind to speed up or judge later ones, and is in no checkpoint: a run
+     * that writes one and a run that resumes from it must take the same path. Collective. */
+    virtual void
+    save(ArchiveWriter &archive) = 0;
+
+    /** @brief Resume from save(); comes after start(). Collective. @throws ArchiveError */
+    virtual void
+    load(const ArchiveReader &archive) = 0;
+
+    /** @brief Keep the present state in any case. */
+    void
+    commit()
+    {
+      try_commit(2.);
+    }
+
+    /** @name Parts of state() */
+    /** @{ */
+    const Vector &
+    displacement() const
+    {
+      return state().displacement;
+    }
+    /** @brief With the ghosts of the mesh. */
+    Vector
+    ghosted_displacement() const
+    {
+      return state().solid.ghosted(displacement());
+    }
+    std::vector<Reaction>
+    reactions() const
+    {
+      return state().reactions();
+    }
+    /** @brief Elastic energy of all bodies, force times length. */
+    double
+    strain_energy() const
+    {
+      return state().solid.strain_energy(displacement());
+    }
+    const TimeIntegration &
+    time_integration() const
+    {
+      return state().time_integration;
+    }
+    const Contact &
+    contact_state() const
+    {
+      return state().contact;
+    }
+    /** @} */
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,26 @@
+#ifndef touchstone_mesh_obstacle_shape_h
+#define touchstone_mesh_obstacle_shape_h
+
+#include <touchstone/base/registry.h>
+#include <touchstone/mesh/analytic_surface.h>
+
+#include <memory>
+
+namespace Touchstone
+{
+  /**
+   * @brief The shape of a rigid obstacle. Registered by the name that the key "Shape" of an
+   * obstacle takes; its own keys are in the same section.
+   */
+  class ObstacleShape : public PluginParameters
+  {
+  public:
+    /** @brief The surface at time 0; normals point to where the bodies are. */
+    virtual std::shared_ptr<const AnalyticSurface>
+    surface() const = 0;
+  };
+
+  using ObstacleShapeRegistry = Registry<ObstacleShape>;
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,21 @@
+#ifndef touchstone_scene_pair_input_h
+#define touchstone_scene_pair_input_h
+
+#include <touchstone/contact/contact_pair.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  class Scene;
+
+  /** @brief What a contact pair of a scene is made from. @param number Of the pair. */
+  ContactPairInput
+  pair_input(const Scene &scene, const Forest &forest, const Solid &solid, unsigned int number);
+
+  /** @brief The same for all pairs, in their order. */
+  std::vector<ContactPairInput>
+  pair_inputs(const Scene &scene, const Forest &forest, const Solid &solid);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,140 @@
+#include <touchstone/contact/contact.h>
+#include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/unresolved_contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** An overlap that is smaller, as a fraction of a face, is none. */
+    constexpr double negligible_overlap = 1e-6;
+
+
+
+    /** Normal forces of a pair at the nodes, with ghosts. */
+    Vector
+    normal_forces(const Contact &contact, const ContactPair &pair, const Solid &solid)
+    {
+      Vector owned(solid.owned, solid.communicator);
+      for (const ContactRow &row : pair.rows())
+        if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
+          for (unsigned int d = 0; d < dim; ++d)
+            owned(dim * row.slave + d) = state.lambda * row.normal[d];
+      owned.compress(VectorOperation::insert);
+      return contact.with_ghosts(owned);
+    }
+
+
+
+    std::string
+    unresolved_in_pair(const Contact &contact, const ContactPair &pair, const Solid &solid)
+    {
+      const Vector forces = normal_forces(contact, pair, solid);
+      // Overlaps can be meant.
+      const bool overlaps =
+        pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference;
+      if (!pair.master())
+        return overlaps ? obstacle_within_face(solid,
+                                               pair.parameters(),
+                                               pair.slave(),
+                                               forces,
+                                               [&](const Point<dim> &x) {
+                                                 return pair.pairing().distance(x, contact.time());
+                                               })
+                        : "";
+      const UnresolvedContact check(solid,
+                                    pair.parameters(),
+                                    pair.slave(),
+                                    *pair.master(),
+                                    pair.slave_body(),
+                                    pair.master_body(),
+                                    contact.ghosted_displacement(),
+                                    forces);
+      // Surfaces of small sliding stay where they are.
+      const std::string text = overlaps && !pair.small_sliding() ? check.overlap() : "";
+      return text.empty() ? check.oblique_force() : text;
+    }
+  } // namespace
+
+
+
+  std::string
+  unresolved_contact(const Contact &contact)
+  {
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        const ContactPair &pair = contact.pair(p);
+        const std::string  text =
+          pair.tied() ? "" : unresolved_in_pair(contact, pair, contact.solid_model());
+        if (!text.empty())
+          return "contact pair '" + pair.parameters().name + "': " + text +
+                 ". Rows of slave nodes cannot describe this contact: refine the slave surface" +
+                 (pair.master() ? ", exchange slave and master, or round the edges" : "");
+      }
+    return "";
+  }
+
+
+
+  std::vector<std::string>
+  start_report(const Contact &contact)
+  {
+    const MPI_Comm           communicator = contact.communicator();
+    std::vector<std::string> lines;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        const ContactPair &pair   = contact.pair(p);
+        double             lowest = std::numeric_limits<double>::max(), size = 0.;
+        unsigned int       partner = 0, overlapping = 0;
+        for (std::size_t k = 0; k < pair.rows().size(); ++k)
+          {
+            const ContactRow &row = pair.rows()[k];
+            if (!row.has_partner)
+              continue;
+            // As the bodies are placed.
+            const double gap = (row.gap + pair.overlap(k)) / row.share;
+            ++partner;
+            lowest = std::min(lowest, gap);
+            size   = std::max(size, row.size);
+            overlapping += (gap < -negligible_overlap * row.size);
+          }
+        const unsigned int total = Utilities::MPI::sum(pair.rows().size(), communicator);
+        lowest                   = Utilities::MPI::min(lowest, communicator);
+        size                     = Utilities::MPI::max(size, communicator);
+        partner                  = Utilities::MPI::sum(partner, communicator);
+        overlapping              = Utilities::MPI::sum(overlapping, communicator);
+        const ContactPairParameters::Overlap treatment = pair.parameters().initial_overlap;
+        const std::string                    overlap =
+          std::string(": an initial overlap") + (lowest < -size ? " larger than a face" : "") +
+          ", " +
+          (treatment == ContactPairParameters::Overlap::adjust ? "adjusted to no gap"
+           : treatment == ContactPairParameters::Overlap::ramp
+             ? "an interference that grows with time"
+             : "taken as interference");
+        char text[300];
+        if (partner == 0)
+          std::snprintf(text,
+                        sizeof(text),
+                        "no master face within reach of any of %u slave nodes",
+                        total);
+        else
+          std::snprintf(text,
+                        sizeof(text),
+                        "%u slave nodes, %u face the master surface, smallest gap %.4g%s",
+                        total,
+                        partner,
+                        lowest,
+                        overlapping == 0 ? "" : overlap.c_str());
+        lines.push_back("contact pair " + pair.parameters().name + ": " + text);
+      }
+    return lines;
+  }
+} // namespace Touchstone

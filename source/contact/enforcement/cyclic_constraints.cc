@@ -1,0 +1,209 @@
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/contact/contact.h>
+#include <touchstone/contact/enforcement/cyclic_constraints.h>
+#include <touchstone/contact/enforcement/row_terms.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/strong_components.hpp>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The dofs of the slave node that a row determines, and those that it
+     * determines them by. */
+    struct Dependence
+    {
+      Index              slave;
+      std::vector<Index> dofs, on;
+    };
+
+    void
+    add_components(const Index           node,
+                   const Tensor<1, dim> &coefficients,
+                   const double          threshold,
+                   std::vector<Index>   &dofs)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (std::abs(coefficients[d]) > threshold)
+          dofs.push_back(dim * node + d);
+    }
+
+    /** @param free The part of the normal that the slave node can move along.
+     * @param threshold Smaller coefficients do not count. */
+    Dependence
+    dependence(const ContactRow     &row,
+               const RowState       &state,
+               const Tensor<1, dim> &free,
+               const double          threshold)
+    {
+      Dependence           result{row.slave, {}, {}};
+      const Tensor<1, dim> all({1., 1., 1.});
+      const bool           fully = state.fully_constrained();
+      add_components(row.slave, fully ? all : free / free.norm(), threshold, result.dofs);
+      for (const StencilEntry &entry : row.stencil)
+        add_components(entry.node, fully ? all : row.normal, threshold, result.on);
+      if (row.derivative)
+        for (const auto &[node, coefficients] : gap_gradient(row))
+          add_components(node, coefficients, threshold, result.on);
+      if (row.friction && fully)
+        for (const auto &[node, matrix] : row.friction->kinematics.slip_gradient)
+          for (unsigned int d = 0; d < dim; ++d)
+            add_components(node, matrix[d], threshold, result.on);
+      return result;
+    }
+
+    using Edges = std::vector<std::pair<unsigned int, unsigned int>>;
+
+    /** Which vertices of a directed graph lie on a cycle of two or more. */
+    std::vector<bool>
+    on_cycles(const unsigned int n_vertices, const Edges &edges)
+    {
+      std::vector<bool> result(n_vertices, false);
+      if (edges.empty())
+        return result;
+      const boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph(edges.begin(),
+                                                                                    edges.end(),
+                                                                                    n_vertices);
+      std::vector<unsigned int> component(n_vertices), size(n_vertices, 0);
+      boost::strong_components(graph,
+                               boost::make_iterator_property_map(
+                                 component.begin(), boost::get(boost::vertex_index, graph)));
+      for (const unsigned int c : component)
+        ++size[c];
+      for (unsigned int i = 0; i < n_vertices; ++i)
+        result[i] = size[component[i]] > 1;
+      return result;
+    }
+
+    /** Slave nodes with dofs that depend on themselves. */
+    std::set<Index>
+    in_cycles(const std::vector<Dependence> &rows)
+    {
+      std::map<Index, unsigned int> numbers;
+      const auto                    number = [&](const Index dof) {
+        return numbers.emplace(dof, numbers.size()).first->second;
+      };
+      Edges edges;
+      for (const Dependence &row : rows)
+        for (const Index from : row.dofs)
+          for (const Index to : row.on)
+            edges.emplace_back(number(from), number(to));
+      const std::vector<bool> cyclic = on_cycles(numbers.size(), edges);
+      std::set<Index>         result;
+      for (const Dependence &row : rows)
+        for (const Index from : row.dofs)
+          if (numbers.count(from) > 0 && cyclic[numbers.at(from)])
+            result.insert(row.slave);
+      return result;
+    }
+  } // namespace
+
+
+
+  void
+  CyclicConstraints::reinit(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                            const MPI_Comm                                   communicator)
+  {
+    // Pair p leads to pair q if master nodes of p are slave nodes of q.
+    Edges edges;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (unsigned int q = 0; q < pairs.size(); ++q)
+        {
+          int shared = 0;
+          if (p != q && pairs[p]->master())
+            {
+              std::set<Index> slaves;
+              for (const SurfaceNode &node : pairs[q]->slave().owned_nodes())
+                slaves.insert(node.node);
+              for (const Face &face : pairs[p]->master()->owned_faces())
+                for (unsigned int m = 0; m < face.n_nodes(); ++m)
+                  shared |= slaves.count(face.nodes[m]);
+            }
+          if (Utilities::MPI::max(shared, communicator))
+            edges.emplace_back(p, q);
+        }
+    const std::vector<bool> found = on_cycles(pairs.size(), edges);
+    cyclic.clear();
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (found[p])
+        cyclic.push_back(p);
+  }
+
+
+
+  namespace
+  {
+    /** What the active rows of a pair depend on, of all ranks. Collective. */
+    std::vector<Dependence>
+    gather(const std::vector<Dependence> &mine, const MPI_Comm communicator)
+    {
+      std::vector<Index> packed; // slave, numbers of dofs and of others, both lists
+      for (const Dependence &d : mine)
+        {
+          packed.push_back(d.slave);
+          packed.push_back(d.dofs.size());
+          packed.push_back(d.on.size());
+          packed.insert(packed.end(), d.dofs.begin(), d.dofs.end());
+          packed.insert(packed.end(), d.on.begin(), d.on.end());
+        }
+      std::vector<Dependence> result;
+      for (const auto &list : Utilities::MPI::all_gather(communicator, packed))
+        for (auto i = list.begin(); i != list.end(); i += 3 + i[1] + i[2])
+          result.push_back({i[0], {i + 3, i + 3 + i[1]}, {i + 3 + i[1], i + 3 + i[1] + i[2]}});
+      return result;
+    }
+  } // namespace
+
+
+
+  std::vector<bool>
+  CyclicConstraints::redundant_rows(const Contact         &contact,
+                                    const ConstraintGraph &graph,
+                                    const double           threshold) const
+  {
+    // Pair by pair: with the rows of earlier pairs, all of this pair that lie on a
+    // cycle go. So the order of nodes, which depends on the partition, does not
+    // matter.
+    std::vector<bool>       redundant(contact.rows().size(), false);
+    std::vector<Dependence> kept;
+    for (const unsigned int p : cyclic)
+      {
+        std::vector<Dependence> mine;
+        for (const ContactRow &row : contact.pair(p).rows())
+          {
+            const RowState      &state = contact.state(row);
+            const Tensor<1, dim> free  = graph.free_part(row.slave, row.normal);
+            if (state.active() && !(free.norm() < 1e-3))
+              mine.push_back(dependence(row, state, free, threshold));
+          }
+        std::vector<Dependence> of_pair = gather(mine, contact.communicator());
+        std::set<Index>         slaves;
+        for (const Dependence &d : of_pair)
+          slaves.insert(d.slave);
+        // How slave nodes depend on their neighbours is for the enforcement to see to.
+        for (Dependence &d : of_pair)
+          d.on.erase(std::remove_if(d.on.begin(),
+                                    d.on.end(),
+                                    [&](const Index dof) { return slaves.count(dof / dim) > 0; }),
+                     d.on.end());
+        std::vector<Dependence> all(kept);
+        all.insert(all.end(), of_pair.begin(), of_pair.end());
+        const std::set<Index> cycle = in_cycles(all);
+        for (const Dependence &d : of_pair)
+          if (cycle.count(d.slave) == 0)
+            kept.push_back(d);
+        for (const ContactRow &row : contact.pair(p).rows())
+          redundant[row.index] = contact.state(row).active() && cycle.count(row.slave) > 0;
+      }
+    return redundant;
+  }
+} // namespace Touchstone

@@ -1,0 +1,245 @@
+#include <touchstone/contact/contact.h>
+#include <touchstone/contact/enforcement/cyclic_constraints.h>
+#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/enforcement/row_terms.h>
+
+#include <algorithm>
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A surface that just touches, up to this fraction of a face, starts in
+     * contact: otherwise a body that only rests on another would have no support
+     * in the first iteration. */
+    constexpr double touching_at_start = 1e-6;
+  } // namespace
+
+
+
+  Enforcement::Enforcement()
+    : row_states("contact state")
+    , arrays({&row_states})
+  {
+  }
+
+
+
+  void
+  Enforcement::reinit(const ContactRows &rows)
+  {
+    for (RowArrayBase *array : arrays)
+      array->reinit(rows);
+  }
+
+
+
+  void
+  Enforcement::clear(const ContactRow &row)
+  {
+    row_states[row].clear_force();
+    for (RowArrayBase *array : arrays)
+      if (array != &row_states)
+        array->reset(row);
+  }
+
+
+
+  void
+  Enforcement::update_partners(const ContactRows &rows, const bool first)
+  {
+    for (const ContactRow &row : rows)
+      {
+        ContactStatus &status = row_states[row].status;
+        if (!row.has_partner)
+          status = ContactStatus::no_partner;
+        else if (status == ContactStatus::no_partner)
+          status = ContactStatus::open;
+        if (!first || status != ContactStatus::open)
+          continue;
+        if (row.tied)
+          status = ContactStatus::tied;
+        else if (row.gap < touching_at_start * row.size)
+          status = ContactStatus::slip;
+      }
+  }
+
+
+
+  void
+  Enforcement::find_shared_nodes(const Contact &contact, const ConstraintGraph &supports)
+  {
+    // Against an obstacle only the slave node can move. Where supports or other active rows
+    // determine its tangential displacement, any force within the cone is in equilibrium, and how
+    // it is divided would depend on the enforcement and the path of the iteration. There the
+    // elastic slip determines it, doc/theory.md 6.1.
+    // Rows that may close belong to them: the formulation of friction must not change with the
+    // active set, or each of the two states could ask for the other.
+    std::map<Index, unsigned int> n_near;
+    for (const ContactRow &row : contact.rows())
+      n_near[row.slave] += (row.has_partner && row.gap < row.size);
+
+    // Up to round-off a tangent of unit length keeps its length if it is free.
+    constexpr double free_length = 1. - 1e-6;
+    for (const ContactRow &row : contact.rows())
+      if (row.friction)
+        {
+          const std::vector<Tensor<1, dim>> &tangents = row.friction->kinematics.tangents;
+          row_states[row].friction.shared =
+            !contact.pair(row).master() &&
+            (n_near[row.slave] > 1 ||
+             std::any_of(tangents.begin(), tangents.end(), [&](const Tensor<1, dim> &tangent) {
+               return supports.free_part(row.slave, tangent).norm() < free_length;
+             }));
+        }
+  }
+
+
+
+  void
+  Enforcement::recover(const Contact         &contact,
+                       const Vector          &unbalanced,
+                       const ConstraintGraph &graph)
+  {
+    if (contact.friction().active())
+      find_shared_nodes(contact, graph);
+    evaluate(contact, unbalanced, graph);
+  }
+
+
+
+  void
+  Enforcement::enforce(const Contact &contact, ConstraintGraph &graph, LinearSystem &system)
+  {
+    const std::vector<bool> redundant =
+      contact.cyclic_constraints().redundant_rows(contact, graph, cycle_threshold());
+    for (const ContactRow &row : contact.rows())
+      {
+        row_states[row].redundant = redundant[row.index];
+        if (redundant[row.index])
+          clear(row);
+      }
+    constrain(contact, graph, system);
+  }
+
+
+
+  void
+  Enforcement::add_friction(const Contact &contact, LinearSystem &system)
+  {
+    RowTerms terms(system);
+    for (const ContactRow &row : contact.rows())
+      {
+        RowState &state = row_states[row];
+        if (!state.active())
+          continue;
+        if (state.dropped())
+          {
+            clear(row);
+            continue;
+          }
+        state.friction.last_direction = state.friction.direction;
+        state.friction.last_tangent   = state.friction.tangent;
+        terms.add_row(row, state);
+      }
+    terms.finish();
+  }
+
+
+
+  void
+  Enforcement::update(const Contact &contact, const bool may_shorten)
+  {
+    if (may_shorten)
+      for (RowArrayBase *array : arrays)
+        array->keep();
+    set_forces(contact);
+  }
+
+
+
+  void
+  Enforcement::shorten(const Contact &contact, const double fraction)
+  {
+    // Forces that are unknowns go the same part of their way as displacements. Springs and
+    // elimination make forces from the displacement, from the states as they were.
+    for (RowArrayBase *array : arrays)
+      array->restore();
+    set_forces(contact);
+    for (const ContactRow &row : contact.rows())
+      {
+        RowState       &state  = row_states[row];
+        const RowState &before = row_states.of_kept(row);
+        state.force            = before.force + fraction * (state.force - before.force);
+        state.lambda           = before.lambda + fraction * (state.lambda - before.lambda);
+        if (row.friction)
+          state.friction.base =
+            before.friction.base + fraction * (state.friction.base - before.friction.base);
+      }
+  }
+
+
+
+  void
+  Enforcement::adopt(const ContactRow &row, const ContactStatus status, const Tensor<1, dim> &force)
+  {
+    clear(row);
+    RowState &state = row_states[row];
+    if (!row.has_partner)
+      return;
+    if (!row.tied)
+      state.status = status;
+    if (state.active())
+      {
+        state.force                     = force;
+        state.lambda                    = force * row.normal;
+        const Tensor<1, dim> tangential = force - state.lambda * row.normal;
+        if (row.friction)
+          {
+            state.friction.base = tangential;
+            if (state.status == ContactStatus::slip && tangential.norm() > 0.)
+              state.friction.last_direction = tangential / tangential.norm();
+          }
+        adopted(row);
+      }
+  }
+
+
+
+  void
+  Enforcement::commit()
+  {
+    for (RowArrayBase *array : arrays)
+      array->commit();
+  }
+
+
+
+  void
+  Enforcement::rollback()
+  {
+    for (RowArrayBase *array : arrays)
+      array->rollback();
+  }
+
+
+
+  void
+  Enforcement::save(ArchiveWriter &archive) const
+  {
+    for (const RowArrayBase *array : arrays)
+      array->save(archive);
+  }
+
+
+
+  void
+  Enforcement::load(const ArchiveReader &archive)
+  {
+    for (RowArrayBase *array : arrays)
+      array->load(archive);
+  }
+} // namespace Touchstone

@@ -1,0 +1,242 @@
+#include <touchstone/contact/friction/friction.h>
+#include <touchstone/contact/friction/friction_response.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  Tensor<2, dim>
+  tangential_projector(const Tensor<1, dim> &normal)
+  {
+    return Tensor<2, dim>(unit_symmetric_tensor<dim>()) - outer_product(normal, normal);
+  }
+
+
+
+  FrictionLimit
+  FrictionRow::cone(const double normal_force, const bool sliding, const double slip) const
+  {
+    FrictionInput input;
+    input.normal_force = std::max(normal_force, 0.);
+    input.area         = kinematics.area;
+    input.slip_length  = history.slip_length + slip;
+    input.slip_rate    = kinematics.step > 0. ? slip / kinematics.step : 0.;
+    input.time         = kinematics.time;
+    input.sliding      = sliding;
+    return law->limit(input);
+  }
+
+
+
+  FrictionLimit
+  FrictionRow::cone_of_springs(const double normal_force, const double trial, const double c) const
+  {
+    // c s + L(s) = |t_tr| has a solution between 0 and |t_tr| / c, as L >= 0: Newton's method,
+    // and bisection where it leaves what is left of this interval.
+    FrictionLimit limit = cone(normal_force, /*sliding=*/true);
+    double        low = 0., high = trial / c, slip = (trial - limit.force) / c;
+    for (unsigned int i = 0; i < 60 && slip > 0.; ++i)
+      {
+        limit                 = cone(normal_force, /*sliding=*/true, slip);
+        const double residual = c * slip + limit.force - trial;
+        if (std::abs(residual) <= 1e-14 * trial)
+          break;
+        (residual < 0. ? low : high) = slip;
+        slip -= residual / (c + slip_derivative(limit));
+        if (!(slip > low && slip < high))
+          slip = 0.5 * (low + high);
+      }
+    return limit;
+  }
+
+
+
+  Tensor<1, dim>
+  irreversible_slip(const FrictionRow    &friction,
+                    const FrictionForce  &f,
+                    const Tensor<1, dim> &force)
+  {
+    const SlipKinematics &k = friction.kinematics;
+    return f.carried ? k.slip - (k.start - force) / f.c : k.slip;
+  }
+
+
+
+  void
+  regularise_friction(const ContactRow &row, RowState &state)
+  {
+    state.friction.constrained = false;
+    state.friction.carried     = true;
+    state.friction.c           = row.friction->alpha;
+    state.friction.base        = row.friction->kinematics.start;
+  }
+
+
+
+  void
+  choose_friction(const ContactRow &row, RowState &state)
+  {
+    if (!row.friction->exact || state.friction.shared)
+      {
+        regularise_friction(row, state);
+        return;
+      }
+    state.friction.constrained = true;
+    state.friction.carried     = false;
+    state.friction.c           = row.stiffness;
+  }
+
+
+
+  void
+  augment_unconstrained(const ContactRow &row, RowState &state)
+  {
+    for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
+      state.friction.base -= FrictionForce::unconstrained_stiffness(row.stiffness) *
+                             (row.friction->kinematics.slip * tangent) * tangent;
+  }
+
+
+
+  namespace
+  {
+    /** Bound of the stiffness across the slip direction over that along the
+     * normal: it grows like 1 / |s| where slip begins. */
+    constexpr double stiffest = 1e2;
+
+    /** A trial force that is smaller, over the scale of contact forces, is what
+     * round-off makes of the slip: it has no direction. */
+    constexpr double nothing = 1e-12;
+
+
+
+    /** Derivatives of the force of stick on springs, doc/theory.md 6.3. */
+    void
+    linearise_springs(const ContactRow &row, const Tensor<1, dim> &trial, FrictionForce &f)
+    {
+      f.constant = trial;
+      f.tangent  = f.c * row.friction->kinematics.tangential;
+      if (f.carried)
+        f.d_spin = cross_product_3d(row.friction->kinematics.start, row.normal);
+    }
+
+
+
+    /** Derivatives of the force L trial / |trial| in slip, doc/theory.md 6.3. */
+    void
+    linearise_slip(const ContactRow     &row,
+                   const double          lambda,
+                   const FrictionLimit  &limit,
+                   const Tensor<1, dim> &trial,
+                   FrictionForce        &f)
+    {
+      const SlipKinematics &k         = row.friction->kinematics;
+      const double          size      = trial.norm();
+      const Tensor<1, dim>  direction = trial / size;
+      f.direction                     = direction;
+      // Springs take back part of what changes the limit, see cone_of_springs(). A limit that
+      // falls faster than they unload has no solution nearby, and hence no derivative.
+      const double by_slip = row.friction->slip_derivative(limit);
+      const double part    = f.carried ? 1. / std::max(0.1, 1. + by_slip / f.c) : 1.;
+      f.d_lambda           = part * limit.slope * direction;
+      f.d_area             = part * limit.area_slope * direction;
+      f.constant           = (limit.force - part * limit.slope * std::max(lambda, 0.)) * direction;
+      const double         distance = f.carried ? size : std::max(f.excess, 0.);
+      const double         kappa    = limit.force < stiffest * row.stiffness / f.c * distance
+                                        ? limit.force * f.c / distance
+                                        : stiffest * row.stiffness;
+      const Tensor<2, dim> across   = k.tangential - outer_product(direction, direction);
+      const bool           has_slip = f.c * k.slip.norm() > nothing * row.stiffness * row.size;
+      f.tangent                     = kappa * across;
+      if (!f.carried && f.last_direction.norm() > 0. && !has_slip)
+        f.tangent = Tensor<2, dim>();
+      if (!f.carried)
+        f.constant -= f.tangent * k.slip;
+      else
+        f.d_spin = limit.force / size * (across * cross_product_3d(k.start, row.normal));
+      if (by_slip != 0. && f.carried)
+        {
+          // dL = part by_slip / c d|t_tr|, with t_tr = start - c s.
+          f.d_slip         = -part * by_slip * direction;
+          f.slip_direction = direction;
+          f.d_spin +=
+            part * by_slip / f.c * (direction * cross_product_3d(k.start, row.normal)) * direction;
+        }
+      else if (by_slip != 0. && has_slip)
+        {
+          f.d_slip         = by_slip * direction;
+          f.slip_direction = k.slip / k.slip.norm();
+        }
+    }
+  } // namespace
+
+
+
+  Tensor<1, dim>
+  friction_response(const ContactRow   &row,
+                    const ContactStatus status,
+                    const double        lambda,
+                    FrictionForce      &f)
+  {
+    const SlipKinematics &k       = row.friction->kinematics;
+    const bool            slipped = status == ContactStatus::slip;
+    FrictionLimit         limit =
+      row.friction->cone(lambda, slipped, slipped && !f.carried ? k.slip.norm() : 0.);
+
+    // An exact slip force has no state of its own but its direction: that of the
+    // last linearisation, corrected by the slip across it.
+    Tensor<1, dim> base = k.tangential * f.base;
+    if (!f.carried && slipped && f.last_direction.norm() > 0.)
+      base = k.tangential * (limit.force * f.last_direction - f.last_tangent * k.slip);
+    const Tensor<1, dim> trial = base - f.c * k.slip;
+    const double         size  = trial.norm();
+    if (f.carried && slipped)
+      limit = row.friction->cone_of_springs(lambda, size, f.c);
+    f.limit     = limit.force;
+    f.excess    = size - limit.force;
+    f.direction = f.constant = f.d_lambda = f.d_area = f.d_spin = Tensor<1, dim>();
+    f.d_slip = f.slip_direction = Tensor<1, dim>();
+    f.tangent                   = Tensor<2, dim>();
+    if (!slipped)
+      {
+        if (f.constrained)
+          return base;
+        linearise_springs(row, trial, f);
+        return trial;
+      }
+    if (size <= nothing * row.stiffness * row.size)
+      return Tensor<1, dim>();
+    linearise_slip(row, lambda, limit, trial, f);
+    return limit.force * f.direction;
+  }
+
+
+
+  void
+  evaluate_force(const ContactRow &row, RowState &state)
+  {
+    if (row.tied)
+      return;
+    state.force = state.lambda * row.normal;
+    if (row.friction)
+      state.force += friction_response(row, state.status, state.lambda, state.friction);
+  }
+
+
+
+  void
+  lag_friction(const ContactRow &row, RowState &state, const double lambda)
+  {
+    if (!row.friction || !state.active() || row.tied)
+      return;
+    const double lagged = std::max(lambda, 0.);
+    friction_response(row, state.status, lagged, state.friction);
+    state.friction.constant += lagged * state.friction.d_lambda;
+    state.friction.d_lambda = Tensor<1, dim>();
+  }
+} // namespace Touchstone

@@ -1,0 +1,209 @@
+#include <touchstone/contact/friction/slip_kinematics.h>
+
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  Tensor<1, dim>
+  NodePositions::at(const Index node) const
+  {
+    Tensor<1, dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = present(dim * node + d);
+    return x;
+  }
+
+
+
+  Tensor<1, dim>
+  NodePositions::displacement(const Index node) const
+  {
+    Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = present(dim * node + d) - start(dim * node + d);
+    return result;
+  }
+
+
+
+  Tensor<1, dim>
+  displacement_since_anchor(const ContactRow      &row,
+                            const FrictionHistory &history,
+                            const NodePositions   &positions)
+  {
+    Tensor<1, dim> result =
+      (row.friction->small ? row.gap_vector : row.position - row.shift) - history.anchor_offset;
+    for (const StencilEntry &entry : history.anchor)
+      result -= entry.weight * positions.at(entry.node);
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /** Displacement since the step began, of the slave node relative to the material points of
+     * the master surface that it faces now: only of rows that had no partner then, and so of
+     * no obstacle. */
+    Tensor<1, dim>
+    relative_displacement(const ContactRow &row, const NodePositions &positions)
+    {
+      Tensor<1, dim> result = positions.displacement(row.slave);
+      for (const StencilEntry &entry : row.stencil)
+        result -= entry.weight * positions.displacement(entry.node);
+      return result;
+    }
+
+
+
+    /** Set the directions that friction can act along, from the frame. */
+    void
+    find_tangents(const std::vector<Tensor<1, dim>> &mirrors,
+                  const Tensor<1, dim>              &normal,
+                  SlipKinematics                    &k)
+    {
+      k.tangential = tangential_projector(normal);
+      k.tangents.assign(k.frame.begin(), k.frame.end());
+      for (const Tensor<1, dim> &mirror : mirrors)
+        {
+          // What of the plane's normal is tangential, and not taken out by another plane.
+          Tensor<1, dim> out    = k.tangential * mirror;
+          const double   length = out.norm();
+          if (length < 1e-3)
+            continue;
+          out /= length;
+          k.tangential -= outer_product(out, out);
+          k.tangents.resize(k.tangents.size() - 1);
+          if (k.tangents.size() == 1)
+            k.tangents[0] = cross_product_3d(normal, out);
+        }
+    }
+
+
+
+    /** A direction in the plane of the row's normal that turns with the surface of the slave
+     * body, whichever directions its mesh has. */
+    Tensor<1, dim>
+    in_plane_rotation(const ContactRow &row, const NodePositions &positions)
+    {
+      Tensor<1, dim> q[2];
+      for (unsigned int a = 0; a < 2; ++a)
+        for (const StencilEntry &entry : row.friction->material_tangents[a])
+          q[a] += entry.weight * positions.at(entry.node);
+      // The rotation in the polar decomposition of the surface's deformation in the plane of the
+      // normal, doc/theory.md, section 6.2. A surface that faces away from the master surface has
+      // none; such rows carry no force.
+      const Tensor<1, dim> along     = tangential_projector(row.normal) * q[0];
+      const Tensor<1, dim> direction = along + cross_product_3d(q[1], row.normal);
+      return direction.norm() > 1e-3 * q[0].norm() ? direction : along;
+    }
+  } // namespace
+
+
+
+  SlipKinematics
+  slip_kinematics(const ContactRow    &row,
+                  const NodePositions &positions,
+                  const double         time,
+                  const double         step)
+  {
+    const FrictionHistory &history = row.friction->history;
+    SlipKinematics         k;
+    const Tensor<1, dim>   direction = in_plane_rotation(row, positions);
+    k.frame[0]                       = direction / direction.norm();
+    k.frame[1]                       = cross_product_3d(row.normal, k.frame[0]);
+    find_tangents(row.friction->mirrors, row.normal, k);
+    k.start = k.tangential * k.carry(history.traction);
+    k.area  = row.area;
+    k.time  = time;
+    k.step  = step;
+    k.slip =
+      k.tangential * (history.has_anchor ? displacement_since_anchor(row, history, positions) -
+                                             k.carry(history.anchor_displacement)
+                                         : relative_displacement(row, positions));
+    return k;
+  }
+
+
+
+  void
+  set_anchor(const ContactRow     &row,
+             const SlipKinematics &kinematics,
+             const NodePositions  &positions,
+             FrictionHistory      &history)
+  {
+    // Slip is the displacement of the node relative to the material point that it faces now,
+    // seen in a frame that turns with the surface: no rotation of both bodies changes
+    // it. Small sliding: the change of the gap vector. Obstacle: the point of its
+    // surface moves with it. What an open node has yet to move is no slip.
+    history.has_anchor = true;
+    history.anchor.clear();
+    history.anchor_offset = Tensor<1, dim>();
+    if (row.friction->small)
+      history.anchor_offset = row.gap_vector;
+    else if (row.stencil.empty())
+      history.anchor_offset = row.position - row.gap_vector - row.shift;
+    else
+      history.anchor = row.stencil;
+    history.anchor_gap                = row.gap;
+    const Tensor<1, dim> displacement = displacement_since_anchor(row, history, positions);
+    for (unsigned int i = 0; i < 2; ++i)
+      history.anchor_displacement[i] =
+        displacement * kinematics.frame[i] + history.precontact_offset[i];
+  }
+
+
+
+  void
+  differentiate_slip(const ContactRow &row, const NodePositions &positions, SlipKinematics &k)
+  {
+    using Vec                         = Tensor<1, dim>;
+    using Mat                         = Tensor<2, dim>;
+    const FrictionHistory &history    = row.friction->history;
+    const RowDerivative   &d          = *row.derivative;
+    const Mat             &tangential = k.tangential;
+    std::map<Index, Mat>   slip;
+    std::map<Index, Vec>   spin;
+
+    // The frame turns with the direction q = T q_1 + q_2 x n: omega = e_2 . dq / |q|.
+    Vec q[2];
+    for (unsigned int a = 0; a < 2; ++a)
+      for (const StencilEntry &entry : row.friction->material_tangents[a])
+        {
+          q[a] += entry.weight * positions.at(entry.node);
+          spin[entry.node] += (a == 0 ? entry.weight * k.frame[1] : -entry.weight * k.frame[0]);
+        }
+    for (std::size_t a = 0; a < d.nodes.size(); ++a)
+      spin[d.nodes[a]] += (row.normal * q[1]) * (k.frame[0] * d.normal[a]) -
+                          (row.normal * q[0]) * (k.frame[1] * d.normal[a]);
+    const double length = in_plane_rotation(row, positions).norm();
+    for (auto &entry : spin)
+      entry.second /= length;
+
+    // s = T v - (what v was at the anchor, turned); of the changes of T and of the
+    // frame only the tangential part counts.
+    const Vec v      = history.has_anchor ? displacement_since_anchor(row, history, positions)
+                                          : relative_displacement(row, positions);
+    const Vec turned = cross_product_3d(row.normal, k.carry(history.anchor_displacement));
+    slip[row.slave] += tangential;
+    for (const StencilEntry &entry : history.has_anchor ? history.anchor : row.stencil)
+      slip[entry.node] -= entry.weight * tangential;
+    if (!history.has_anchor)
+      for (std::size_t m = 0; m < row.stencil.size(); ++m)
+        {
+          const Vec moved = tangential * positions.displacement(row.stencil[m].node);
+          for (std::size_t a = 0; a < d.nodes.size(); ++a)
+            slip[d.nodes[a]] -= outer_product(moved, d.weights[m][a]);
+        }
+    for (std::size_t a = 0; a < d.nodes.size(); ++a)
+      slip[d.nodes[a]] -= (row.normal * v) * (tangential * d.normal[a]);
+    if (history.has_anchor && turned.norm() > 1e-12 * row.size)
+      for (const auto &[node, rate] : spin)
+        slip[node] -= outer_product(tangential * turned, rate);
+
+    k.slip_gradient.assign(slip.begin(), slip.end());
+    k.spin_gradient.assign(spin.begin(), spin.end());
+  }
+} // namespace Touchstone

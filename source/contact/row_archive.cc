@@ -1,0 +1,59 @@
+#include <touchstone/contact/row_archive.h>
+
+#include <map>
+#include <vector>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** A node can be the slave of several pairs. */
+    std::string
+    name_of_pair(const std::string &name, const unsigned int pair)
+    {
+      return name + " of pair " + std::to_string(pair);
+    }
+  } // namespace
+
+
+
+  void
+  save_rows(ArchiveWriter                                              &archive,
+            const std::string                                          &name,
+            const ContactRows                                          &rows,
+            const std::function<void(const ContactRow &, RowPacker &)> &pack)
+  {
+    std::map<unsigned int, std::vector<NodeRecord>> records;
+    for (const ContactRow &row : rows)
+      {
+        std::vector<NodeRecord> &list = records[row.pair];
+        list.emplace_back();
+        list.back().node = row.slave;
+        RowPacker packer(list.back());
+        pack(row, packer);
+      }
+    for (const auto &[pair, list] : records)
+      archive.put_nodes(name_of_pair(name, pair), list);
+  }
+
+
+
+  void
+  load_rows(const ArchiveReader                                          &archive,
+            const std::string                                            &name,
+            const ContactRows                                            &rows,
+            const std::function<void(const ContactRow &, RowUnpacker &)> &unpack)
+  {
+    for (const ContactRow &row : rows)
+      {
+        const auto &records = archive.nodes(name_of_pair(name, row.pair));
+        const auto  found   = records.find(row.slave);
+        if (found == records.end())
+          throw ArchiveError("a contact row is missing (" + name + ")");
+        RowUnpacker unpacker(found->second);
+        unpack(row, unpacker);
+        if (!unpacker.complete())
+          throw ArchiveError("the state of a contact row is too long (" + name + ")");
+      }
+  }
+} // namespace Touchstone

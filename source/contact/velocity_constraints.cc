@@ -1,0 +1,46 @@
+#include <touchstone/contact/contact.h>
+#include <touchstone/contact/velocity_constraints.h>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  std::vector<VelocityConstraint>
+  velocity_constraints(const Contact &contact, const ConstraintGraph &supports, const double step)
+  {
+    ConstraintGraph                 graph(supports);
+    std::vector<VelocityConstraint> result;
+    for (const ContactRow &row : contact.rows())
+      {
+        const RowState &state = contact.state(row);
+        if (!state.active() || state.redundant || !(state.lambda > 0. || row.tied))
+          continue;
+        VelocityConstraint constraint{{}, true, row.index};
+        constraint.condition.node     = row.slave;
+        constraint.condition.stencil  = row.stencil;
+        const Tensor<1, dim> velocity = (row.shift - contact.committed(row).shift) / step;
+        const auto offer = [&](const Tensor<1, dim> &direction, const Tensor<1, dim> &force) {
+          constraint.condition.direction       = direction;
+          constraint.condition.force_direction = force;
+          constraint.condition.value           = direction * velocity;
+          if (graph.accept(constraint.condition, ConstraintGraph::Treatment::multiplier))
+            result.push_back(constraint);
+        };
+        const Tensor<1, dim> along_direction;
+        if (row.tied)
+          for (unsigned int d = 0; d < dim; ++d)
+            offer(Point<dim>::unit_vector(d), along_direction);
+        else
+          {
+            // Where it slides, less pressure is less friction.
+            const bool slides = state.status == ContactStatus::slip && row.friction;
+            offer(row.normal, slides ? state.force / state.lambda : along_direction);
+            constraint.normal = false;
+            if (state.status == ContactStatus::stick)
+              for (const Tensor<1, dim> &tangent : row.friction->kinematics.frame)
+                offer(tangent, along_direction);
+          }
+      }
+    return result;
+  }
+} // namespace Touchstone

@@ -1,0 +1,124 @@
+#include <touchstone/output/contact_field.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+#include <type_traits>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** A member of ContactPoint. */
+    template <unsigned int number, class Member, Member ContactPoint::*member>
+    class ContactMember : public ContactField
+    {
+    public:
+      unsigned int
+      n_components() const override
+      {
+        return std::is_base_of<dealii::Tensor<1, dim>, Member>::value ? dim : 1;
+      }
+
+      void
+      evaluate(const ContactPoint &point, double *values) const override
+      {
+        if constexpr (std::is_base_of<dealii::Tensor<1, dim>, Member>::value)
+          for (unsigned int d = 0; d < dim; ++d)
+            values[d] = (point.*member)[d];
+        else
+          values[0] = static_cast<double>(static_cast<int>(point.*member));
+      }
+
+      bool
+      interpolated() const override
+      {
+        return !std::is_enum<Member>::value && !std::is_integral<Member>::value;
+      }
+
+      unsigned int
+      order() const override
+      {
+        return number;
+      }
+    };
+
+
+
+    template <unsigned int number, double ContactPoint::*member>
+    class ContactNumber : public ContactMember<number, double, member>
+    {
+    public:
+      void
+      evaluate(const ContactPoint &point, double *values) const override
+      {
+        values[0] = point.*member;
+      }
+    };
+
+    using StatusField       = ContactMember<0, ContactStatus, &ContactPoint::status>;
+    using GapField          = ContactNumber<1, &ContactPoint::gap>;
+    using PressureField     = ContactNumber<2, &ContactPoint::pressure>;
+    using PairField         = ContactMember<3, unsigned int, &ContactPoint::pair>;
+    using SlipLengthField   = ContactNumber<4, &ContactPoint::slip_length>;
+    using NormalField       = ContactMember<5, dealii::Tensor<1, dim>, &ContactPoint::normal>;
+    using TractionField     = ContactMember<6, dealii::Tensor<1, dim>, &ContactPoint::traction>;
+    using SlipField         = ContactMember<7, dealii::Tensor<1, dim>, &ContactPoint::slip>;
+    using DisplacementField = ContactMember<8, dealii::Tensor<1, dim>, &ContactPoint::displacement>;
+
+    const ContactFieldRegistry::Entry<StatusField>
+      status_field("status", "Number of the ContactStatus; no unit.");
+    const ContactFieldRegistry::Entry<GapField> gap_field("gap", "Gap; length.");
+    const ContactFieldRegistry::Entry<PressureField>
+      pressure_field("pressure", "Normal force per area; force per area.");
+    const ContactFieldRegistry::Entry<PairField> pair_field("pair", "Number of the pair; no unit.");
+    const ContactFieldRegistry::Entry<SlipLengthField>
+      slip_length_field("slip_length", "Length of the slip path; length.");
+    const ContactFieldRegistry::Entry<NormalField>
+      normal_field("normal", "Normal of the master surface; no unit.");
+    const ContactFieldRegistry::Entry<TractionField>
+      traction_field("traction", "Contact force per area; force per area.");
+    const ContactFieldRegistry::Entry<SlipField>
+      slip_field("slip", "Tangential slip of the last step; length.");
+    const ContactFieldRegistry::Entry<DisplacementField>
+      contact_displacement_field("displacement", "Displacement; length.");
+  } // namespace
+
+
+
+  ContactFieldList::ContactFieldList()
+  {
+    for (const auto &[name, record] : ContactFieldRegistry::records())
+      all.push_back({name, record.make(), 0});
+    std::stable_sort(all.begin(), all.end(), [](const Entry &a, const Entry &b) {
+      return a.field->order() < b.field->order();
+    });
+    for (Entry &entry : all)
+      {
+        entry.first = size;
+        size += entry.field->n_components();
+      }
+  }
+
+
+
+  unsigned int
+  ContactFieldList::position(const std::string &name) const
+  {
+    const auto entry =
+      std::find_if(all.begin(), all.end(), [&name](const Entry &e) { return e.name == name; });
+    AssertThrow(entry != all.end(), dealii::ExcMessage("There is no contact field " + name));
+    return entry->first;
+  }
+
+
+
+  std::vector<double>
+  ContactFieldList::values_at(const ContactPoint &point) const
+  {
+    std::vector<double> values(size);
+    for (const Entry &entry : all)
+      entry.field->evaluate(point, values.data() + entry.first);
+    return values;
+  }
+} // namespace Touchstone

@@ -1,0 +1,117 @@
+#include <touchstone/output/step_quantity.h>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** What summary.json has of the built-in quantities is that of RunSummary, whose numbers
+     * are those of the whole run. */
+    template <unsigned int number>
+    class BuiltInQuantity : public StepQuantity
+    {
+    public:
+      bool
+      in_summary() const override
+      {
+        return false;
+      }
+
+      unsigned int
+      order() const override
+      {
+        return number;
+      }
+    };
+
+
+
+    class StepCounters : public BuiltInQuantity<0>
+    {
+    public:
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        values.add("step", step.number);
+        values.add("time", step.time);
+        values.add("step size", step.step_size);
+        values.add("Newton iterations", step.newton_iterations);
+        values.add("linear iterations", step.linear_iterations);
+        values.add("cuts", step.cuts);
+      }
+    };
+
+
+
+    class PairResults : public BuiltInQuantity<10>
+    {
+    public:
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        for (const auto &[pair, result] : step.pairs)
+          {
+            values.add(pair, "force", result.force);
+            values.add(pair, "moment", result.moment);
+            values.add(pair, "area", result.area);
+            values.add(pair, "max pressure", result.max_pressure);
+            values.add(pair, "max penetration", result.max_penetration);
+            values.add(pair, "active nodes", result.active);
+            values.add(pair, "stick nodes", result.stick);
+            values.add(pair, "slip nodes", result.slip);
+          }
+      }
+    };
+
+
+
+    class Reactions : public BuiltInQuantity<20>
+    {
+    public:
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        for (const auto &[boundary, force] : step.reactions)
+          values.add(boundary, "reaction", force);
+      }
+    };
+
+
+
+    class EnergyTerms : public BuiltInQuantity<30>
+    {
+    public:
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        for (const auto &[name, energy] : step.energies)
+          values.add("energy: " + name, energy);
+      }
+    };
+
+
+
+    class Momenta : public BuiltInQuantity<40>
+    {
+    public:
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        if (!step.momentum)
+          return;
+        values.add("momentum", *step.momentum);
+        values.add("angular momentum", *step.angular_momentum);
+      }
+    };
+
+    const StepQuantityRegistry::Entry<StepCounters>
+      step_counters_entry("counters", "Number, time and length of the step, and iterations.");
+    const StepQuantityRegistry::Entry<PairResults>
+      pair_results_entry("pair results", "Force, area, pressure and nodes of each contact pair.");
+    const StepQuantityRegistry::Entry<Reactions> reactions_entry("reactions",
+                                                                 "Forces of supports on bodies.");
+    const StepQuantityRegistry::Entry<EnergyTerms>
+      energy_terms_entry("energies", "Energies, force times length.");
+    const StepQuantityRegistry::Entry<Momenta>
+      momenta_entry("momenta", "Momentum and angular momentum, where there is inertia.");
+  } // namespace
+} // namespace Touchstone

@@ -1,0 +1,71 @@
+#include <touchstone/output/vtu_series.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace Touchstone
+{
+  VtuSeries::VtuSeries(const OutputFolder &folder, const std::string &name)
+    : folder(folder)
+    , name(name)
+  {
+  }
+
+
+
+  std::string
+  VtuSeries::stem(const unsigned int step) const
+  {
+    return name + "_" + dealii::Utilities::int_to_string(step, 4);
+  }
+
+
+
+  std::vector<std::string>
+  VtuSeries::piece_names(const unsigned int step) const
+  {
+    std::vector<std::string> names;
+    for (unsigned int rank = 0; rank < folder.n_ranks; ++rank)
+      names.push_back(stem(step) + "." + std::to_string(rank) + ".vtu");
+    return names;
+  }
+
+
+
+  void
+  VtuSeries::write(const std::string &piece,
+                   const std::string &record,
+                   const unsigned int step,
+                   const double       time)
+  {
+    const bool        serial = (folder.n_ranks == 1);
+    const std::string file   = stem(step) + (serial ? ".vtu" : ".pvtu");
+
+    folder.write_pieces_atomically(serial ? file : piece_names(step)[folder.rank], piece);
+    if (!serial)
+      folder.write_file_atomically(file, record);
+
+    // The list comes last: it only names files that exist.
+    times_and_names.emplace_back(time, file);
+    write_list();
+  }
+
+
+
+  void
+  VtuSeries::restore(const List &before)
+  {
+    times_and_names = before;
+    if (!before.empty())
+      write_list();
+  }
+
+
+
+  void
+  VtuSeries::write_list() const
+  {
+    std::ostringstream list;
+    dealii::DataOutBase::write_pvd_record(list, times_and_names);
+    folder.write_file_atomically(name + ".pvd", list.str());
+  }
+} // namespace Touchstone

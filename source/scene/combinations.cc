@@ -1,0 +1,192 @@
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/scene/combinations.h>
+#include <touchstone/scene/scene.h>
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** A combination that is refused, and what is said of it. */
+    struct Rule
+    {
+      bool        broken;
+      std::string section, key, value, problem, remedy;
+    };
+
+    std::string
+    as_text(const double value)
+    {
+      return dealii::Patterns::Tools::to_string(value);
+    }
+
+
+
+    /** Elements are made for a degree and for small or finite strain. */
+    std::vector<Rule>
+    element_rules(const Scene &scene, const BodyParameters &body)
+    {
+      const MaterialParameters &material = body.material;
+      const ElementType         type     = body.element();
+      const bool small_only = type == ElementType::b_bar || type == ElementType::incompatible_modes;
+      const std::string section = body.section(), name = body.element_type.word(),
+                        but_law = ", but 'Material/Law' is '" + material.law.name + "'";
+      return {{scene.discretisation.degree > 1 && type != ElementType::full,
+               section,
+               "Element",
+               name,
+               "is made for degree 1, but 'Discretisation/Degree' is " +
+                 std::to_string(scene.discretisation.degree),
+               "take the element 'automatic' or 'full', or degree 1"},
+              {type == ElementType::incompatible_modes && !material.linear() &&
+                 !material.finite_strain(),
+               section,
+               "Element",
+               name,
+               "has no plasticity" + but_law,
+               "take the element 'automatic' or 'b-bar', degree 2, or the law 'linear elastic'"},
+              {material.finite_strain() && small_only,
+               section,
+               "Element",
+               name,
+               "is for small strain" + but_law,
+               "take the element 'automatic', 'F-bar' or 'full', or the law 'linear elastic'"},
+              {!material.finite_strain() && type == ElementType::f_bar,
+               section,
+               "Element",
+               name,
+               "is for finite strain" + but_law,
+               "take the element 'automatic', 'b-bar' or 'full', or another law"}};
+    }
+
+
+
+    /** Inertia needs densities; initial velocities and damping need inertia. */
+    std::vector<Rule>
+    inertia_rules(const Scene &scene, const BodyParameters &body)
+    {
+      const TimeIntegrationParameters &time     = scene.time_integration;
+      const MaterialParameters        &material = body.material;
+      const std::string                section  = body.section() + "/Material";
+      std::vector<Rule>                rules    = {
+                          {time.dynamic() && material.density <= 0.,
+                           section,
+                           "Density",
+                           as_text(material.density),
+                           "must be positive: 'Time integration/Scheme' is '" + time.scheme.word() + "'",
+                           "give the mass per volume in the scene's units, e.g. 7.85e-9 for steel in t and mm, or "
+                                             "set the scheme to 'static'"}};
+      const std::string nothing = "means nothing without inertia",
+                        remedy  = "remove it, or set 'Time integration/Scheme' to 'newmark', "
+                                  "'generalized_alpha' or another scheme with inertia";
+      for (unsigned int d = 0; d < 3; ++d)
+        for (const auto &[key, value] :
+             {std::make_pair("Initial velocity ", &body.initial_velocity[d]),
+              std::make_pair("Initial displacement ", &body.initial_displacement[d])})
+          rules.push_back({!time.dynamic() && !value->empty(),
+                           body.section(),
+                           key + std::string(1, "xyz"[d]),
+                           *value,
+                           nothing,
+                           remedy});
+      for (const auto &[key, value] :
+           {std::make_pair("Rayleigh mass", material.rayleigh_mass),
+            std::make_pair("Rayleigh stiffness", material.rayleigh_stiffness)})
+        rules.push_back(
+          {!time.dynamic() && value > 0., section, key, as_text(value), nothing, remedy});
+      return rules;
+    }
+
+
+
+    /** Tied pairs do not slide, and patches are made for faces of degree 1. */
+    std::vector<Rule>
+    pair_rules(const Scene &scene, const ContactPairParameters &pair)
+    {
+      const std::string section = pair.section();
+      return {{pair.tied() && pair.initial_overlap != ContactPairParameters::Overlap::interference,
+               section,
+               "Initial overlap",
+               pair.initial_overlap.word(),
+               "a tied pair holds the bodies as they are placed",
+               "remove the key"},
+              {pair.tied() && pair.sliding == ContactPairParameters::Sliding::finite,
+               section,
+               "Sliding",
+               pair.sliding.word(),
+               "a tied pair cannot slide",
+               "remove 'Sliding' or set it to 'small'"},
+              {pair.master_normal == MasterNormal::smoothed && scene.discretisation.degree != 1,
+               section,
+               "Master normal",
+               pair.master_normal.word(),
+               "only faces of degree 1 can be smoothed; those of degree 2 are curved",
+               "set 'Master normal = averaged' or 'Discretisation/Degree = 1'"}};
+    }
+
+
+
+    /** What the mesh, the mass, the enforcement and the linear solver ask of each other. */
+    std::vector<Rule>
+    method_rules(const Scene &scene)
+    {
+      using Partitioner                           = DiscretisationParameters::Partitioner;
+      const DiscretisationParameters &discretised = scene.discretisation;
+      const ContactParameters        &contact     = scene.contact;
+      const LinearSolverParameters   &solver      = scene.linear_solver;
+      const bool multipliers = contact.enforcement.make(contact)->uses_multipliers();
+      return {{scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
+                 discretised.partitioner != Partitioner::automatic,
+               "Discretisation",
+               "Partitioner",
+               discretised.partitioner.word(),
+               "its mesh cannot be refined during the run",
+               "set it to 'automatic', or 'Estimator' in section 'Refinement' to 'none'."},
+              {scene.time_integration.mass == MassKind::dispersion_corrected &&
+                 discretised.degree != 1,
+               "Time integration",
+               "Mass",
+               scene.time_integration.mass.word(),
+               "is made for degree 1",
+               "set it to 'consistent', or 'Discretisation/Degree' to 1"},
+              {multipliers && !solver.takes_multipliers(),
+               "Contact",
+               "Enforcement",
+               contact.enforcement.name,
+               "multipliers make the system indefinite, which '" + solver.type + "' cannot solve",
+               "set 'Contact/Enforcement = elimination' or 'Linear solver/Type = MUMPS'"},
+              {contact.linearisation == ContactParameters::Linearisation::consistent &&
+                 solver.symmetric_only(),
+               "Contact",
+               "Linearisation",
+               contact.linearisation.word(),
+               "makes the system unsymmetric, which '" + solver.type + "' cannot solve",
+               "set it to 'automatic' or 'frozen', or 'Linear solver/Type' to 'MUMPS' or "
+               "'Belos GMRES'"}};
+    }
+
+
+
+    void
+    obey(const std::vector<Rule> &rules)
+    {
+      for (const Rule &rule : rules)
+        if (rule.broken)
+          throw InputError(rule.section, rule.key, rule.value, rule.problem, rule.remedy);
+    }
+  } // namespace
+
+
+
+  void
+  check_combinations(const Scene &scene)
+  {
+    for (const BodyParameters &body : scene.bodies)
+      obey(element_rules(scene, body));
+    for (const ContactPairParameters &pair : scene.pairs)
+      obey(pair_rules(scene, pair));
+    obey(method_rules(scene));
+    for (const BodyParameters &body : scene.bodies)
+      obey(inertia_rules(scene, body));
+  }
+} // namespace Touchstone

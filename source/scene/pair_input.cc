@@ -1,0 +1,42 @@
+#include <touchstone/scene/pair_input.h>
+#include <touchstone/scene/scene.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  ContactPairInput
+  pair_input(const Scene       &scene,
+             const Forest      &forest,
+             const Solid       &solid,
+             const unsigned int number)
+  {
+    const ContactPairParameters &parameters = scene.pairs[number];
+    ContactPairInput             input{parameters, nullptr, solid, forest};
+    input.number     = number;
+    input.slave_body = scene.body_index(parameters.slave_body);
+    input.modulus    = scene.bodies[input.slave_body].material.young_modulus;
+    input.end_time   = scene.load_stepping.end_time;
+    for (const ObstacleParameters &obstacle : scene.obstacles)
+      if (obstacle.name == parameters.obstacle)
+        input.obstacle = &obstacle;
+    if (input.obstacle == nullptr)
+      {
+        input.master_body = scene.body_index(parameters.master_body);
+        input.modulus =
+          std::min(input.modulus, scene.bodies[input.master_body].material.young_modulus);
+      }
+    return input;
+  }
+
+
+
+  std::vector<ContactPairInput>
+  pair_inputs(const Scene &scene, const Forest &forest, const Solid &solid)
+  {
+    std::vector<ContactPairInput> result;
+    for (unsigned int p = 0; p < scene.pairs.size(); ++p)
+      result.push_back(pair_input(scene, forest, solid, p));
+    return result;
+  }
+} // namespace Touchstone

@@ -1,0 +1,8 @@
+"""Figures in doc that a quick run can reproduce are what the runs give."""
+
+import subprocess
+import sys
+
+from touchstone_test import program, source
+
+sys.exit(subprocess.call([sys.executable, source / "contrib/check_figures", "--program", program]))

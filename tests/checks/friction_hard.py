@@ -1,0 +1,42 @@
+"""Friction where slave nodes have less freedom than others or slip reverses. Every exact enforcement
+and both pairings converge to one answer."""
+
+import math
+
+from touchstone_test import (AUGMENTED, DEGREE, ENFORCEMENT, EXACT_ENFORCEMENTS, GAP, MULTIPLIERS,
+                             below, checks, finish, relative, run, same)
+
+# Stick beside a plane of symmetry, on meshes that do not match.
+for pairing in "averaged", "pointwise":
+    settings = {"Contact pair c/Pairing": pairing}
+    washer = run(f"washer_{pairing}", checks / "friction_beside_symmetry.prm", settings)
+    for name, enforcement in ("multipliers", MULTIPLIERS), ("augmented", AUGMENTED):
+        same(washer, run(f"washer_{pairing}_{name}", checks / "friction_beside_symmetry.prm",
+                         {**settings, **enforcement}), 1e-6)
+
+# Slave nodes with a prescribed displacement along the slip: F / G = mu, but for the dents in the
+# base, whose slopes are those of the pressure over Young's modulus. G = 6 * 4 * 4, mu = 0.1.
+answer = None
+for enforcement in EXACT_ENFORCEMENTS:
+    force = run(f"driven_{enforcement}", checks / "friction_driven_nodes.prm",
+                {ENFORCEMENT: enforcement}).force("slope")[0]
+    answer = force if answer is None else answer
+    below(f"driven, {enforcement}, force {force} differs from -9.6", relative(force, -9.6), 1e-6)
+    below(f"driven, {enforcement}, force {force} differs from {answer}", relative(force, answer),
+          1e-8)
+
+# A slave edge in the corner of two obstacles: what part of the force there is friction does not
+# depend on the enforcement. (The default tolerance of gaps is 5e-6 of the pressure there.)
+for degree in 1, 2:
+    settings = {DEGREE: degree, GAP: 1e-10}
+    corner = run(f"corner_{degree}", checks / "friction_corner.prm", settings)
+    same(corner, run(f"corner_{degree}_multipliers", checks / "friction_corner.prm",
+                     {**settings, **MULTIPLIERS}), 1e-8)
+    same(corner, run(f"corner_{degree}_augmented", checks / "friction_corner.prm",
+                     {**settings, **AUGMENTED}), 1e-6)
+
+# A belt on the cone from end to end, whose slip reverses: T2 / T1 = exp(mu pi / 2).
+tension = run("belt", checks / "friction_belt.prm").reaction("belt", "first cut")[1]
+below(f"belt, T2 = {tension} differs from exp(mu pi / 2)",
+      relative(-tension, math.exp(0.1 * math.pi)), 2e-3)
+finish()

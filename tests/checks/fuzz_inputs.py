@@ -1,0 +1,10 @@
+"""Inputs with one fault each, always the same ones, are refused with section, line and remedy, or
+are right; none shows the text of a library."""
+
+import subprocess
+import sys
+
+from touchstone_test import folder, program, source
+
+sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_inputs", "--program", program,
+                          "--output", folder, "--time-limit", "2", "30", "7"]))

@@ -1,0 +1,35 @@
+"""Averaged rows where slave faces are covered in part: pressures bounded wherever the edge of the
+master surface lies, forces exact and smooth as it moves, none between bodies that only touch."""
+
+from touchstone_test import STEPS, below, checks, finish, relative, run
+
+# Pressed with 10; with the basis dual on the covered part alone 16, 50, 344 for 1.2, 1.05, 1.01.
+for width in 1.0001, 1.01, 1.05, 1.18, 1.25, 1.32, 1.4999:
+    edge = run(f"edge_{width}", checks / "pressed_over_edge.prm",
+               {"Body pad/Geometry/Upper corner": f"{width},{width},0"})
+    below(f"{edge}, max_pressure", edge.contact("c", "max_pressure"), 22)
+    below(f"{edge}, force off by", relative(edge.force("c")[2], 10 * width ** 2), 1e-9)
+
+# Touching, and 0.01 apart above; coarse balls too.
+for cells in "3, 4", "2, 2", "2, 5":
+    for top in 2, 2.01:
+        ball = run(f"ball_{cells}_{top}", checks / "ball_between_plates.prm",
+                   {"Body ball/Geometry/Cells": cells,
+                    "Body high/Geometry/Lower corner": f"-1.5,-1.5,{top}"})
+        for pair in "ab":
+            below(f"{ball}, force of {pair}", abs(ball.force(pair)[2]), 1e-12)
+
+# The force changes by a tenth when the mesh does.
+for cells in 12, 13, 20:
+    punch = run(f"punch_{cells}", checks / "slave_larger_than_master.prm",
+                {"Body low/Geometry/Cells": f"{cells}, {cells}, 2"})
+    below(f"{punch}, differs from a fine mesh", relative(punch.force("c")[2], -36), 0.1)
+
+# Both edges of the base go over more than a face of the block, in positions half a percent of a
+# face apart: rows come and go, and the force changes by less than half a percent each time.
+slide = run("slide", checks / "sliding_edge.prm", {STEPS: 480})
+column = list(slide.rows()[0])[8]
+force = [row[column] for row in slide.rows() if row["time"] >= 1]
+below(f"slide, largest change of '{column}'",
+      max(relative(b, a) for a, b in zip(force, force[1:])), 5e-3)
+finish()

@@ -1,0 +1,56 @@
+"""Cattaneo and Mindlin, loading and unloading, against the exact tractions on three meshes. That
+enforcements and pairings agree is shown on a mesh of moderate size."""
+
+from touchstone_test import (AUGMENTED, MULTIPLIERS, PENALTY, STEPS, below, check, finish, prm, run,
+                             same)
+
+ERRORS = "contact_half_width", "stick_half_width", "pressure_l2", "shear_traction_l2"
+VALUES = ("radius: 50, young modulus: 210000, poisson ratio: 0.3, friction coefficient: 0.3, "
+          "depth: 0.25")
+# Width of the fine part of the surface, which puts the edge of the contact at the same place in
+# a cell of each mesh.
+WIDTHS = {6: 1.24, 12: 1.2, 24: 1.183}
+
+
+def slip(name, cells, half_widths, pressure, shear, settings=None, ranks=1):
+    """CELLS over the fine part of the surface; then bounds of errors."""
+    mesh = {f"Body {body}/Geometry/Contact {what}": value for body in ("upper", "lower")
+            for what, value in (("cells", cells), ("layers", cells), ("width", WIDTHS[cells]))}
+    result = run(name, prm / "benchmarks/cattaneo_mindlin.prm", {**mesh, **(settings or {})}, ranks)
+    for error, bound in zip(ERRORS, (half_widths, half_widths, pressure, shear)):
+        below(f"{name}, {error}", result.error(error), bound)
+    return result
+
+
+coarse = slip("coarse", 6, 0.04, 0.01, 0.08)
+medium = slip("medium", 12, 0.025, 0.006, 0.02)
+same(medium, slip("ranks", 12, 0.025, 0.006, 0.02, ranks=2), 1e-6)
+same(medium, slip("multipliers", 12, 0.025, 0.006, 0.02, MULTIPLIERS), 1e-6)
+slip("augmented", 12, 0.025, 0.006, 0.02, AUGMENTED)
+slip("averaged", 12, 0.025, 0.006, 0.02, {"Contact pair contact/Pairing": "averaged"})
+slip("penalty", 12, 0.025, 0.006, 0.025, PENALTY)
+fine = slip("fine", 24, 0.006, 0.005, 0.012)
+for name in ERRORS:
+    if name != "contact_half_width":  # has hardly any error from the second mesh on
+        below(f"fine, {name}, to fall with the mesh", fine.error(name), medium.error(name))
+    below(f"medium, {name}, to fall with the mesh", medium.error(name), coarse.error(name))
+
+
+def back(name, cells, end, half_widths, shear):
+    """Down from the peak: half the distance to the other side at time 14, all of it at 16."""
+    return slip(name, cells, half_widths, 0.006, shear,
+                {"Load stepping/End time": end, STEPS: end, "Reference solution/Values":
+                 f"{VALUES}, peak tangential force: {-medium.force('contact')[0]}"})
+
+
+back("reversed", 12, 14, 0.03, 0.05)
+other_side = back("other_side", 12, 16, 0.025, 0.02)
+
+# Masing: going back, the force changes by twice what it took to go half as far at first,
+# Q* - Q(t) = 2 Q(4 + (t - 8) / 2).
+force = {round(row["time"]): row["contact: force x"] for row in other_side.rows()}
+for t in range(10, 17, 2):
+    off = abs((force[8] - force[t]) / force[8] - 2 * force[4 + (t - 8) // 2] / force[8])
+    below(f"hysteresis at t = {t}, off by, of the peak", off, 1e-4)
+check(len(force) == 16, "not all steps are in the statistics")
+finish()

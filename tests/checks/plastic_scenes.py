@@ -1,0 +1,41 @@
+"""What the shipped scenes of large deformation, plasticity and impact promise, on meshes that are
+quick."""
+
+import re
+
+from touchstone_test import DEGREE, FACTOR, STEPS, below, check, finish, prm, run, same
+
+BENCHMARKS = prm / "benchmarks"
+
+
+def errors(result, **bounds):
+    for name, bound in bounds.items():
+        below(f"{result}, {name}", result.error(name), bound)
+
+
+# Loaded, and unloaded again: the residual stress. Errors fall with the cells.
+hill = BENCHMARKS / "hill_tube.prm"
+values = re.search("^ *set Values = (.*)", hill.read_text(encoding="utf-8"), re.M)[1]
+errors(run("hill", hill), contact_pressure_mean=1e-3, elastic_plastic_radius=2e-3, stress_l2=0.005)
+errors(run("residual", hill, {"Load stepping/End time": 2, STEPS: 20,
+                              "Reference solution/Values": f"{values}, unloaded: 1"}, 2),
+       elastic_plastic_radius=2e-3, stress_l2=0.01)
+
+# Near-incompressible: full integration of degree 1 locks and misses by half.
+cook = BENCHMARKS / "cook.prm"
+errors(run("f_bar", cook, {"Body membrane/Geometry/Cells": "16, 16, 1"}), point_displacement=0.012)
+errors(run("degree_2", cook, {"Body membrane/Geometry/Cells": "8, 8, 1", DEGREE: 2}),
+       point_displacement=0.045)
+
+# The plate and Taylor's bar, coarse and for a while: the same on two ranks, energies add up.
+plates = [run(f"plate_{ranks}", prm / "plate_drop.prm",
+              {FACTOR: 0.25, "Load stepping/End time": 5e-7, STEPS: 25}, ranks) for ranks in (1, 2)]
+rods = [run(f"taylor_{ranks}", BENCHMARKS / "taylor_bar.prm",
+            {"Body rod/Geometry/Cells": "2, 2, 12", "Load stepping/End time": 1e-5, STEPS: 50}, ranks)
+        for ranks in (1, 2)]
+same(*plates, 1e-6)
+same(*rods, 1e-4)
+# Plastic cells take more work than the linear ones of the ground: a rank has fewer of them.
+share = plates[1].value("balance", "cells", "imbalance")
+check(share >= 1.1, f"plate_2: cells of a rank over the mean {share}, but not 1.1 or more")
+finish()

@@ -1,0 +1,17 @@
+"""What a user must be told about hard input."""
+# ctest: goldens = dirichlet_on_slave, same_pair_twice, large_overlap, press_fit, held_by_contact
+# ctest: goldens = gap_closed
+# ctest: label = quick
+
+from touchstone_test import finish, golden
+
+for scene, text in (
+        ("dirichlet_on_slave", "5 contact row(s) dropped"),
+        ("same_pair_twice", "25 contact row(s) dropped"),
+        ("large_overlap", "an initial overlap larger than a face, taken as interference"),
+        ("press_fit", "an initial overlap, taken as interference"),
+        ("held_by_contact", "held by contact alone, stabilised: body 'block' can move in x or move "
+                            "in y or turn about z"),
+        ("gap_closed", "smallest gap 0.005")):
+    golden(scene).says(text)
+finish()

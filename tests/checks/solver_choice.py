@@ -1,0 +1,58 @@
+"""The solver that the program chooses by itself, and what multigrid needs on finer meshes, with
+stiff springs and on two ranks, and what takes its place where it is slow."""
+# ctest: goldens = nearly_incompressible_degree_2
+
+from touchstone_test import (AUGMENTED, CG, FACTOR, MUMPS, STEPS, below, check, finish, golden, prm,
+                             run, same, tests)
+
+
+def tubes(name, factor, settings=None, ranks=1):
+    return run(name, prm / "two_tubes.prm", {STEPS: 1, FACTOR: factor, **(settings or {})}, ranks)
+
+
+small = tubes("small", 0.75)
+check(small.count("factorisations") > 0, "MUMPS does not solve small systems")
+check(small.iterations("linear_total") == 0, "iterations for small systems")
+
+large = tubes("large", 1.5)
+check(large.count("factorisations") == 0, "large systems are factorised")
+same(large, tubes("factorised", 1.5, MUMPS), 1e-7)
+fallen_back = tubes("fallen_back", 1.5, {"Linear solver/Maximum iterations": 3})
+check(fallen_back.count("preconditioner_setups") == 1, "tried again after it failed")
+check(fallen_back.count("factorisations") > 0, "MUMPS does not take over")
+check(sum("MUMPS from now on" in line for line in fallen_back.log.splitlines()) == 1,
+      "the log does not say once why")
+check(fallen_back.value("steps") == 1, "the step is cut where MUMPS takes over")
+same(large, fallen_back, 1e-7)
+same(large, tubes("assembled", 1.5, {"Linear solver/Contact operator": "assembled"}), 1e-7)
+
+# Iterations hardly grow with the mesh, and are the same on two ranks: aggregates that
+# went through the contact surface took 14.2, and 15.6 on the finer mesh.
+two_ranks = tubes("two_ranks", 1.5, ranks=2)
+same(large, two_ranks, 1e-7)
+for result in large, two_ranks, tubes("finer", 2):
+    below(f"{result}, iterations", result.iterations("linear_mean"), 8)
+springs = tubes("springs", 1.5, {**AUGMENTED, "Contact/Penalty factor": 1000})
+below("springs, iterations", springs.iterations("linear_mean"), 10)
+
+# Friction makes systems unsymmetric: GMRES.
+friction = tubes("friction", 1, {"Contact pair cone/Behaviour": "coulomb",
+                                 "Contact pair cone/Friction/Coefficient": 0.2})
+check(friction.count("factorisations") == 0, "large systems with friction are factorised")
+below("friction, iterations", friction.iterations("linear_mean"), 15)
+
+# Near incompressibility multigrid would take 462 iterations a solve.
+thick = golden("nearly_incompressible_degree_2")
+check(thick.count("factorisations") > 0, "thick: MUMPS is not chosen")
+for solver in "CG", "GMRES":
+    result = run(f"thick_{solver}", tests / "nearly_incompressible_degree_2.prm",
+                 {"Linear solver/Type": f"Belos {solver}"})
+    below(f"{result}, iterations", result.iterations("linear_mean"), 60)
+    result.says("multigrid would take")
+    same(result, thick, 1e-7)
+
+# The diagonal has the same solution, of many more iterations.
+diagonal = tubes("diagonal", 0.75, {**CG, "Linear solver/Preconditioner": "diagonal"})
+same(diagonal, small, 1e-7)
+check(diagonal.count("factorisations") == 0, "the diagonal is factorised")
+finish()

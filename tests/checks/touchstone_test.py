@@ -1,0 +1,270 @@
+"""Helpers of the checks: run scenes, read their figures, compare them.
+
+A check is a program NAME.py that ctest calls with PROGRAM PROJECT FOLDER and that ends with
+finish(). Lines of it that begin with "# ctest:" are read by tests/CMakeLists.txt:
+
+    # ctest: goldens = hard_mu_one, hard_mu_two.mpirun=2     scenes whose goldens run before
+    # ctest: label = quick                                   instead of full
+
+Needs Python 3.9 and nothing else.
+"""
+
+import json
+import math
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+sys.dont_write_bytecode = True  # no folders __pycache__ among the sources
+program, source, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
+sys.path.insert(0, str(source / "contrib"))
+tests, checks, prm = source / "tests", source / "tests/checks", source / "prm"
+folder.mkdir(parents=True, exist_ok=True)
+os.chdir(folder)
+os.environ.pop("TOUCHSTONE_OPTIONS", None)
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.update(OPENBLAS_NUM_THREADS="1", OMPI_ALLOW_RUN_AS_ROOT="1",
+                  OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+
+ENFORCEMENT, SOLVER, STEPS = "Contact/Enforcement", "Linear solver/Type", "Load stepping/Steps"
+RESIDUAL, GAP = "Newton/Residual tolerance", "Newton/Gap tolerance"
+FACTOR, DEGREE = "Discretisation/Refinement factor", "Discretisation/Degree"
+MULTIPLIERS = {ENFORCEMENT: "lagrange multipliers"}
+AUGMENTED = {ENFORCEMENT: "augmented lagrange"}
+PENALTY = {ENFORCEMENT: "penalty"}
+CG, GMRES, MUMPS = ({SOLVER: name} for name in ("Belos CG", "Belos GMRES", "MUMPS"))
+EXACT_ENFORCEMENTS = "elimination", "lagrange multipliers", "augmented lagrange"
+ENFORCEMENTS = (*EXACT_ENFORCEMENTS, "penalty")
+
+_failures = []
+
+
+def fail(message):
+    """Note a failure; the check goes on."""
+    print(f"FAILED: {message}", flush=True)
+    _failures.append(message)
+
+
+def check(condition, message):
+    """The condition must hold; the message says what is wrong if it does not."""
+    if not condition:
+        fail(message)
+
+
+def finish():
+    """End the check, with exit code 1 if anything failed."""
+    if _failures:
+        sys.exit(f"{len(_failures)} check(s) failed")
+
+
+def below(what, value, bound):
+    """The value is a number, not negative, and less than the bound."""
+    if 0 <= value < bound:
+        print(f"{what}: {value:.6g}, bound {bound:g}", flush=True)
+    else:
+        fail(f"{what}: {value:.12g} is not below {bound:g}")
+
+
+def relative(value, reference):
+    """Relative difference."""
+    return abs(value / reference - 1) if reference else math.nan
+
+
+def settings_options(settings):
+    """Settings of a dictionary as options of the program."""
+    return [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+
+
+def launch(*arguments, ranks=1, timeout=None):
+    """Start the program; returns subprocess.CompletedProcess with all that it says in stdout."""
+    command = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
+    return subprocess.run([*command, program, *map(str, arguments)], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
+
+
+class Run:
+    """A run and what it wrote. Figures that are missing are not numbers."""
+
+    def __init__(self, name, path, text, code=0):
+        self.name, self.folder, self.text, self.code = name, pathlib.Path(path), text, code
+        summary = self.folder / "summary.json"
+        self.summary = json.loads(summary.read_text(encoding="utf-8")) if summary.is_file() else {}
+
+    def __str__(self):
+        return self.name
+
+    def value(self, *keys):
+        """One figure of summary.json."""
+        value = self.summary
+        try:
+            for key in keys:
+                value = value[key]
+            return float(value)
+        except (KeyError, IndexError, TypeError):
+            return math.nan
+
+    def vector(self, *keys):
+        """Three figures of summary.json."""
+        return [self.value(*keys, i) for i in range(3)]
+
+    def contact(self, pair, figure):
+        """A figure of a contact pair."""
+        return self.value("results", "contact", pair, figure)
+
+    def force(self, pair):
+        """Contact force of a pair."""
+        return self.vector("results", "contact", pair, "force")
+
+    def reaction(self, body, boundary):
+        """Reaction of a support."""
+        return self.vector("results", "reactions", body, boundary)
+
+    def error(self, name):
+        """Error against the reference solution."""
+        return self.value("errors", name)
+
+    def iterations(self, name="newton"):
+        """Number of iterations."""
+        return self.value("iterations", name)
+
+    def count(self, name):
+        """What summary.json counts."""
+        return self.value("counts", name)
+
+    @property
+    def log(self):
+        """Text of the log."""
+        return (self.folder / "log").read_text(encoding="utf-8")
+
+    def says(self, text):
+        """The log must contain the text."""
+        check(text in self.log, f"{self}: the log does not say: {text}")
+
+    def after(self, line, word=1):
+        """A number of what was printed: word number @p word after the text @p line."""
+        try:
+            return float(self.text.split(line, 1)[1].split()[word - 1])
+        except (IndexError, ValueError):
+            return math.nan
+
+    def rows(self):
+        """Rows of the table 'statistics', by the titles of its columns."""
+        return statistics(self.folder / "statistics")
+
+    def column(self, title):
+        """A column of the statistics."""
+        return [row.get(title, math.nan) for row in self.rows()] or [math.nan]
+
+    def cuts(self):
+        """Number of times that a step was cut."""
+        return sum(self.column("cuts"))
+
+    def contact_nodes(self):
+        """Slave nodes of the last contact surface that was written (fuzzing/vtu.py)."""
+        from fuzzing import vtu  # pylint: disable=import-outside-toplevel,import-error
+        return vtu.read(sorted(self.folder.glob("contact_*.vtu"))[-1])
+
+    def figures(self):
+        """Results, errors and iterations as {path: (kind, value)}. Of results and iterations the
+        last key is the kind; contact forces and reactions are one kind."""
+        figures = {}
+
+        def collect(part, path, value, kind):
+            if isinstance(value, dict):
+                for key, entry in value.items():
+                    collect(part, (*path, key), entry, kind or
+                            ("force" if "reactions" in path else None))
+            elif isinstance(value, list):
+                for i, entry in enumerate(value):
+                    collect(part, (*path, i), entry, kind or path[-1])
+            else:
+                figures[path] = (kind or path[-1], math.nan if value is None else float(value))
+
+        for part, kind in (("results", None), ("errors", "error"), ("iterations", None)):
+            collect(part, (part,), self.summary.get(part, {}), kind)
+        return figures
+
+
+def statistics(path):
+    """Rows of a table of the program by the titles of its columns."""
+    titles, rows = [], []
+    for line in pathlib.Path(path).read_text(encoding="utf-8").splitlines():
+        head = re.fullmatch(r"# \d+: (.*)", line)
+        if head:
+            titles.append(head[1])
+        elif line.strip() and not line.startswith("#"):
+            rows.append(dict(zip(titles, map(float, line.split()))))
+    return rows
+
+
+def run(name, scene, settings=None, ranks=1, fails=False, vtu=0):
+    """Run a scene into the folder @p name and expect that it converges, or with @p fails that
+    it does not. VTU files are written every @p vtu steps, None: as the scene says."""
+    shutil.rmtree(name, ignore_errors=True)
+    settings = dict(settings or {})
+    if vtu is not None:
+        settings["Output/VTU interval"] = vtu
+    done = launch("--results-only", "--output", name, *settings_options(settings), scene,
+                  ranks=ranks)
+    result = Run(name, name, done.stdout, done.returncode)
+    if fails and done.returncode == 0:
+        fail(f"{name}: the run must fail")
+    elif not fails and done.returncode != 0:
+        fail(f"{name}: exit code {done.returncode}\n{done.stdout}")
+        result.summary = {}
+    return result
+
+
+def golden(name, ranks=1):
+    """What the run of the golden NAME.output or NAME.mpirun=RANKS.output left; named in a line
+    "# ctest: goldens" of the check."""
+    label = name if ranks == 1 else f"{name}.mpirun={ranks}"
+    with open(sys.argv[0], encoding="utf-8") as file:
+        declared = [entry.strip() for line in file if line.startswith("# ctest: goldens = ")
+                    for entry in line.split("=", 1)[1].split(",")]
+    if label not in declared:
+        sys.exit(f"'{label}' is not declared in a line '# ctest: goldens = ...'")
+    if len(sys.argv) < 5:  # not by ctest
+        return run(label, tests / f"{name}.prm", None, ranks, vtu=None)
+    path = pathlib.Path(sys.argv[4]) / label
+    return Run(label, path / "results", (path / "output").read_text(encoding="utf-8"))
+
+
+# Figures that are round-off or chance, and iterations of solvers.
+_NOT_COMPARED = {"max_penetration", "contact", "damped", "linear_total", "linear_mean"}
+
+
+def same(a, b, tolerance, newton=False, **factors):
+    """The figures of @p a times the factors of their kinds are those of @p b. Forces and moments
+    are compared to the largest of their kind, errors, which are relative, to one. Newton
+    iterations count only if @p newton is given."""
+    first = {path: (kind, value * factors.get(kind, 1)) for path, (kind, value) in
+             a.figures().items()}
+    second = b.figures()
+    problems, worst, compared = [], 0.0, 0
+    if set(first) != set(second):
+        others = sorted("/".join(map(str, path)) for path in set(first) ^ set(second))
+        problems.append(f"not the same figures: {', '.join(others)}")
+    largest = {}
+    for kind, value in first.values():
+        largest[kind] = max(largest.get(kind, 0), abs(value))
+    for path in sorted(set(first) & set(second), key=str):
+        kind, x = second[path]
+        if kind in _NOT_COMPARED or (kind == "newton" and not newton):
+            continue
+        compared += 1
+        size = 1 if kind == "error" else largest[kind] if kind in ("force", "moment") else abs(x)
+        difference = abs(first[path][1] - x)
+        if not difference <= tolerance * size:
+            problems.append(f"{'/'.join(map(str, path))}: {first[path][1]:.12g} and {x:.12g}")
+        if size > 0:
+            worst = max(worst, difference / size)
+    if compared < 8:
+        problems.append("hardly anything to compare")
+    print(f"{a} and {b}: {compared} figures, largest difference {worst:.1e}, "
+          f"allowed {tolerance:.1e}", flush=True)
+    if problems:
+        fail(f"{a} and {b} differ:\n  " + "\n  ".join(problems))
