@@ -1,6 +1,6 @@
 #!/bin/sh
 # solver_table.sh [PROGRAM] [FACTOR ...]: multigrid of the program, of Trilinos (ML), and of PETSc
-# (GAMG, BoomerAMG) on two tubes, as a Markdown table (doc/solvers.md). Default: factors 1 and 2.
+# (GAMG, BoomerAMG) on two tubes, as a Markdown table (doc/solvers.md). Default: factors 1 and 2; BoomerAMG takes minutes.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 program=${1:-$root/build/touchstone}
