@@ -88,8 +88,8 @@ namespace Touchstone
 
   ContactFieldList::ContactFieldList()
   {
-    for (const auto &[name, record] : ContactFieldRegistry::records())
-      all.push_back({name, record.make(), 0});
+    for (const std::string &name : ContactFieldRegistry::names())
+      all.push_back({name, ContactFieldRegistry::make(name), 0});
     std::stable_sort(all.begin(), all.end(), [](const Entry &a, const Entry &b) {
       return a.field->order() < b.field->order();
     });

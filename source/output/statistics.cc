@@ -10,8 +10,8 @@ namespace Touchstone
   {
     // A pair or energy that turns up later gets empty cells in the rows before.
     table.set_auto_fill_mode(true);
-    for (const auto &[name, record] : StepQuantityRegistry::records())
-      quantities.emplace_back(name, record.make());
+    for (const std::string &name : StepQuantityRegistry::names())
+      quantities.emplace_back(name, StepQuantityRegistry::make(name));
     std::stable_sort(quantities.begin(), quantities.end(), [](const auto &a, const auto &b) {
       return a.second->order() < b.second->order();
     });

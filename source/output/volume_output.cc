@@ -13,8 +13,8 @@ namespace Touchstone
     , node_fe(solid.fe.degree)
     , files(folder, "solution")
   {
-    for (const auto &[name, record] : VolumeFieldRegistry::records())
-      fields.emplace_back(name, record.make());
+    for (const std::string &name : VolumeFieldRegistry::names())
+      fields.emplace_back(name, VolumeFieldRegistry::make(name));
     std::stable_sort(fields.begin(), fields.end(), [](const auto &a, const auto &b) {
       return a.second->order() < b.second->order();
     });
