@@ -16,6 +16,8 @@
 
 namespace Touchstone
 {
+  class Scene;
+
   /** @brief Work of all steps so far. */
   struct StepCounts
   {
