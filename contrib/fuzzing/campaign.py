@@ -117,6 +117,17 @@ def judge_scene(scene, index, variants, program, folder, time_limit):
     return verdict
 
 
+def variants_by_name(names, error):
+    """The variants with these names, separated by commas; None for no names."""
+    if names is None:
+        return None
+    known = {variant.name: variant for variant in VARIANTS}
+    unknown = [name for name in names.split(",") if name not in known]
+    if unknown:
+        error(f"there is no variant '{unknown[0]}'; there are {', '.join(known)}")
+    return tuple(known[name] for name in names.split(","))
+
+
 def chosen_variants(quick, seed, index):
     """All of them, or one for each scene in turn."""
     if not quick:
@@ -138,13 +149,13 @@ def keep(verdict, seed, folder):
     return path
 
 
-def run(numbers, seed, quick, program, folder, time_limit, report):
-    """Judge the scenes with these numbers. @return verdicts"""
+def run(numbers, seed, quick, program, folder, time_limit, report, variants=None):
+    """Judge the scenes with these numbers, in @p variants if they are given. @return verdicts"""
     verdicts = []
     for index in numbers:
         scene = generator.scene(seed, index)
-        verdict = judge_scene(scene, index, chosen_variants(quick, seed, index), program,
-                              folder / f"scene_{index}", time_limit)
+        chosen = chosen_variants(quick, seed, index) if variants is None else variants
+        verdict = judge_scene(scene, index, chosen, program, folder / f"scene_{index}", time_limit)
         verdicts.append(verdict)
         report(verdict)
     return verdicts

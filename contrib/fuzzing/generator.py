@@ -11,12 +11,19 @@ KINDS = (stacks.two,) * 6 + (stacks.row, stacks.corner, stacks.quarter, stacks.q
 UNITS = ((1.0, 1.0), (1.0, 1.0), (1e-3, 1e6), (1 / 25.4, 145.0), (1e3, 1e-6), (1e-6, 1e9))
 
 
+def without_smoothing(pair):
+    """Curved faces of degree 2 are not smoothed."""
+    return dataclasses.replace(pair, settings=tuple(setting for setting in pair.settings
+                                                    if setting != ("Master normal", "smoothed")))
+
+
 def scene(seed, index):
     """The scene @p index of a campaign."""
     rng = random.Random(f"{seed}/{index}")
     result = rng.choice(KINDS)(rng)
     if rng.random() < 0.1:
-        result = dataclasses.replace(result, settings=(("Discretisation/Degree", "2"),))
+        result = dataclasses.replace(result, settings=(("Discretisation/Degree", "2"),),
+                                     pairs=tuple(map(without_smoothing, result.pairs)))
     units = rng.choice(UNITS)
     result = result.rescaled(*units) if units != (1.0, 1.0) else result
     # What follows is compared with this one, in its own axes and units.

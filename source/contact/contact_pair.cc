@@ -108,17 +108,17 @@ namespace Touchstone
     std::vector<FrictionRow> result(present.size());
     if (!input.parameters.friction)
       return result;
-    const std::vector<Stencil> tangents = slave_surface->tangents();
+    const std::vector<std::array<Stencil, 2>> tangents = slave_surface->material_tangents();
     for (std::size_t k = 0; k < result.size(); ++k)
       {
         FrictionRow &row = result[k];
         row.law          = input.parameters.friction.get();
         if (const auto found = mirrors.find(present[k].slave); found != mirrors.end())
           row.mirrors = found->second;
-        row.tangent = tangents[k];
-        row.small   = small;
-        row.exact   = (contact.friction == ContactParameters::Stick::exact);
-        row.alpha   = 10. * contact.tangential_factor * present[k].stiffness;
+        row.material_tangents = tangents[k];
+        row.small             = small;
+        row.exact             = (contact.friction == ContactParameters::Stick::exact);
+        row.alpha             = 10. * contact.tangential_factor * present[k].stiffness;
       }
     return result;
   }

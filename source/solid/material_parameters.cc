@@ -103,6 +103,16 @@ namespace Touchstone
                        "must be positive",
                        "give Young's modulus in the scene's unit of force per "
                        "area, e.g. 210000 for steel in N and mm");
+    // Squares of forces must neither vanish nor overflow: with 1e-320 all residuals are zero, and
+    // the first state would pass for an equilibrium.
+    constexpr double smallest = 1e-100, largest = 1e100;
+    if (!(young_modulus >= smallest && young_modulus <= largest))
+      throw InputError(section,
+                       "Young modulus",
+                       Patterns::Tools::to_string(young_modulus),
+                       "must be between 1e-100 and 1e100: forces could not be told from zero or "
+                       "from infinity",
+                       "choose units in which forces are not so small or large");
     if (poisson_ratio <= -1. || poisson_ratio >= 0.5)
       throw InputError(section,
                        "Poisson ratio",

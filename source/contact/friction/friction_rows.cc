@@ -42,7 +42,10 @@ namespace Touchstone
   {
     IndexSet needed = solid.relevant;
     for (const ContactRow &row : rows)
-      for (const Stencil *stencil : {&row.stencil, &row.friction->history.anchor})
+      for (const Stencil *stencil : {&row.stencil,
+                                     &row.friction->history.anchor,
+                                     &row.friction->material_tangents[0],
+                                     &row.friction->material_tangents[1]})
         for (const StencilEntry &entry : *stencil)
           if (!needed.is_element(dim * entry.node))
             needed.add_range(dim * entry.node, dim * entry.node + dim);

@@ -80,6 +80,25 @@ namespace Touchstone
             k.tangents[0] = cross_product_3d(normal, out);
         }
     }
+
+
+
+    /** A direction in the plane of the row's normal that turns with the surface of the slave
+     * body, whichever directions its mesh has. */
+    Tensor<1, dim>
+    in_plane_rotation(const ContactRow &row, const NodePositions &positions)
+    {
+      Tensor<1, dim> q[2];
+      for (unsigned int a = 0; a < 2; ++a)
+        for (const StencilEntry &entry : row.friction->material_tangents[a])
+          q[a] += entry.weight * positions.at(entry.node);
+      // The rotation in the polar decomposition of the surface's deformation in the plane of the
+      // normal, doc/theory.md, section 6.2. A surface that faces away from the master surface has
+      // none; such rows carry no force.
+      const Tensor<1, dim> along     = tangential_projector(row.normal) * q[0];
+      const Tensor<1, dim> direction = along + cross_product_3d(q[1], row.normal);
+      return direction.norm() > 1e-3 * q[0].norm() ? direction : along;
+    }
   } // namespace
 
 
@@ -92,12 +111,9 @@ namespace Touchstone
   {
     const FrictionHistory &history = row.friction->history;
     SlipKinematics         k;
-    Tensor<1, dim>         direction;
-    for (const StencilEntry &entry : row.friction->tangent)
-      direction += entry.weight * positions.at(entry.node);
-    direction  = tangential_projector(row.normal) * direction;
-    k.frame[0] = direction / direction.norm();
-    k.frame[1] = cross_product_3d(row.normal, k.frame[0]);
+    const Tensor<1, dim>   direction = in_plane_rotation(row, positions);
+    k.frame[0]                       = direction / direction.norm();
+    k.frame[1]                       = cross_product_3d(row.normal, k.frame[0]);
     find_tangents(row.friction->mirrors, row.normal, k);
     k.start = k.tangential * k.carry(history.traction);
     k.area  = row.area;
@@ -151,16 +167,18 @@ namespace Touchstone
     std::map<Index, Mat>   slip;
     std::map<Index, Vec>   spin;
 
-    // The frame turns with the tangent q: omega = e_2 . dq / |T q|.
-    Vec q;
-    for (const StencilEntry &entry : row.friction->tangent)
-      {
-        q += entry.weight * positions.at(entry.node);
-        spin[entry.node] += entry.weight * k.frame[1];
-      }
+    // The frame turns with the direction q = T q_1 + q_2 x n: omega = e_2 . dq / |q|.
+    Vec q[2];
+    for (unsigned int a = 0; a < 2; ++a)
+      for (const StencilEntry &entry : row.friction->material_tangents[a])
+        {
+          q[a] += entry.weight * positions.at(entry.node);
+          spin[entry.node] += (a == 0 ? entry.weight * k.frame[1] : -entry.weight * k.frame[0]);
+        }
     for (std::size_t a = 0; a < d.nodes.size(); ++a)
-      spin[d.nodes[a]] -= (row.normal * q) * (k.frame[1] * d.normal[a]);
-    const double length = (tangential_projector(row.normal) * q).norm();
+      spin[d.nodes[a]] += (row.normal * q[1]) * (k.frame[0] * d.normal[a]) -
+                          (row.normal * q[0]) * (k.frame[1] * d.normal[a]);
+    const double length = in_plane_rotation(row, positions).norm();
     for (auto &entry : spin)
       entry.second /= length;
 

@@ -2,6 +2,7 @@
 #include <touchstone/contact/geometry/vector3.h>
 
 #include <Sacado.hpp>
+#include <cmath>
 
 namespace Touchstone
 {
@@ -54,9 +55,27 @@ namespace Touchstone
       return 16 + (i - 1) + 2 * (j - 1);
     }
 
+    /** The unit vector @p n mirrored along the chord from @p a to @p b, as normals of a circle
+     * are at both ends of a chord. */
+    template <typename Number>
+    Vector3<Number>
+    mirrored(const Vector3<Number> &n, const Vector3<Number> &a, const Vector3<Number> &b)
+    {
+      Vector3<Number> chord = b;
+      for (unsigned int d = 0; d < dim; ++d)
+        chord[d] -= a[d];
+      const Number    along  = 2. * dot(n, chord) / dot(chord, chord);
+      Vector3<Number> result = n;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] -= along * chord[d];
+      return result;
+    }
+
     /** At the edge of the whole surface the averages know one side only and are
      * wrong by half the angle between faces. There the normal of the next node inward
-     * is mirrored, as on a circle; neighbours along the edge do the same. */
+     * is mirrored, as on a circle; neighbours along the edge do the same. Where two such edges
+     * meet, the normal of the node across is mirrored over one of its neighbours and over the
+     * other: the mean of both prefers no direction of the mesh. */
     template <typename Number>
     std::array<Vector3<Number>, 4>
     mirror_at_outer_edges(const unsigned int                    outer_edges,
@@ -64,24 +83,30 @@ namespace Touchstone
                           const std::array<Vector3<Number>, 4> &n)
     {
       std::array<Vector3<Number>, 4> result = n;
-      // From each node at such an edge to the one opposite; corners take two steps.
-      for (const unsigned int step : {2u, 1u})
+      for (unsigned int m = 0; m < 4; ++m)
         {
-          const std::array<Vector3<Number>, 4> seen = result;
-          for (unsigned int m = 0; m < 4; ++m)
+          // The nodes inward of the edges xi_1 = +-1 and xi_2 = +-1.
+          const unsigned int first = m ^ 1u, second = m ^ 2u, across = m ^ 3u;
+          const bool         at_first = outer_edges & (1u << (m % 2)),
+                     at_second        = outer_edges & (4u << (m / 2));
+          // Where both edges of a strip are outer the facet's normal stays.
+          if (at_first && at_second)
             {
-              const unsigned int edge = step == 1 ? 1u << (m % 2) : 4u << (m / 2);
-              if (!(outer_edges & edge))
-                continue;
-              const unsigned int inward = m ^ step;
-              // Both edges of a strip are outer: the facet's normal stays.
-              const Vector3<Number> &from  = seen[inward];
-              Vector3<Number>        chord = x[inward];
+              const auto over = [&](const unsigned int between) {
+                return mirrored(mirrored(n[across], x[between], x[across]), x[m], x[between]);
+              };
+              const Vector3<Number> a = over(first), b = over(second);
               for (unsigned int d = 0; d < dim; ++d)
-                chord[d] -= x[m][d];
-              const Number along = 2. * dot(from, chord) / dot(chord, chord);
+                result[m][d] = a[d] + b[d];
+              using std::sqrt;
+              const Number length = sqrt(dot(result[m], result[m]));
               for (unsigned int d = 0; d < dim; ++d)
-                result[m][d] = from[d] - along * chord[d];
+                result[m][d] /= length;
+            }
+          else if (at_first || at_second)
+            {
+              const unsigned int inward = at_first ? first : second;
+              result[m]                 = mirrored(n[inward], x[m], x[inward]);
             }
         }
       return result;
@@ -93,7 +118,7 @@ namespace Touchstone
     {
       std::array<Vector3<Number>, GregoryPatch::n_control_points> p;
       // Boundary curves, for each of two directions and two edges: from node a to b.
-      const auto place = [](const bool along_first, const unsigned int i, const unsigned int j) {
+      const auto index = [](const bool along_first, const unsigned int i, const unsigned int j) {
         return along_first ? control(i, j) : control(j, i);
       };
       for (const bool first : {true, false})
@@ -108,10 +133,10 @@ namespace Touchstone
             const Number at_a = dot(chord, n[a]), at_b = dot(chord, n[b]);
             for (unsigned int d = 0; d < dim; ++d)
               {
-                p[place(first, 0, row)][d] = x[a][d];
-                p[place(first, 1, row)][d] = x[a][d] + (chord[d] - at_a * n[a][d]) / 3.;
-                p[place(first, 2, row)][d] = x[b][d] - (chord[d] - at_b * n[b][d]) / 3.;
-                p[place(first, 3, row)][d] = x[b][d];
+                p[index(first, 0, row)][d] = x[a][d];
+                p[index(first, 1, row)][d] = x[a][d] + (chord[d] - at_a * n[a][d]) / 3.;
+                p[index(first, 2, row)][d] = x[b][d] - (chord[d] - at_b * n[b][d]) / 3.;
+                p[index(first, 3, row)][d] = x[b][d];
               }
           }
       for (const bool first : {true, false})
@@ -122,8 +147,8 @@ namespace Touchstone
             const unsigned int             row = 3 * side, inner = 1 + side;
             std::array<Vector3<Number>, 4> c;
             for (unsigned int i = 0; i < 4; ++i)
-              c[i] = p[place(first, i, row)];
-            Vector3<Number> d0 = p[place(first, 0, inner)], d3 = p[place(first, 3, inner)];
+              c[i] = p[index(first, i, row)];
+            Vector3<Number> d0 = p[index(first, 0, inner)], d3 = p[index(first, 3, inner)];
             for (unsigned int d = 0; d < dim; ++d)
               {
                 d0[d] = 3. * (d0[d] - c[0][d]);

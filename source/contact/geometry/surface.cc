@@ -345,38 +345,81 @@ namespace Touchstone
 
 
 
-  std::vector<Stencil>
-  Surface::tangents() const
+  std::vector<std::array<Stencil, 2>>
+  Surface::material_tangents() const
   {
-    // Of the face with the smallest key, so that every partition takes the same.
-    std::unordered_map<Index, std::pair<const Face *, unsigned int>> first;
+    // In the order of keys, so that every partition sums up the same.
+    std::unordered_map<Index, std::vector<std::pair<const Face *, unsigned int>>> around;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
         for (unsigned int m = 0; m < face.n_nodes(); ++m)
-          {
-            auto &[known, corner] = first[face.nodes[m]];
-            if (known == nullptr || face.key < known->key)
-              {
-                known  = &face;
-                corner = m;
-              }
-          }
-    std::vector<Stencil> result;
+          around[face.nodes[m]].emplace_back(&face, m);
+    for (auto &entry : around)
+      std::sort(entry.second.begin(), entry.second.end(), [](const auto &a, const auto &b) {
+        return a.first->key < b.first->key;
+      });
+
+    std::vector<std::array<Stencil, 2>> result;
     for (const SurfaceNode &node : nodes)
       {
-        const auto &[face, corner] = first.at(node.node);
-        const FaceShapes shapes(face->degree, node_coordinates(*face, corner));
+        const auto &list = around.at(node.node);
+        // Tangents of the faces at the node in the reference state.
+        std::vector<std::array<Tensor<1, dim>, 2>> tangents;
+        Tensor<1, dim>                             normal;
+        for (const auto &[face, corner] : list)
+          {
+            const FaceShapes              shapes(face->degree, node_coordinates(*face, corner));
+            std::array<Tensor<1, dim>, 2> t;
+            for (unsigned int m = 0; m < face->n_nodes(); ++m)
+              for (unsigned int b = 0; b < 2; ++b)
+                t[b] += shapes.gradient[m][b] * face->reference[m];
+            tangents.push_back(t);
+            normal += cross_product_3d(t[0], t[1]);
+          }
+        normal /= normal.norm();
+        // Any direction across the normal will do; the longest avoids round-off at sharp edges.
+        std::array<Tensor<1, dim>, 2> directions;
+        for (const auto &t : tangents)
+          for (const Tensor<1, dim> &tangent : t)
+            {
+              const Tensor<1, dim> across =
+                (tangent - (tangent * normal) * normal) / tangent.norm();
+              if (across.norm() > 1.1 * directions[0].norm())
+                directions[0] = across;
+            }
+        directions[0] /= directions[0].norm();
+        directions[1] = -cross_product_3d(normal, directions[0]);
+
+        std::array<std::map<Index, double>, 2> sum;
+        for (std::size_t f = 0; f < list.size(); ++f)
+          {
+            const auto &[face, corner] = list[f];
+            const auto      &t         = tangents[f];
+            const FaceShapes shapes(face->degree, node_coordinates(*face, corner));
+            const double     g00 = t[0] * t[0], g01 = t[0] * t[1], g11 = t[1] * t[1];
+            const double     area = std::sqrt(g00 * g11 - g01 * g01);
+            for (unsigned int a = 0; a < 2; ++a)
+              {
+                // The part of the direction in the face, by its tangents; times the area, which
+                // makes faces count as they do in averaged normals.
+                const double r0 = t[0] * directions[a], r1 = t[1] * directions[a];
+                const double c0 = (g11 * r0 - g01 * r1) / area, c1 = (g00 * r1 - g01 * r0) / area;
+                std::array<double, Face::max_nodes> weights{};
+                for (unsigned int m = 0; m < face->n_nodes(); ++m)
+                  weights[m] = c0 * shapes.gradient[m][0] + c1 * shapes.gradient[m][1];
+                // Conditions on the slip must not refer to nodes that follow the slave node.
+                const TraceBasis *basis = trace(*face);
+                if (basis)
+                  weights = basis->apply(weights);
+                for (unsigned int m = 0; m < face->n_nodes(); ++m)
+                  if (weights[m] != 0.)
+                    sum[a][basis ? basis->nodes[m] : face->nodes[m]] += weights[m];
+              }
+          }
         result.emplace_back();
-        // Conditions on the slip must not refer to nodes that follow the slave node.
-        std::array<double, Face::max_nodes> weights{};
-        for (unsigned int m = 0; m < face->n_nodes(); ++m)
-          weights[m] = shapes.gradient[m][0];
-        const TraceBasis *basis = trace(*face);
-        if (basis)
-          weights = basis->apply(weights);
-        for (unsigned int m = 0; m < face->n_nodes(); ++m)
-          if (weights[m] != 0.)
-            result.back().push_back({basis ? basis->nodes[m] : face->nodes[m], weights[m]});
+        for (unsigned int a = 0; a < 2; ++a)
+          for (const auto &[index, weight] : sum[a])
+            result.back()[a].push_back({index, weight});
       }
     return result;
   }

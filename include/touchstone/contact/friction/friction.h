@@ -114,8 +114,8 @@ namespace Touchstone
     /** Normals of the planes of symmetry that the node lies on: the other half of the body
      * cancels what friction there is along them. */
     std::vector<dealii::Tensor<1, dim>> mirrors;
-    /** A tangent of the slave node that moves with the surface, as a stencil of positions. */
-    Stencil tangent;
+    /** Two material vectors of the slave surface at the node, see Surface::material_tangents(). */
+    std::array<Stencil, 2> material_tangents;
     /** Small sliding: slip is measured by the gap vector. */
     bool small = false;
     /** No elastic slip, where the enforcement can do without. */

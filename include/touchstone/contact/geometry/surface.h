@@ -104,10 +104,13 @@ namespace Touchstone
       return {faces.begin(), faces.end()};
     }
 
-    /** @brief For each owned node weights of node positions whose sum is a tangent
-     * of the surface there; it moves with the body. In the order of owned_nodes(). */
-    std::vector<Stencil>
-    tangents() const;
+    /** @brief For each owned node two material vectors of the surface: weights of node positions,
+     * times an area, whose sums are orthogonal and of the same length in the reference state and
+     * move with the body. They are means over all faces around the node, weighted by area, so
+     * that no face or direction of the mesh is preferred. With the normal, pointing into the
+     * body, they are a right-handed frame. In the order of owned_nodes(). */
+    std::vector<std::array<Stencil, 2>>
+    material_tangents() const;
 
     /** @brief Current position of an owned node. */
     dealii::Point<dim>
