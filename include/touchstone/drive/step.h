@@ -17,8 +17,6 @@
 
 namespace Touchstone
 {
-  class Scene;
-
   /** @brief Work of all steps so far. */
   struct StepCounts
   {
