@@ -1,6 +1,7 @@
 // What bodies can do without resistance under given supports and contacts, in
 // words; and that the modes are motions without energy.
 
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 #include <touchstone/solid/rigid_body_modes.h>
 

@@ -2,6 +2,7 @@
 // their own, the factor of two_tubes gives the cells it should.
 
 #include <touchstone/mesh/forest.h>
+#include <touchstone/scene/scene.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_handler.h>

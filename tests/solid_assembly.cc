@@ -2,6 +2,7 @@
 // the same energies. Three ranks are not two: only then has a rank columns of several
 // others.
 
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/solid.h>
 
 #include "mesh_common.h"

@@ -3,6 +3,7 @@
 // refinement and coarsening; det Fp = 1 when different states are merged; on any number of
 // ranks, ghost cells included.
 
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/state_transfer.h>
 
 #include <deal.II/base/mpi.h>
