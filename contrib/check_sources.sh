@@ -1,7 +1,8 @@
 #!/bin/sh
 # Checks of the sources that need no build.
 #
-# Usage: contrib/check_sources.sh format    all sources are formatted by .clang-format
+# Usage: contrib/check_sources.sh headers   all files have a license line
+#        contrib/check_sources.sh format    all sources are formatted by .clang-format
 #        contrib/check_sources.sh layers    no #include runs against the order of the folders
 #        contrib/check_sources.sh mutations the faults of contrib/mutations fit the sources
 set -eu
@@ -26,8 +27,9 @@ format()
 }
 
 case ${1-} in
+  headers) python3 contrib/check_headers ;;
   format) format ;;
   layers) python3 contrib/check_layers ;;
   mutations) python3 contrib/mutations --check ;;
-  *) sed -n '2,6s/^# *//p' "$0" >&2; exit 2 ;;
+  *) sed -n '2,7s/^# *//p' "$0" >&2; exit 2 ;;
 esac

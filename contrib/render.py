@@ -305,8 +305,9 @@ def bar(width, title, low, high):
         canvas[44:70, start + length * i // len(COLOURS):start + length * (i + 1) // len(COLOURS)] = \
             [int(colour[k:k + 2], 16) for k in (0, 2, 4)]
     for i in range(5):
-        value = f"{low + (high - low) * i / 4:.3g}"
-        label = written(value if len(value) < 7 else f"{float(value):.1e}", SMALL)
+        number = low + (high - low) * i / 4
+        value = f"{number:.0f}" if 1000 <= abs(number) < 1e5 else f"{number:.3g}"
+        label = written(value if len(value) < 7 else f"{number:.1e}", SMALL)
         at = start + length * i // 4
         canvas[70:77, max(at - 1, 0):at + 1] = 0
         label = label[:112 - 79]

@@ -49,7 +49,7 @@ for kernel in "$@"; do
     count=$((count + 1))
     timeout 300 "$program" ${scene:+"$scene"} >output 2>errors
     code=$?
-    # As the rules of deal.II compare.
+    # As run_golden.sh compares.
     numdiff -a 1e-6 -r 1e-8 -s ' \t\r\n=,:;<>[](){}^' "$golden" output >difference ||
       code="$code, and differences"
     if [ "$code" != 0 ]; then

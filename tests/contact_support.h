@@ -111,7 +111,7 @@ namespace Touchstone
 
     /** Move the surfaces to a displacement (with ghosts). */
     void
-    move_surfaces(const Vector &ghosted)
+    move_surfaces(const Vector &ghosted) const
     {
       pair.move_surfaces(ghosted);
     }
@@ -142,7 +142,7 @@ namespace Touchstone
     const Scene          scene;
     const Forest         forest;
     const Solid          solid;
-    ContactPair          pair;
+    mutable ContactPair  pair;
     const Surface *const slave, *const master;
     Pairing *const          pairing;
     std::vector<ContactRow> rows;

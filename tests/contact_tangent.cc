@@ -84,7 +84,7 @@ subsection Contact pair pair
 end
 )";
 
-  struct Friction
+  struct FrictionKind
   {
     std::string   name, behaviour, kind;
     ContactStatus status;
@@ -119,7 +119,7 @@ end
 
   const FrictionLawRegistry::Entry<WeakeningLaw> weakening_law("weakening", "for this test.");
 
-  const std::vector<Friction> frictions = {
+  const std::vector<FrictionKind> frictions = {
     {"frictionless", "frictionless", "exact", ContactStatus::slip},
     {"exact stick", "coulomb", "exact", ContactStatus::stick},
     {"exact slip", "coulomb", "exact", ContactStatus::slip},
@@ -177,11 +177,11 @@ end
   class Case
   {
   public:
-    Case(const std::string &text,
-         const std::string &pairing,
-         const std::string &enforcement_name,
-         const Friction    &friction,
-         const bool         beyond_edge)
+    Case(const std::string  &text,
+         const std::string  &pairing,
+         const std::string  &enforcement_name,
+         const FrictionKind &friction,
+         const bool          beyond_edge)
       : friction(friction)
       , enforcement_name(enforcement_name)
       , made(text, overrides(pairing, enforcement_name, friction, beyond_edge))
@@ -251,7 +251,7 @@ end
     /** Length of the step in time. */
     static constexpr double step = 0.1;
 
-    const Friction     friction;
+    const FrictionKind friction;
     const std::string  enforcement_name;
     PairOfScene        made;
     Contact            contact;
@@ -437,10 +437,10 @@ end
 
   private:
     static std::vector<std::string>
-    overrides(const std::string &pairing,
-              const std::string &enforcement,
-              const Friction    &friction,
-              const bool         beyond_edge)
+    overrides(const std::string  &pairing,
+              const std::string  &enforcement,
+              const FrictionKind &friction,
+              const bool          beyond_edge)
     {
       std::vector<std::string> result = {"Contact/Enforcement=" + enforcement,
                                          "Contact pair pair/Behaviour=" + friction.behaviour};
@@ -661,12 +661,12 @@ end
 
 
   void
-  check(const std::string &text,
-        const std::string &pairing,
-        const std::string &enforcement,
-        const Friction    &friction,
-        const bool         with_numbers,
-        const bool         beyond_edge = false)
+  check(const std::string  &text,
+        const std::string  &pairing,
+        const std::string  &enforcement,
+        const FrictionKind &friction,
+        const bool          with_numbers,
+        const bool          beyond_edge = false)
   {
     Case       c(text, pairing, enforcement, friction, beyond_edge);
     const auto frozen     = errors_of(c, false);
@@ -719,14 +719,14 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (const std::string pairing : {"pointwise", "averaged", "obstacle"})
     for (const std::string &enforcement : enforcements)
-      for (const Friction &friction : frictions)
+      for (const FrictionKind &friction : frictions)
         // Penalty knows no exact friction.
         if (enforcement != "penalty" || friction.kind == "regularised" ||
             friction.behaviour == "frictionless")
           check(
             pairing == "obstacle" ? obstacle : blocks, pairing, enforcement, friction, argc > 1);
   // Cones that depend on the area.
-  for (const Friction &friction : frictions)
+  for (const FrictionKind &friction : frictions)
     if (friction.behaviour == "tresca" || friction.behaviour == "weakening")
       check(blocks, "averaged", "lagrange multipliers", friction, argc > 1, true);
 }

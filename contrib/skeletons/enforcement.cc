@@ -2,8 +2,10 @@
 // source/contact/enforcement/NAME.cc and change what is marked TODO: 'set Enforcement = NAME'
 // selects it, and nothing else need be edited.
 
+#include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/friction/friction_response.h>
 
 namespace Touchstone
 {
@@ -14,71 +16,95 @@ namespace Touchstone
     {
     public:
       explicit SimpleAugmentedLagrange(const ContactParameters &)
+        : memory(*this, "simple augmented lagrange")
       {
       }
 
+    protected:
       void
-      recover(Contact &contact, const Vector &, const ConstraintGraph &) override
+      evaluate(const Contact &contact, const Vector &, const ConstraintGraph &) override
       {
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            {
-              if (!row.active() || row.dropped())
-                continue;
-              // TODO: the force of a row at its present gap and slip. The active set
-              // opens rows that pull, so lambda may be negative here.
-              row.lambda = row.augmented_lambda - epsilon(row) * row.gap;
-              if (row.tied)
-                {
-                  row.force  = row.augmented - epsilon(row) * row.gap_vector;
-                  row.lambda = row.force * row.normal;
-                }
-              if (row.friction)
-                row.friction->regularise(); // springs; conditions: choose_friction(row)
-              respond(row);                 // force = lambda n + friction
-              if (solved)
-                {
-                  row.augmented_lambda = row.lambda;
-                  row.augmented        = row.force;
-                }
-            }
+        for (const ContactRow &row : contact.rows())
+          {
+            RowState &state = row_states[row];
+            if (!state.active() || state.dropped())
+              continue;
+            // TODO: the force of a row at its present gap and slip. The active set
+            // opens rows that pull, so lambda may be negative here.
+            state.lambda = memory[row].lambda - epsilon(row) * row.gap;
+            if (row.tied)
+              {
+                state.force  = memory[row].force - epsilon(row) * row.gap_vector;
+                state.lambda = state.force * row.normal;
+              }
+            if (row.friction)
+              regularise_friction(row, state); // springs; conditions: choose_friction()
+            evaluate_force(row, state);        // force = lambda n + friction
+            if (solved)
+              memory[row] = {state.lambda, state.force};
+          }
         solved = false;
       }
 
       void
-      enforce(Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
+      constrain(const Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
       {
         RowTerms terms(system);
-        for (auto &pair_rows : contact.rows)
-          for (ContactRow &row : pair_rows)
-            for (const Condition &condition : start_row(row, system.keep_symmetric))
+        for (const ContactRow &row : contact.rows())
+          {
+            RowState &state = row_states[row];
+            start_row(state);
+            for (const Condition &condition : row_conditions(row, state, system.keep_symmetric))
               {
                 // Not eliminated, but known to the graph: it refuses what supports
                 // decide already, and sees which bodies contact holds.
-                if (!row.take(condition,
-                              graph.accept(condition, ConstraintGraph::Treatment::multiplier)))
+                if (!state.record(condition,
+                                  graph.accept(condition, ConstraintGraph::Treatment::multiplier)))
                   continue;
                 if (!condition.symmetric())
                   system.symmetric = false;
                 // TODO: the condition's part in the linear system; its value is -g.
                 // Where friction drags along, its force has a direction of its own.
                 const dealii::Tensor<1, dim> direction = condition.force();
-                const double lambda = row.tied ? row.augmented * direction : row.augmented_lambda;
+                const double lambda = row.tied ? memory[row].force * direction : memory[row].lambda;
                 terms.add_load(row, (lambda + epsilon(row) * condition.value) * direction);
                 terms.add_stiffness(row, epsilon(row) * direction, condition.motion_form());
               }
+          }
         terms.finish(); // collective
       }
 
       void
-      update(Contact &) override
+      set_forces(const Contact &) override
       {
         // TODO: what the forces are made of, as unknowns of your own, comes with take().
         solved = true;
       }
 
+      void
+      adopted(const ContactRow &row) override
+      {
+        memory[row] = {row_states[row].lambda, row_states[row].force};
+      }
+
     private:
-      bool solved = false;
+      /** TODO: what a row remembers, with the fields that a checkpoint holds. It is committed
+       * and rolled back with the step, and forgotten where the row opens. */
+      struct LastForce
+      {
+        double                 lambda = 0.;
+        dealii::Tensor<1, dim> force;
+
+        template <class Self, class Visitor>
+        static void
+        visit_state(Self &self, Visitor &&visit)
+        {
+          visit(self.lambda);
+          visit(self.force);
+        }
+      };
+      Memory<LastForce> memory;
+      bool              solved = false;
 
       /** Force per length, in proportion to the stiffness of a cell. */
       static double

@@ -63,16 +63,15 @@ namespace Touchstone
             ContactRow &row = rows[k];
             // The start of the step would let it find what lies on the way from there.
             const auto partner = search.find(
-              {positions[k], positions[k], input.slave->normal(nodes[k].node), row.active(), {}});
+              {positions[k], positions[k], input.slave->normal(nodes[k].node), row.was_active, {}});
             row.stencil.clear();
             if (!partner)
               {
-                row.status = ContactStatus::no_partner;
-                row.gap    = 0.;
+                row.has_partner = false;
+                row.gap         = 0.;
                 continue;
               }
-            if (row.status == ContactStatus::no_partner)
-              row.status = ContactStatus::open;
+            row.has_partner = true;
             // TODO: master nodes with weights that sum to one, the unit normal of the
             // master surface, and the vector from the contact point to the slave node.
             const Face        &face = *partner->face;

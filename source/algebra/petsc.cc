@@ -177,37 +177,93 @@ namespace Touchstone
       bool symmetric, definite;
     };
 
-    /** A KSP for @p matrix, with the present options. */
-    KSP
+    /** Whether the present options have @p name. */
+    bool
+    has_option(Session &session, const char *name)
+    {
+      PetscBool given = PETSC_FALSE;
+      session.check(PetscOptionsHasName(nullptr, nullptr, name, &given));
+      return given == PETSC_TRUE;
+    }
+
+
+
+    /** What the options leave open. The residual that a method judges should be the true one:
+     * conjugate gradients know that, others if they are preconditioned from the right. And
+     * factors are those of MUMPS, for PETSc has none of its own on several ranks. */
+    void
+    complete_options(Session &session, const Objects &objects, const unsigned int restart)
+    {
+      KSPType ksp_type = nullptr;
+      PCType  pc_type  = nullptr;
+      PC      pc       = nullptr;
+      session.check(KSPGetPC(objects.ksp, &pc));
+      session.check(KSPGetType(objects.ksp, &ksp_type));
+      session.check(PCGetType(pc, &pc_type));
+      const auto one_of = [](const std::string &type, const std::vector<std::string> &types) {
+        return std::find(types.begin(), types.end(), type) != types.end();
+      };
+      const bool from_right = one_of(ksp_type, {KSPGMRES, KSPFGMRES, KSPLGMRES, KSPBCGS});
+      const bool own_side   = has_option(session, "-ksp_pc_side");
+      if (from_right && !own_side)
+        session.check(KSPSetPCSide(objects.ksp, PC_RIGHT));
+      if ((from_right || one_of(ksp_type, {KSPCG, KSPFCG})) && !own_side &&
+          !has_option(session, "-ksp_norm_type"))
+        session.check(KSPSetNormType(objects.ksp, KSP_NORM_UNPRECONDITIONED));
+      if (!has_option(session, "-ksp_gmres_restart"))
+        session.check(KSPGMRESSetRestart(objects.ksp, static_cast<PetscInt>(restart)));
+      if (one_of(pc_type, {PCLU, PCCHOLESKY}) && !has_option(session, "-pc_factor_mat_solver_type"))
+        session.check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+    }
+
+
+
+    /** Make the KSP for the matrix of @p objects, with the present options. */
+    void
     make_ksp(Session           &session,
              const MPI_Comm     communicator,
-             const Mat          matrix,
+             Objects           &objects,
              const Kind        &kind,
              const unsigned int restart)
     {
-      KSP ksp = nullptr;
-      PC  pc  = nullptr;
-      session.check(KSPCreate(communicator, &ksp));
-      session.check(KSPSetOperators(ksp, matrix, matrix));
-      session.check(KSPGetPC(ksp, &pc));
-      if (!kind.definite)
+      PC pc = nullptr;
+      session.check(KSPCreate(communicator, &objects.ksp));
+      session.check(KSPSetOperators(objects.ksp, objects.matrix, objects.matrix));
+      session.check(KSPGetPC(objects.ksp, &pc));
+      if (kind.definite)
         {
-          session.check(KSPSetType(ksp, KSPPREONLY));
-          session.check(PCSetType(pc, kind.symmetric ? PCCHOLESKY : PCLU));
-          session.check(PCFactorSetMatSolverType(pc, MATSOLVERMUMPS));
+          session.check(KSPSetType(objects.ksp, kind.symmetric ? KSPCG : KSPGMRES));
+          session.check(PCSetType(pc, PCGAMG));
         }
       else
         {
-          session.check(PCSetType(pc, PCGAMG));
-          session.check(KSPSetType(ksp, kind.symmetric ? KSPCG : KSPGMRES));
-          session.check(KSPGMRESSetRestart(ksp, static_cast<PetscInt>(restart)));
-          // The residual that is judged is the true one.
-          if (!kind.symmetric)
-            session.check(KSPSetPCSide(ksp, PC_RIGHT));
-          session.check(KSPSetNormType(ksp, KSP_NORM_UNPRECONDITIONED));
+          session.check(KSPSetType(objects.ksp, KSPPREONLY));
+          session.check(PCSetType(pc, kind.symmetric ? PCCHOLESKY : PCLU));
         }
-      session.check(KSPSetFromOptions(ksp));
-      return ksp;
+      session.check(KSPSetFromOptions(objects.ksp));
+      complete_options(session, objects, restart);
+    }
+
+
+
+    /** Solve, from zero. */
+    void
+    run(Session &session, const Objects &objects, const double *rhs, double *solution)
+    {
+      Vec      b = nullptr, x = nullptr;
+      PetscInt n      = 0;
+      double  *values = nullptr;
+      session.check(MatCreateVecs(objects.matrix, &x, &b));
+      session.check(VecGetLocalSize(b, &n));
+      session.check(VecGetArray(b, &values));
+      std::copy(rhs, rhs + n, values);
+      session.check(VecRestoreArray(b, &values));
+      session.check(KSPSolve(objects.ksp, b, x));
+      session.check(VecGetArray(x, &values));
+      std::copy(values, values + n, solution);
+      session.check(VecRestoreArray(x, &values));
+      session.check(VecDestroy(&b));
+      session.check(VecDestroy(&x));
     }
 
 
@@ -398,14 +454,13 @@ namespace Touchstone
             Session               session(&database);
             Objects               objects;
             objects.matrix = make_sample(session);
-            objects.ksp = make_ksp(session, PETSC_COMM_SELF, objects.matrix, Kind{true, true}, 30);
-            Vec rhs = nullptr, solution = nullptr;
-            session.check(MatCreateVecs(objects.matrix, &solution, &rhs));
-            session.check(VecSet(rhs, 1.));
+            make_ksp(session, PETSC_COMM_SELF, objects, Kind{true, true}, 30);
+            PetscInt n = 0;
+            session.check(MatGetLocalSize(objects.matrix, &n, nullptr));
+            const std::vector<double> rhs(n, 1.);
+            std::vector<double>       solution(n);
             session.check(KSPSetUp(objects.ksp));
-            session.check(KSPSolve(objects.ksp, rhs, solution));
-            session.check(VecDestroy(&rhs));
-            session.check(VecDestroy(&solution));
+            run(session, objects, rhs.data(), solution.data());
             unused = database.unused();
           }
         catch (const PetscError &error)
@@ -545,9 +600,9 @@ namespace Touchstone
                                   communicator,
                                   kept->matrix,
                                   near_null_space(system, motions));
-            kept->ksp   = make_ksp(session, communicator, kept->matrix, kind, parameters.restart);
-            constrained = system.constrained;
-            changed     = system.changed;
+            make_ksp(session, communicator, *kept, kind, parameters.restart);
+            constrained      = system.constrained;
+            changed          = system.changed;
             fresh_iterations = 0;
           }
         session.check(KSPSetOperators(kept->ksp, kept->matrix, kept->matrix));
@@ -559,15 +614,7 @@ namespace Touchstone
             count_set_up(session);
           }
 
-        Vec            rhs = nullptr, result = nullptr;
-        const PetscInt n = solution.MyLength();
-        session.check(
-          VecCreateMPIWithArray(communicator, 1, n, PETSC_DETERMINE, system.rhs->Values(), &rhs));
-        session.check(
-          VecCreateMPIWithArray(communicator, 1, n, PETSC_DETERMINE, solution.Values(), &result));
-        session.check(KSPSolve(kept->ksp, rhs, result));
-        session.check(VecDestroy(&rhs));
-        session.check(VecDestroy(&result));
+        run(session, *kept, system.rhs->Values(), solution.Values());
 
         PetscInt           iterations = 0;
         KSPConvergedReason reason     = KSP_CONVERGED_ITERATING;

@@ -1,4 +1,4 @@
-"""The documents do what they say. tutorials.py PROGRAM PROJECT FOLDER looks for the targets of all links,
+"""The documents do what they say. This check looks for the targets of all links,
 for every scene of prm/ in the gallery, and runs, page by page, the commands of doc/tutorials/*.md:
 
 * In a block ```console a line "$ build/touchstone ..." is run (other commands, such as those of editors

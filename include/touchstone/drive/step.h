@@ -5,6 +5,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/newton.h>
 #include <touchstone/drive/time_integration.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 
 #include <deal.II/base/timer.h>

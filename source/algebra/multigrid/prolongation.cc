@@ -56,7 +56,7 @@ namespace Touchstone
       return graph;
     }
 
-    /** Orthonormal columns from the motions of an aggregate, in column_of, and the factor that
+    /** Orthonormal columns from the motions of an aggregate, in place, and the factor that
      * takes them back; columns that depend on those before them become zero. */
     Factor
     orthonormalise(std::vector<Modes> &q)

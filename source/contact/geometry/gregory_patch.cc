@@ -118,7 +118,7 @@ namespace Touchstone
     {
       std::array<Vector3<Number>, GregoryPatch::n_control_points> p;
       // Boundary curves, for each of two directions and two edges: from node a to b.
-      const auto place = [](const bool along_first, const unsigned int i, const unsigned int j) {
+      const auto index = [](const bool along_first, const unsigned int i, const unsigned int j) {
         return along_first ? control(i, j) : control(j, i);
       };
       for (const bool first : {true, false})
@@ -133,10 +133,10 @@ namespace Touchstone
             const Number at_a = dot(chord, n[a]), at_b = dot(chord, n[b]);
             for (unsigned int d = 0; d < dim; ++d)
               {
-                p[place(first, 0, row)][d] = x[a][d];
-                p[place(first, 1, row)][d] = x[a][d] + (chord[d] - at_a * n[a][d]) / 3.;
-                p[place(first, 2, row)][d] = x[b][d] - (chord[d] - at_b * n[b][d]) / 3.;
-                p[place(first, 3, row)][d] = x[b][d];
+                p[index(first, 0, row)][d] = x[a][d];
+                p[index(first, 1, row)][d] = x[a][d] + (chord[d] - at_a * n[a][d]) / 3.;
+                p[index(first, 2, row)][d] = x[b][d] - (chord[d] - at_b * n[b][d]) / 3.;
+                p[index(first, 3, row)][d] = x[b][d];
               }
           }
       for (const bool first : {true, false})
@@ -147,8 +147,8 @@ namespace Touchstone
             const unsigned int             row = 3 * side, inner = 1 + side;
             std::array<Vector3<Number>, 4> c;
             for (unsigned int i = 0; i < 4; ++i)
-              c[i] = p[place(first, i, row)];
-            Vector3<Number> d0 = p[place(first, 0, inner)], d3 = p[place(first, 3, inner)];
+              c[i] = p[index(first, i, row)];
+            Vector3<Number> d0 = p[index(first, 0, inner)], d3 = p[index(first, 3, inner)];
             for (unsigned int d = 0; d < dim; ++d)
               {
                 d0[d] = 3. * (d0[d] - c[0][d]);

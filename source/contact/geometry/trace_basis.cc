@@ -21,31 +21,31 @@ namespace Touchstone
     , nodes(face.nodes)
   {
     const auto end = nodes.begin() + n;
-    // The places of hanging nodes go to the parents that the face does not have. With
+    // Hanging nodes are replaced by the parents that the face does not have. With
     // degree 2 a corner can hang as well: it follows the middle of the larger edge.
-    std::vector<unsigned int> places;
+    std::vector<unsigned int> hanging_nodes;
     std::vector<Index>        parents;
     for (unsigned int i = 0; i < n; ++i)
       if (hanging.is_constrained(dim * face.nodes[i]))
         {
-          places.push_back(i);
+          hanging_nodes.push_back(i);
           for (const auto &entry : *hanging.get_constraint_entries(dim * face.nodes[i]))
             if (std::find(nodes.begin(), end, entry.first / dim) == end &&
                 std::find(parents.begin(), parents.end(), entry.first / dim) == parents.end())
               parents.push_back(entry.first / dim);
         }
-    for (unsigned int k = 0; k < std::min(places.size(), parents.size()); ++k)
-      nodes[places[k]] = parents[k];
+    for (unsigned int k = 0; k < std::min(hanging_nodes.size(), parents.size()); ++k)
+      nodes[hanging_nodes[k]] = parents[k];
     for (unsigned int i = 0; i < n; ++i)
       if (!hanging.is_constrained(dim * face.nodes[i]))
         weights[i][i] = 1.;
       else
         for (const auto &entry : *hanging.get_constraint_entries(dim * face.nodes[i]))
           {
-            const auto place = std::find(nodes.begin(), end, entry.first / dim);
-            AssertThrow(place != end,
+            const auto found = std::find(nodes.begin(), end, entry.first / dim);
+            AssertThrow(found != end,
                         ExcMessage("A face has more parents of hanging nodes than nodes."));
-            weights[i][place - nodes.begin()] = entry.second;
+            weights[i][found - nodes.begin()] = entry.second;
           }
   }
 

@@ -128,7 +128,7 @@ namespace Touchstone
     /**
      * The implicit derivative of the closest point: t_a . r = 0 gives
      * (t_a . t_b - r . x_ab) d xi_b = t_a . d r + r . d t_a at a fixed xi. A
-     * coordinate that is held at an edge stays.
+     * coordinate at the bound of an edge stays.
      */
     class ClosestPointDerivative
     {

@@ -21,7 +21,7 @@ namespace Touchstone
    *
    * The node moves on a straight line from @p start to @p end while the nodes of the
    * face move from their committed to their present displacements: three equations
-   * for the place on the face and the time, by Newton's method. A node that touches
+   * for the position on the face and the time, by Newton's method. A node that touches
    * the face at the start, up to 1e-6 of its size, has not yet passed.
    * Benson and Hallquist (1990), Comput. Methods Appl. Mech. Engng 78, and the
    * dynamic local search of contact-impact programs.

@@ -13,7 +13,7 @@ namespace Touchstone
    *
    * A node that hangs on the edge of a larger face follows the nodes of that edge,
    * u_h = sum_p C_hp u_p. One of these is not a node of the face itself and takes
-   * the place of the hanging one, so that the basis has as many functions as the
+   * the role of the hanging one, so that the basis has as many functions as the
    * face has nodes. Plain data: it is sent between ranks as it is.
    */
   struct TraceBasis
@@ -24,7 +24,7 @@ namespace Touchstone
     /** C_ip: [node i of the face][p], no unit. */
     std::array<std::array<double, Face::max_nodes>, Face::max_nodes> weights{};
 
-    /** @param hanging Of the displacement unknowns. */
+    /** @param hanging Of the displacement. */
     TraceBasis(const Face &face, const dealii::AffineConstraints<double> &hanging);
     TraceBasis() = default;
 

@@ -18,11 +18,11 @@ namespace Touchstone
       result->weights.resize(n_weights);
     }
 
-    /** @brief The place of a node; a new one has derivatives of zero. */
+    /** @brief The index of a node; a new one has derivatives of zero. */
     std::size_t
     index(const Index node)
     {
-      const auto [entry, is_new] = places.try_emplace(node, result->nodes.size());
+      const auto [entry, is_new] = indices.try_emplace(node, result->nodes.size());
       if (is_new)
         {
           result->nodes.push_back(node);
@@ -37,7 +37,7 @@ namespace Touchstone
     std::shared_ptr<RowDerivative> result;
 
   private:
-    std::unordered_map<Index, std::size_t> places;
+    std::unordered_map<Index, std::size_t> indices;
   };
 } // namespace Touchstone
 
