@@ -378,7 +378,7 @@ namespace
         if (first == 0.)
           first = force;
         // s = 0.5 but for the elastic shear, v = 0.5, t = 2.
-        const double rigid = 10. * (0.2 + (0.6 * (1. + 0.1 * std::log(3.)) - 0.2) *
+        const double rigid = 40. * (0.2 + (0.6 * (1. + 0.1 * std::log(3.)) - 0.2) *
                                             std::exp(-0.5 / 0.3) / (1. + 0.25));
         say("  ",
             steps,
