@@ -68,8 +68,8 @@ namespace
     std::string    looked;
     std::uint64_t  before = 0;
     Tensor<1, dim> slide;
-    const auto     step = [&](const double scatter_size, const Tensor<1, dim> &way) {
-      slide += way;
+    const auto     step = [&](const double scatter_size, const Tensor<1, dim> &motion) {
+      slide += motion;
       const Touchstone::Vector u =
         watched.displacement([&](const Point<dim> &x, const unsigned int body) {
           return scatter_size * limit * scattered(x, 5) / std::sqrt(3.) +

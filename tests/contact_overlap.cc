@@ -1,7 +1,9 @@
 // Points on the common parts of faces: the pieces of a face that a turned grid covers add up to
-// its mass matrix, whatever their number of corners; coincident edges; corners cut off.
+// its mass matrix, whatever their number of corners; coincident edges; corners cut off. And which
+// faces are connected over common nodes.
 
 #include <touchstone/contact/geometry/overlap.h>
+#include <touchstone/contact/search/connected_components.h>
 
 #include "mesh_common.h"
 
@@ -58,10 +60,10 @@ namespace
         for (const OverlapPoint &p : common)
           {
             const FaceShapes     shapes(1, p.slave);
-            const Tensor<1, dim> way =
+            const Tensor<1, dim> offset =
               evaluate(slave, nullptr, p.slave).x - evaluate(master, nullptr, p.master).x;
             const Tensor<1, dim> normal = evaluate(slave, nullptr, p.slave).normal();
-            apart                       = std::max(apart, (way - (way * normal) * normal).norm());
+            apart = std::max(apart, (offset - (offset * normal) * normal).norm());
             area += p.weight;
             for (unsigned int j = 0; j < 4; ++j)
               for (unsigned int k = 0; k < 4; ++k)
@@ -81,6 +83,22 @@ namespace
     if (whole)
       std::cout << ", products of shapes " << small(error, 1e-11);
     std::cout << std::endl;
+  }
+
+  /** Faces by the numbers of their nodes: components as numbers of their first faces. */
+  void
+  connect(const std::string &name, const std::vector<std::array<Index, 4>> &nodes)
+  {
+    std::vector<Face> faces(nodes.size());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      std::copy(nodes[i].begin(), nodes[i].end(), faces[i].nodes.begin());
+    std::vector<const Face *> list;
+    for (const Face &face : faces)
+      list.push_back(&face);
+    std::cout << name << ':';
+    for (const unsigned int component : connected_components(list))
+      std::cout << ' ' << component;
+    std::cout << (is_connected(list) ? ", connected" : ", not connected") << std::endl;
   }
 } // namespace
 
@@ -132,4 +150,11 @@ main()
   cover("corner cut off", square, {diamond(1.75)}, 0.5 * 0.5 * 0.5, false);
   cover("corner left out", square, {diamond(-0.25)}, 4. - 0.5 * 0.5 * 0.5, false);
   cover("beside", square, {parallelogram(Point<dim>(2., 0., 0.), x, y, true)}, 0., false);
+
+  connect("no face", {});
+  connect("a strip", {{{0, 1, 2, 3}}, {{2, 3, 4, 5}}, {{4, 5, 6, 7}}});
+  connect("over a corner", {{{0, 1, 2, 3}}, {{3, 10, 11, 12}}});
+  connect("two strips in turn",
+          {{{0, 1, 2, 3}}, {{20, 21, 22, 23}}, {{2, 3, 4, 5}}, {{22, 23, 24, 25}}});
+  connect("joined by the last", {{{0, 1, 2, 3}}, {{20, 21, 22, 23}}, {{3, 30, 31, 20}}});
 }

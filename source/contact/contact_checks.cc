@@ -1,5 +1,6 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/tolerances.h>
 #include <touchstone/contact/unresolved_contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -14,11 +15,6 @@ namespace Touchstone
 
   namespace
   {
-    /** An overlap that is smaller, as a fraction of a face, is none. */
-    constexpr double negligible_overlap = 1e-6;
-
-
-
     /** Normal forces of a pair at the nodes, with ghosts. */
     Vector
     normal_forces(const Contact &contact, const ContactPair &pair, const Solid &solid)
@@ -104,7 +100,7 @@ namespace Touchstone
             ++partner;
             lowest = std::min(lowest, gap);
             size   = std::max(size, row.size);
-            overlapping += (gap < -negligible_overlap * row.size);
+            overlapping += (gap < -Tolerances::touches_at_start * row.size);
           }
         const unsigned int total = Utilities::MPI::sum(pair.rows().size(), communicator);
         lowest                   = Utilities::MPI::min(lowest, communicator);

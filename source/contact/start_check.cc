@@ -1,6 +1,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/start_check.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,10 +16,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Normals that differ from perpendicular by less than this (cosine) neither look at
-     * each other nor away. */
-    constexpr double perpendicular = 0.1;
-
     /** Position and unit outward normal of a node of a surface. */
     using Place = std::array<double, 2 * dim>;
 
@@ -47,9 +44,8 @@ namespace Touchstone
     Place
     place_below(const Surface &surface, const Face &face, const Vector &u)
     {
-      constexpr double below = 1e-3;
-      Point<dim>       centre;
-      Tensor<1, dim>   n;
+      Point<dim>     centre;
+      Tensor<1, dim> n;
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         {
           for (unsigned int d = 0; d < dim; ++d)
@@ -59,7 +55,7 @@ namespace Touchstone
         }
       if (n.norm() > 0.)
         n /= n.norm();
-      centre -= below * face.reference[0].distance(face.reference[1]) * n;
+      centre -= Tolerances::touching * face.reference[0].distance(face.reference[1]) * n;
       return {{centre[0], centre[1], centre[2], n[0], n[1], n[2]}};
     }
 
@@ -104,7 +100,7 @@ namespace Touchstone
           {
             double closest = std::numeric_limits<double>::max();
             for (const Place &other : others)
-              if (normal(places[k]) * normal(other) < -perpendicular)
+              if (normal(places[k]) * normal(other) < -Tolerances::perpendicular_cosine)
                 closest = std::min(closest, position(places[k]).distance(position(other)));
             if (closest < std::numeric_limits<double>::max())
               result = std::max(result, closest);
@@ -207,7 +203,7 @@ namespace Touchstone
     if (master == nullptr)
       {
         for (const ContactRow &row : rows)
-          looks = looks || slave.normal(row.slave) * row.normal < perpendicular;
+          looks = looks || slave.normal(row.slave) * row.normal < Tolerances::perpendicular_cosine;
         throw_if_all_look_away(looks, "the obstacle '" + parameters.obstacle + "'");
         return;
       }
@@ -235,7 +231,7 @@ namespace Touchstone
             return position(a).distance_square(position(mine)) <
                    position(b).distance_square(position(mine));
           });
-        looks = looks || normal(mine) * normal(*closest) < perpendicular;
+        looks = looks || normal(mine) * normal(*closest) < Tolerances::perpendicular_cosine;
       }
     throw_if_all_look_away(looks, "the master boundaries of '" + parameters.master_body + "'");
   }

@@ -36,9 +36,10 @@ namespace Touchstone
      * so that faces around an edge of the slave body find their partners on both sides. */
     constexpr double back_face_cosine = 0.3;
 
-    /** The same for a master face that may cover a slave face: those that are seen edge-on are
+    /** Normals that differ from perpendicular by less than this (cosine) neither face each other
+     * nor away. A master face covers a slave face only beyond: those that are seen edge-on are
      * projected onto slivers. */
-    constexpr double facing_cosine = -0.1;
+    constexpr double perpendicular_cosine = 0.1;
 
     /** Cosines of the angle between a slave face and the master surface: from the first on (45
      * degrees) less than all of the area counts in averaged rows, from the second on (72 degrees)
@@ -74,9 +75,9 @@ namespace Touchstone
      * partner must not be decided by round-off or by the jump of normals. */
     constexpr double on_edge = 1e-7;
 
-    /** A node that starts so close to a face, on either side, starts on it: it has not passed
-     * through it. */
-    constexpr double starts_on_face = 1e-6;
+    /** Surfaces that are so close at the start of a run or of a step touch: they start in contact,
+     * such an overlap is none, and a node has not passed through the face. */
+    constexpr double touches_at_start = 1e-6;
 
     /** Beyond an edge by more than this a point lies in the wedge over it. */
     constexpr double in_wedge = 1e-6;

@@ -2,6 +2,7 @@
 #include <touchstone/contact/enforcement/cyclic_constraints.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <map>
@@ -9,16 +10,6 @@
 namespace Touchstone
 {
   using namespace dealii;
-
-  namespace
-  {
-    /** A surface that just touches, up to this fraction of a face, starts in
-     * contact: otherwise a body that only rests on another would have no support
-     * in the first iteration. */
-    constexpr double touching_at_start = 1e-6;
-  } // namespace
-
-
 
   Enforcement::Enforcement()
     : row_states("contact state")
@@ -62,7 +53,9 @@ namespace Touchstone
           continue;
         if (row.tied)
           status = ContactStatus::tied;
-        else if (row.gap < touching_at_start * row.size)
+        // A surface that just touches starts in contact: otherwise a body that only rests on
+        // another would have no support in the first iteration.
+        else if (row.gap < Tolerances::touches_at_start * row.size)
           status = ContactStatus::slip;
       }
   }

@@ -50,7 +50,7 @@ namespace Touchstone
           return {};
         if (std::abs(dtime) + std::abs(dxi[0]) + std::abs(dxi[1]) > 1e-10)
           continue;
-        const double touching = Tolerances::starts_on_face * area * size / std::abs(rate);
+        const double touching = Tolerances::touches_at_start * area * size / std::abs(rate);
         if (std::max(std::abs(xi[0]), std::abs(xi[1])) > 1. + Tolerances::face_coordinate ||
             time < -touching || time > 1.)
           return {};

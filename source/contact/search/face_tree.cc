@@ -88,7 +88,7 @@ namespace Touchstone
         const Tensor<1, dim> offset = outlines[i].centre - box.center();
         const bool           beside =
           (offset - (offset * slave_normal) * slave_normal).norm() > outlines[i].radius + radius;
-        if (outlines[i].normal * slave_normal < Tolerances::facing_cosine && !beside)
+        if (outlines[i].normal * slave_normal < -Tolerances::perpendicular_cosine && !beside)
           result.push_back(&exchange.faces()[i]);
       }
     // In the order of their keys, so that sums do not depend on the partition.
