@@ -61,8 +61,7 @@ subsection Body upper
   end
 end
 subsection Obstacle rigid
-  set Point  = 0.4, 0.45, -2
-  set Radius = 2
+  set Point = 0.4, 0.45, -2
 end
 subsection Contact pair pair
   set Slave body       = upper
@@ -241,9 +240,10 @@ main(int argc, char **argv)
         tubes,
         {set("Master normal", "smoothed"), set("Pairing", "pointwise"), faceted},
         0.03);
-  for (const std::string shape : {"plane", "sphere", "cylinder"})
-    check(shape,
-          obstacle,
-          {"Obstacle rigid/Shape=" + shape, "Obstacle rigid/Direction=0.2,1,0.3"},
-          0.);
+  // Each shape has keys of its own.
+  const std::string direction = "Obstacle rigid/Direction=0.2,1,0.3",
+                    radius    = "Obstacle rigid/Radius=2";
+  check("plane", obstacle, {"Obstacle rigid/Shape=plane", direction}, 0.);
+  check("sphere", obstacle, {"Obstacle rigid/Shape=sphere", radius}, 0.);
+  check("cylinder", obstacle, {"Obstacle rigid/Shape=cylinder", direction, radius}, 0.);
 }
