@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # find_package(Touchstone) gives the target Touchstone::touchstone: headers, library, and
 # the flags of the deal.II that it was built with.
 include(CMakeFindDependencyMacro)

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # augmented_table.sh [PROGRAM] [FACTOR ...]: the set-up of published work on parallel
 # augmented-Lagrange contact, as a Markdown table: two tubes, an outer loop of augmentations,
 # three steps, conjugate gradients scaled by the diagonal. Default: factors 1 and 2.

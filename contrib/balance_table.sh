@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # balance_table.sh [PROGRAM] [SCENE] [RANKS ...]: how evenly the partitioners spread the
 # work of a scene, as a Markdown table. Work and messages are counted, not timed: more
 # ranks than cores are welcome. Figures are largest over mean of the ranks; messages are

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Checks of the sources that need no build.
 #
 # Usage: contrib/check_sources.sh headers   all files have a license line

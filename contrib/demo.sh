@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # From a fresh Debian 12 to a first result: install, build, run the press fit,
 # and say which files to open.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Impact of two bars with several schemes, masses and steps: the table of
 # doc/time_integration.md.
 #

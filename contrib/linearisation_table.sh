@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # linearisation_table.sh [PROGRAM] [SCENE ...]: Newton iterations, iterations a linear solve, CPU
 # seconds and steps cut with frozen and with consistent linearisation, as a Markdown table. A
 # scene is a file, or "FILE KEY=VALUE ..." with settings. Default: the scenes with contact of prm/ and

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Print doc/parameters.md, the reference of all sections and keys of scene files,
 # as the program itself documents them in --print-parameters.
 #

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Run the scenes of the documentation and make its pictures, doc/pictures/*.png.
 # Needs VTK, an X server and gnuplot:
 #   apt-get install python3-vtk9 python3-numpy xvfb xauth gnuplot-nox

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Write prm/meshes/press_fit_quarter.msh: two quarter tubes for a press fit.
 
 Gmsh format 2.2, with named physical volumes "inner tube" and "outer tube" and

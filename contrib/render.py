@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Render a run: the bodies beside the slave surfaces of their contact.
 
 Usage: xvfb-run -a /usr/bin/python3 contrib/render.py FOLDER IMAGE.png

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Print the tables of doc/robustness.md: runs all hard cases (tests/checks/hard_cases.py), and
 # the scenes below as they are shipped: no key but those that make the case is set.
 #

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # search_scaling.sh [BUILD] [NODES ...]: times of the contact search alone against the
 # number of slave nodes, and the exponents of their growth. One million nodes need about 8 GB.
 set -eu

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Functions that the scripts of this folder share; sourced, not run.
 # Platform: Debian 12. Everything can be repeated, the second time is quick.
 

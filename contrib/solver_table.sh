@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # solver_table.sh [PROGRAM] [FACTOR ...]: multigrid of the program, of Trilinos (ML), and of PETSc
 # (GAMG, BoomerAMG) on two tubes, as a Markdown table (doc/solvers.md). Default: factors 1 and 2; BoomerAMG takes minutes.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # From a fresh Debian 12 to the result of the tests: install, build, test.
 # The last line says "N passed, N failed".
 #

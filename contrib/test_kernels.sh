@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Run the tests on one rank with several kernels of OpenBLAS, as on other processors: their
 # sums differ by round-off, and nothing that a golden holds may follow it.
 #

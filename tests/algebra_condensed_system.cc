@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The condensed system against dense matrices: constraints with chains and
 // inhomogeneities, contact terms in rows of other ranks, a diagonal shift, and
 // extra unknowns.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The constraint graph: which conditions it refuses, and that its lines meet all
 // that it accepted.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Whatever goes wrong in a linear solver is a LinearSolverFailure with its reason, on all
 // ranks: systems that are not finite, indefinite or singular, and what libraries throw. And
 // `automatic`: what it takes, when it falls back to MUMPS, and what it says of that.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Iterative solvers against MUMPS, on a small elastic-like system without and with
 // an unsymmetric part as friction makes it; conjugate gradients must refuse the
 // latter, and multigrid extra unknowns.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The parts of multigrid: aggregates of nodes, the matrix of 3 x 3 blocks in single
 // precision, whole and as half of a symmetric one, the coarse levels, and that a cycle is
 // symmetric, as conjugate gradients need it, and works.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Solvers of PETSc against MUMPS on small systems: by default and with options, and what they
 // say of options that are wrong, of systems that they cannot solve, and of too few iterations.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What bodies can do without resistance under given supports and contacts, in
 // words; and that the modes are motions without energy.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Records sent between ranks and gathered arrive as they were, by rank and in order.
 
 #include <touchstone/base/exchange.h>

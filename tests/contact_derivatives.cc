@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Derivatives of contact rows against central differences in scattered directions,
 // in which every node moves on its own: a node that is forgotten is noticed.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Faces of contact surfaces: shape functions, tangents against central
 // differences, and the closest-point projection against a brute-force search.
 

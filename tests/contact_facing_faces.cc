@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Averaged rows look for the faces that face each other only after some motion. Rows of a
 // pairing that has seen earlier displacements against those of one that has not: a face that
 // comes to overlap after a small motion must have been among those that may, and a large

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Directions of the mesh must not decide anything: a face whose two directions are exchanged has
 // the same smoothed patch, at a corner of the surface, too.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Points on the common parts of faces: the pieces of a face that a turned grid covers add up to
 // its mass matrix, whatever their number of corners; coincident edges; corners cut off. And which
 // faces are connected over common nodes.

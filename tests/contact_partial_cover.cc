@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Averaged rows while the edge of the master surface goes over slave faces: what a row weighs
 // stays bounded and changes smoothly, forces and moments balance, areas add up to what is
 // covered, and no gap is smaller than that of the surfaces.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The search: right faces against a comparison with all faces, nodes that pass
 // through a thin body within a step, and nodes that stay with their face.
 

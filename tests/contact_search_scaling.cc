@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The search alone, on a wavy surface against a finer and turned grid of slave nodes. As a
 // test it looks at what is found. With arguments, the numbers of slave nodes, it prints
 // times and the exponents of their growth; contrib/search_scaling.sh calls it so.

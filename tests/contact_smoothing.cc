@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A point slides over a faceted cylinder and a faceted sphere: jumps of normal and
 // gap between steps, and how far the gap is from that to the exact surface.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The linear system of contact against central differences of the contact forces
 // and of the conditions, for each pairing, enforcement and state of friction; with
 // a linearisation that keeps normals and stencils constant the differences must be

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The converged state of a step does not depend on the iterates: each step is made once from the
 // state before, and once from the displacements, forces and states of rows that an attempt at
 // another load has left after two iterations. With friction, rows that come into contact within

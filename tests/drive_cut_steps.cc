@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A step that fails leaves no trace: a scene with friction whose every step is first tried
 // at twice its size, with too few Newton iterations, rolled back and then made in
 // halves gives what those halves give alone, for each enforcement: displacements,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Integration in time: order, numerical damping and decay of a spring with a mass, the
 // energy of bodies that meet, stay together and part, and the stiffness of a step.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Impact without rebound, on two blocks that press on each other, stick and slide: what it
 // takes from any field of velocities.
 

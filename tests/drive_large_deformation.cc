@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Large deformations with exact solutions, on one rank and two: uniaxial tension to
 // twice the length, with quadratic convergence; a rotation by 90 degrees and a
 // homogeneous deformation of a distorted mesh; the stiffness at rest; a linear body

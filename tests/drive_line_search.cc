@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The line search of Newton's method on equations of one unknown, whose residuals and
 // active sets are known: a method that behaves costs no evaluation more, an increment
 // that makes things much worse is shortened, and a residual that a change of the active

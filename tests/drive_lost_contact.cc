@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A body that nothing but contact holds, and that a bad iterate has thrown off: without loads it
 // is in balance wherever it is, so that Newton takes the place for a solution. The step must end
 // with the reason. A body that stays near what it touched is a warning, and one that still

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Contact does not respect the partition: a block pressed on another and drawn over it, with
 // friction, on one rank and on several, to the same result node by node. The bodies
 // have one layer of cells, numbered in rows, so that ranks cut the surfaces of both

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Plastic flow keeps the volume: a block between rough platens in plane strain, perfectly
 // plastic, is pressed far beyond yield. The force that degree 2 finds is met by b-bar and
 // F-bar cells of degree 1 and exceeded by full ones, which lock.

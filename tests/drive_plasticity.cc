@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Plastic bodies in load steps: a step that fails and is rolled back leaves no trace in the
 // plastic strain; without recovery of the back stress or with it, with a solver for
 // symmetric systems only, the same result; one step of ten times the size gives the same

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Whether a step fails with half its size as it did before.
 
 #include <touchstone/drive/repeated_failure.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A run that is stopped and goes on with another program of another partition: fields and
 // cell data come back exactly where they were, and the steps that follow are the same, for
 // each enforcement. In the same partition they are the same to the last bit, and saving again what

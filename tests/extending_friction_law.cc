@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The friction law of doc/extending.md, as the page has it: its derivative, and the
 // force of a block that slides under uniform pressure, on one rank and two.
 

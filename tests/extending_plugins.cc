@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Samples of contrib/skeletons, each one file that scenes select by name or that adds to the
 // output of every run: an obstacle's shape, material laws, VTU fields, a column of the
 // statistics, and a friction law that depends on slip, slip rate and time.

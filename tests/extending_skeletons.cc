@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The skeletons of contrib/skeletons compile and work: scenes name them as they name built-in
 // classes. extending_plugins.cc has more of them.
 

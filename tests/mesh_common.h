@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_tests_mesh_common_h
 #define touchstone_tests_mesh_common_h
 

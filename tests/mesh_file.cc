@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Mesh files: Gmsh 2.2 and 4.1, Abaqus and VTK give the same bodies; what is
 // wrong with a file is said.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Bodies in one forest: touching bodies are not merged, boundaries have ids of
 // their own, the factor of two_tubes gives the cells it should.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Built-in geometries: cells, volumes and areas before and after refinement,
 // nodes on the exact surfaces, shape of cells, refused parameters. What volume and areas should
 // be stands in the titles.

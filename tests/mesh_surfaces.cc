@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Analytic surfaces: closest point, its derivative against central differences,
 // normals, and what happens on the axis and in the centre.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Cattaneo and Mindlin: the tractions add up to the forces, obey Coulomb's law and
 // have the right limits; points that carry them show hardly any error, spread over
 // ranks; and figures that are wrong on purpose do.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // VTU output of the contact surface on any number of ranks: two bilinear faces, and
 // a biquadratic one of another pair. The nodes belong to rank 0 and the faces to
 // the last rank, so that others have none. Without any face nothing is written.

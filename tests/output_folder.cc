@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The output folder: files appear complete or not at all, and a folder that
 // cannot be written to, a full disk and a vanished folder are errors on all
 // ranks. Root may write anywhere, so permissions cannot be tested by taking

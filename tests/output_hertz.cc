@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Hertz: points that carry exactly Hertz's pressure show hardly any error, also
 // when they are spread over the ranks; no contact gives no error at all.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Hill's tube: equilibrium, yield limit and boundary values of the stress, the
 // plastic radius against its formula, the core against Lame's solution, and bad
 // values. Radii and stresses were computed by hand from the formulae.

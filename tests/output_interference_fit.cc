@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Lamé's interference fit: the pressure against known figures, and bad values.
 
 #include <touchstone/verification/interference_fit.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The JSON writer: order, escapes, digits, what is not a number.
 
 #include <touchstone/output/json.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The model as JSON: the whole file of the smallest scene, and for both degrees that
 // every node is there once, loads are complete and faces look outward.
 

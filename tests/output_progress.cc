@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What the user sees of a run, apart from the times.
 
 #include <touchstone/output/progress.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // summary.json, and the text of the results that tests compare.
 
 #include <touchstone/output/summary.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // VTU output of the bodies and the uniform-stress reference: two boxes on top of
 // each other with the exact displacement of a uniform stress, for both degrees.
 

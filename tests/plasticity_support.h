@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_tests_plasticity_support_h
 #define touchstone_tests_plasticity_support_h
 

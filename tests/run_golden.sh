@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # run_golden.sh BUILD TARGET GOLDEN FOLDER NORMALIZE COMMAND...: what the command prints in the
 # empty folder FOLDER, made comparable by deal.II's script NORMALIZE, is the golden: numbers to
 # 1e-8 of their size or 1e-6. A test that writes a file 'output' is judged by that instead.

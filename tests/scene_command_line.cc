@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Options, and what is said to those that do not exist.
 
 #include <touchstone/base/input_error.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Values that cannot be, and entries that contradict each other.
 
 #include "scene_support.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Overrides of the command line that cannot be read or are unknown.
 
 #include "scene_support.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Scene files with lines, keys, sections and values that cannot be: every
 // message with section, key, value, line and remedy.
 

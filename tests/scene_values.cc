@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What a scene holds after reading: values, overrides, defaults and automatic
 // choices; and that the printed scene is the same scene.
 

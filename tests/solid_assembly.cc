@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The stiffness does not depend on the number of ranks: symmetric, the same norm,
 // the same energies. Three ranks are not two: only then has a rank columns of several
 // others.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Element stiffness of all types: patch test on distorted cells, symmetry, six
 // motions without energy and no more.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Elements for finite strain on a distorted cell in a large deformation: forces
 // are the derivative of the energy and the tangent that of the forces; symmetric;
 // a rotation of the deformed cell turns its forces and stress and does no work;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Pressure that follows the deformed surface: a closed surface has neither a net force
 // nor a moment, the stiffness is the derivative of the forces, and two exact solutions at
 // large strain.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Material laws for finite strain: stress is the derivative of the energy and
 // tangent that of the stress, the undeformed state is that of linear elasticity,
 // and a rotation turns the stress with it.

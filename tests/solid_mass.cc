@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Mass of bodies: total, centre and moments of inertia against integrals over the cells,
 // for each kind of mass, degree and shape of cells; massless nodes keep mass and centre;
 // and no motion has negative kinetic energy.

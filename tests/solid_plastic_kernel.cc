@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Elements of plastic material on a distorted cell in a non-proportional step that begins
 // with plastic strain: the tangent is the derivative of the forces, for each law, hardening
 // and element; the forces are that of the step's energy, where that exists; a tangent is

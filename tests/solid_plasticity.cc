@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Plastic laws at a point under uniaxial stress against exact solutions: monotone loading
 // for each hardening, at small strain and in logarithmic strain; the reversal of kinematic
 // hardening (Bauschinger); Armstrong and Frederick's back stress against its closed form,

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The history of the material when the mesh changes: a state that is the same everywhere
 // stays what it is through refinement and coarsening; one that is not comes back after
 // refinement and coarsening; det Fp = 1 when different states are merged; on any number of

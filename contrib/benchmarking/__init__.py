@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The benchmark harness behind contrib/benchmark; doc/benchmarks.md says how it is used.
 
 campaign   reads a campaign file and makes the list of runs

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The same mesh, materials, supports and loads in CalculiX (ccx).
 
 The program exports the discrete problem of a scene (--export-model); here it becomes a

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Campaign files: what is run. Their format is documented in contrib/benchmark --help."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Work-precision diagrams: error against CPU seconds, both logarithmic, with gnuplot."""
 
 import shutil

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Errors against exact solutions from the contact results of any program.
 
 The same measures as those of source/output/{interference_fit,hertz,cattaneo_mindlin,

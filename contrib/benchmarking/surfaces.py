@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Faces of contact surfaces: areas of their nodes, and shape functions of quadratic ones."""
 
 import math

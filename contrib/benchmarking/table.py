@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Medians of repeated runs, and what is written of them: CSV, Markdown, best settings."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Scenes and inputs that nobody planned, and what must hold for each of them.
 
     geometry, round_geometry   the built-in geometries, rotated, mirrored, rescaled

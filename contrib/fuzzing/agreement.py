@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What must hold between runs of the same scene."""
 
 from .geometry import norm

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """How the program answers to an input with a fault."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Variants of scenes, their verdicts, and the table of these."""
 
 import collections

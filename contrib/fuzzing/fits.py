@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Random scenes of round bodies in each other, and of rigid shapes."""
 
 import math

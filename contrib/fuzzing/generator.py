@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """A random scene from a seed: always the same for the same numbers."""
 
 import dataclasses

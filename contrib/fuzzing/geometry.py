@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Bodies of plane faces, and what all geometries can do.
 
 Each geometry can be rotated (x to y, y to z, z to x), mirrored (z to -z) and scaled. As

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What must hold within one run, whatever the scene.
 
 Each function looks at a scene and the result of its run and yields findings. Bounds are for

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Random materials, friction, and settings of pairs."""
 
 LAWS = ("linear elastic", "linear elastic", "linear elastic", "neo-Hookean",

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What drives a body or an obstacle, as formulas of time.
 
 Each motion has phases of one unit of time: first the bodies are pressed onto each other,

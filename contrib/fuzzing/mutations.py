@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Inputs with one fault: scenes and mesh files, changed in one place."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Random bodies to be put together: below z = 0 with the contact on top, or above z = 0
 with the contact below."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Bodies with curved boundaries; see geometry.py for what they have in common."""
 
 import dataclasses

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """One run of the program, and what it wrote."""
 
 import dataclasses

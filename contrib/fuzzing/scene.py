@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """A scene as data: it can be rotated, mirrored, rescaled and written."""
 
 import dataclasses

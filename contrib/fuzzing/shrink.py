@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The simplest scene in which the same is found."""
 
 import dataclasses

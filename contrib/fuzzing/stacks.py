@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Random scenes of bodies that lie on each other or on an obstacle."""
 
 import dataclasses

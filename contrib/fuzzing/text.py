@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The text of a scene, as the program reads it."""
 
 from .geometry import AXES, number, numbers

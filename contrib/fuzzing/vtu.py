@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Reads the contact surfaces that the program writes: compressed binary VTU files."""
 
 import base64

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // An enforcement to start from: an augmented Lagrangian in its simplest form. Copy to
 // source/contact/enforcement/NAME.cc and change what is marked TODO: 'set Enforcement = NAME'
 // selects it, and nothing else need be edited.

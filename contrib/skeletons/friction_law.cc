@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A friction law to start from. Copy to source/contact/NAME.cc, fill in what is
 // marked TODO, build: 'set Behaviour = NAME' selects it, and nothing else need
 // be edited.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A law with history that is not plasticity. Copy to source/solid/NAME.cc and change what is
 // marked TODO: 'set Law = NAME' selects it, and nothing else need be edited.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A hyperelastic law of two constants that gives nothing but its energy. Copy to
 // source/solid/NAME.cc and change what is marked TODO: 'set Law = NAME' selects it, and
 // nothing else need be edited.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A shape of rigid obstacles to start from. Copy to source/mesh/NAME.cc and change what is
 // marked TODO: 'set Shape = NAME' selects it, and nothing else need be edited.
 

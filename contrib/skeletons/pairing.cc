@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A pairing to start from: node to node. Copy to source/contact/pairing/NAME.cc and change
 // what is marked TODO: 'set Pairing = NAME' selects it, and nothing else need be edited.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A preconditioner to start from. Copy to source/algebra/NAME.cc and change what is marked
 // TODO: 'set Preconditioner = NAME' selects it, and nothing else need be edited.
 

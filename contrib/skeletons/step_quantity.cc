@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A column of the table `statistics`, which is in summary.json too, to start from. Copy to
 // source/output/NAME.cc and change what is marked TODO: nothing else need be edited.
 

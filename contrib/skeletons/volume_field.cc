@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A field of the VTU files of bodies to start from. Copy to source/output/NAME.cc and change
 // what is marked TODO: nothing else need be edited.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A friction law that depends on slip, slip rate and time. Copy to source/contact/friction/
 // NAME.cc and change what is marked TODO: 'set Behaviour = NAME' selects it, and nothing else
 // need be edited.

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/base/exchange.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/algebra/preconditioner.h>
 #include <touchstone/algebra/square_operator.h>
 #include <touchstone/base/non_convergence.h>

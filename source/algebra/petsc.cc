@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <deal.II/base/config.h>
 
 // Optional: the rest of the program does not know of this file. deal.II, where it has PETSc,

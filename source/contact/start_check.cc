@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/start_check.h>

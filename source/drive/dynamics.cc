@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/base/formula.h>
 #include <touchstone/drive/dynamics.h>
 #include <touchstone/drive/impact.h>

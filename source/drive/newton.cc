@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/newton.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/parameter_checks.h>
 #include <touchstone/drive/newton_parameters.h>

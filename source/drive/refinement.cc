@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/refinement.h>
 #include <touchstone/solid/error_estimator.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/mesh/analytic_surface.h>
 
 #include <deal.II/base/symmetric_tensor.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/mesh/exact_surface.h>
 
 #include <deal.II/base/utilities.h>

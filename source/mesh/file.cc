@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/base/input_error.h>
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/exact_surface.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/mesh/body_mesh.h>
 #include <touchstone/mesh/contact_work.h>
 #include <touchstone/mesh/partition.h>

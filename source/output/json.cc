@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/output/json.h>
 
 #include <deal.II/base/exceptions.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/scene/scene.h>
 

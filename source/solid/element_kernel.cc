@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/solid/element_kernel.h>
 
 #include <deal.II/fe/fe_q.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/solid/error_estimator.h>
 
 #include <deal.II/base/quadrature_lib.h>

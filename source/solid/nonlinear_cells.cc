@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/solid/finite_strain_kernel.h>
 #include <touchstone/solid/nonlinear_cells.h>
 #include <touchstone/solid/small_strain_kernel.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/solid/bodies.h>
 #include <touchstone/solid/rigid_body_modes.h>
 

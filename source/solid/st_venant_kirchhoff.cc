@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/hyperelastic_law.h>
 

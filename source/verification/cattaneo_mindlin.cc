@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/verification/cattaneo_mindlin.h>
 #include <touchstone/verification/edge_fit.h>
 

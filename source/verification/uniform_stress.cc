@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/verification/uniform_stress.h>
 
 #include <deal.II/base/mpi.h>

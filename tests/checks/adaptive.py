@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Meshes that change. Hanging nodes on either side of a contact pass the patch test; history goes
 over to a new mesh without loss; the error of Hertz contact falls; sliding on a mesh that follows
 is sliding on a fine mesh; all the same on any number of ranks."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What must be the same is the same: one rank and two, elimination and multipliers (1e-8), MUMPS
 and Belos CG or GMRES (1e-6), one load step and ten, and the same scene in other units. The one
 check that crosses enforcements with solvers and ranks."""

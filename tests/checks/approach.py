@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Nodes that touch within a step. The relative displacement of their approach is no slip, so that a
 block that comes down askew on a corner finds the friction of small steps with large ones. The
 force along x, friction alone, is 0.567 with 64 steps; counted as slip, the approach makes it 0.43

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Averaged rows pass the patch test with every enforcement, both slave choices, both degrees, flat
 (inclined: inclined_patch.py), nearly incompressible, on one and two ranks; and are as good on
 curved surfaces."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The harness contrib/benchmark on a tiny campaign: columns, medians, failures, messages; its
 measures against those of the program; with and without CalculiX and gnuplot."""
 # ctest: label = nightly

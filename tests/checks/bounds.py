@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The accuracy that the shipped scenes promise. A golden can be made anew by mistake, these bounds
 cannot."""
 # ctest: goldens = hill_tube_elastic, imported_mesh, press_fit_built_in, beam_incompatible_modes

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Pairs whose surfaces are slave and master of each other in a cycle pass the patch test, on
 matching and non-matching meshes, with forces in balance, on one and two ranks; and the rows that
 say the same thing twice are dropped and reported."""

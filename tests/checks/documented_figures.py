@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Figures in doc that a quick run can reproduce are what the runs give."""
 
 import subprocess

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The table of doc/extending.md names every sample of contrib/skeletons with its number of lines, and
 no other file; and every sample is compiled and run by a test."""
 # ctest: label = quick

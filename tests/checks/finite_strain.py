@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Bodies with large strain on one rank and two, with both solvers and all enforcements; F-bar
 against degree 2 and the element that locks; cells that turn inside out."""
 # ctest: goldens = large_bending

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Friction where slave nodes have less freedom than others or slip reverses. Every exact enforcement
 and both pairings converge to one answer."""
 

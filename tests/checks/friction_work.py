@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What friction dissipates. A block that sticks is pushed to and fro and dissipates nothing, though
 the springs of regularised friction give way; one that slides dissipates mu N times its
 relative displacement."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Inputs with one fault each, always the same ones, are refused with section, line and remedy, or
 are right; none shows the text of a library."""
 

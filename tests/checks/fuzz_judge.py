@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The judge of contrib/fuzz_scenes finds nothing in results that are right and flags each that was
 falsified on purpose."""
 

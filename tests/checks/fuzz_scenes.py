@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Fixed scenes of contrib/fuzz_scenes. All converge and are as they must be, in one variant each.
 Mirrored are those that once depended on the directions of the mesh: on the line that the frame of
 friction followed, and on the corner of a smoothed surface."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Contact and friction where they are hard. Each case must converge without a cut step and obey:
 the forces of both sides balance, no penetration, no tension, no traction beyond the friction
 cone. Writes a table of what it found to robustness.md, which contrib/robustness_table.sh

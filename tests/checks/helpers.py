@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The helpers of the checks find what they are to find: touchstone_test.py on falsified results."""
 # ctest: label = quick
 

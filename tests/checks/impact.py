@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Impacts of bodies with inertia. Large steps, cut steps, all enforcements and pairings, friction,
 gravity, free flight, Hertz's theory."""
 # ctest: goldens = bouncing_block, oblique_impact, rotating_block, hertz_impact

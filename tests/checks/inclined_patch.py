@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Two blocks on an interface that is inclined to all axes, pressed together with one uniform stress:
 every exact enforcement meets it to 1e-10."""
 

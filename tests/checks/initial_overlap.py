@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What becomes of an overlap of the bodies as they are placed. Nothing, if it is adjusted; the same
 as an interference at the end, if it is ramped, and half of it half way there."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The rope in one step. With line search no step is cut, the iterations are no more than 15, or 25
 with the springs of a penalty, and fewer than without it; the result is that of small steps.
 Without it Newton's method goes a wild way that depends on round-off, 24 to 55 iterations: a step

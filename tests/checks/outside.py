@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The program of contrib/skeletons/outside, which has a main() of its own, is configured and built
 with the installed library and run; and is configured and compiled with the sources by
 add_subdirectory(). There the library would be compiled anew, several minutes: that is left out unless

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Averaged rows where slave faces are covered in part: pressures bounded wherever the edge of the
 master surface lies, forces exact and smooth as it moves, none between bodies that only touch."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Cattaneo and Mindlin, loading and unloading, against the exact tractions on three meshes. That
 enforcements and pairings agree is shown on a mesh of moderate size."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Results do not depend on how cells are spread over ranks (1e-8), and contact that counts is
 spread more evenly than contact that does not."""
 

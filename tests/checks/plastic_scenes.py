@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What the shipped scenes of large deformation, plasticity and impact promise, on meshes that are
 quick."""
 

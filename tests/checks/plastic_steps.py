@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """A ball is pressed into a plastic block, in steps of the right size, in ten times too large ones,
 and in a single one: the same result but for the error of large steps, never garbage. On two ranks
 and with conjugate gradients the same."""

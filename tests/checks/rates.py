@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Exact and manufactured solutions whose contact pressure varies along the interface, each on four
 meshes (doc/benchmarks.md, "Rates of convergence"). The exponents of displacement and contact
 pressure in the cell size, errors in the norm of L2, are fitted by least squares and have lower

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What a user must be told about hard input."""
 # ctest: goldens = dirichlet_on_slave, same_pair_twice, large_overlap, press_fit, held_by_contact
 # ctest: goldens = gap_closed

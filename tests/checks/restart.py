@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs that are stopped and resumed are those that are not: to the last bit on the same ranks, to
 1e-10 on others, whenever and however they are stopped; what does not fit is refused. On several
 ranks MUMPS adds up what arrives first, so that even the same run can differ in its last bits:

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The limit of friction. A block that is pushed by a displacement needs mu N in full slip (1e-6) with
 every enforcement and solver; pushed by 0.98 mu N it sticks at all nodes, and pushed by 1.02 mu N
 there is no equilibrium, which the program must say."""

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The solver that the program chooses by itself, and what multigrid needs on finer meshes, with
 stiff springs and on two ranks, and what takes its place where it is slow."""
 # ctest: goldens = nearly_incompressible_degree_2

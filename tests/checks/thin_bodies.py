@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """A block that goes through a thin plate in one increment ends on the side from which it came: the
 same state as in many small steps, with both pairings, on one and two ranks."""
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Helpers of the checks: run scenes, read their figures, compare them.
 
 A check is a program NAME.py that ctest calls with PROGRAM PROJECT FOLDER and that ends with

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The conical insertion with a coefficient of friction of 0.2 has one answer: the push force is the
 same to 1e-6 with every exact enforcement, solver and number of ranks, to 1e-4 with springs, and to
 1 % in 1, 4 and 16 steps; the two planes of symmetry bear the same force to 1e-8. A row that comes

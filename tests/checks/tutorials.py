@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The documents do what they say. This check looks for the targets of all links,
 for every scene of prm/ in the gallery, and runs, page by page, the commands of doc/tutorials/*.md:
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What the user should know of results is told in the log and in summary.json; a run whose mesh file
 has changed is not resumed."""
 # ctest: label = quick

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # run.sh PROGRAM SCENE.prm MESSAGE FOLDER: the program must fail on the scene and
 # its message (standard error) must be that of the file MESSAGE. The scene may
 # begin with a comment "# options: ..." for the command line.

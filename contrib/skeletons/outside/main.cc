@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A program of its own around the library: runs a scene, looks at the displacements and
 // contact rows after each step, and judges the result. Usage: outside scene.prm
 

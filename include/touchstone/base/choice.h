@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_base_choice_h
 #define touchstone_base_choice_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_drive_forcing_term_h
 #define touchstone_drive_forcing_term_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_mesh_mesh_file_h
 #define touchstone_mesh_mesh_file_h
 

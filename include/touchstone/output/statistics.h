@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_output_statistics_h
 #define touchstone_output_statistics_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_scene_pair_input_h
 #define touchstone_scene_pair_input_h
 

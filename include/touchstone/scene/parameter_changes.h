@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_scene_parameter_changes_h
 #define touchstone_scene_parameter_changes_h
 

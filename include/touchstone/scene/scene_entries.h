@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_scene_scene_entries_h
 #define touchstone_scene_scene_entries_h
 

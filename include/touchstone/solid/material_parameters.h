@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_solid_material_parameters_h
 #define touchstone_solid_material_parameters_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_verification_point_displacement_h
 #define touchstone_verification_point_displacement_h
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/algebra/multigrid/block_diagonal.h>
 #include <touchstone/algebra/preconditioner.h>
 #include <touchstone/base/non_convergence.h>

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/algebra/multigrid/prolongation.h>
 #include <touchstone/algebra/multigrid/row_of_blocks.h>
 #include <touchstone/base/exchange.h>

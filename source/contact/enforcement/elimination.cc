@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/exact_enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>

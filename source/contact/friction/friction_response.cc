@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/friction/friction.h>
 #include <touchstone/contact/friction/friction_response.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/geometry/face_derivative.h>
 
 #include <deal.II/base/symmetric_tensor.h>

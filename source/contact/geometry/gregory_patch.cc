@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/geometry/gregory_patch.h>
 #include <touchstone/contact/geometry/vector3.h>
 

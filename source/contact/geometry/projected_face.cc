@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/geometry/overlap.h>
 #include <touchstone/contact/geometry/projected_face.h>
 

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/surface.h>

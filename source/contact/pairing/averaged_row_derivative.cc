@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/pairing/averaged_row_derivative.h>
 
 #include <deal.II/base/numbers.h>

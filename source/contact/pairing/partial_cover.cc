@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/pairing/partial_cover.h>
 #include <touchstone/contact/pairing/smooth_step.h>
 #include <touchstone/contact/tolerances.h>

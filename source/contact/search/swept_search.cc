@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #include <touchstone/contact/geometry/crossing.h>
 #include <touchstone/contact/search/swept_search.h>
 

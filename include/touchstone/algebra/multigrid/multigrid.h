@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_algebra_multigrid_multigrid_h
 #define touchstone_algebra_multigrid_multigrid_h
 

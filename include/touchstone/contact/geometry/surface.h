@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
 #ifndef touchstone_contact_geometry_surface_h
 #define touchstone_contact_geometry_surface_h
 
