@@ -36,6 +36,9 @@ namespace Touchstone
 
     for (const auto &[face, m] : faces)
       {
+        // Where an edge at the node belongs to one face only, the surface ends and the body goes on
+        // behind it with a side that is not part of the pair: directions up to the outward one in
+        // the tangent plane of the face, across that edge, are admitted.
         const unsigned int p = face->degree, last = face->n_nodes() - 1;
         const unsigned int edges[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
         const auto         xi          = node_coordinates(*face, m);
@@ -54,6 +57,7 @@ namespace Touchstone
             Tensor<1, dim> away =
               cross_product_3d(face->position(j) - face->position(i), face->own_normals[m]);
             away /= away.norm();
+            // Oriented away from the opposite edge of the face.
             const double side = away * (face->position(i) - face->position(last - j));
             normals.push_back(side > 0. ? away : -1. * away);
           }
@@ -75,6 +79,8 @@ namespace Touchstone
         double change = 0.;
         for (std::size_t k = 0; k < normals.size(); ++k)
           {
+            // Minimise |direction - sum c_k n_k|^2 by c_k alone, as the n_k are unit vectors;
+            // "left" is the residual vector.
             const double next = std::max(0., c[k] + left * normals[k]);
             left -= (next - c[k]) * normals[k];
             change = std::max(change, std::abs(next - c[k]));

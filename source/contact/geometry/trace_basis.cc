@@ -47,6 +47,7 @@ namespace Touchstone
             const auto found = std::find(nodes.begin(), end, entry.first / dim);
             AssertThrow(found != end,
                         ExcMessage("A face has more parents of hanging nodes than nodes."));
+            // Row i of C: u_i = sum_p C_ip u_p on the face (doc/theory.md 11).
             weights[i][found - nodes.begin()] = entry.second;
           }
   }
@@ -59,6 +60,7 @@ namespace Touchstone
     std::array<double, Face::max_nodes> result{};
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int p = 0; p < n; ++p)
+        // C^T times values: what belongs to node i goes to the nodes that it follows.
         result[p] += weights[i][p] * values[i];
     return result;
   }
