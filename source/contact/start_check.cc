@@ -12,6 +12,10 @@
 #include <limits>
 #include <set>
 
+// Checks of a contact pair before the first step, for mistakes of the input that would let bodies
+// pass through each other without a message: surfaces that face away from each other, and an
+// initial overlap deeper than the search distance, where slave nodes find no partner. The checks
+// are collective and throw on all ranks alike.
 namespace Touchstone
 {
   using namespace dealii;
@@ -57,11 +61,12 @@ namespace Touchstone
         }
       if (n.norm() > 0.)
         n /= n.norm();
+      // Inward by a thousandth of an edge.
       centre -= Tolerances::touching * face.reference[0].distance(face.reference[1]) * n;
       return {{centre[0], centre[1], centre[2], n[0], n[1], n[2]}};
     }
 
-    /** The places of all ranks, one rank after the other. */
+    /** The positions and normals of all ranks, one rank after the other. */
     std::vector<Place>
     gather(const std::vector<Place> &mine, const MPI_Comm communicator)
     {
@@ -80,8 +85,9 @@ namespace Touchstone
       return gather(mine, communicator);
     }
 
-    /** Of the @p places (the same on all ranks) that lie within a body the largest
-     * distance to the closest of the @p others that looks the other way. */
+    /** Of the positions in @p places (the same on all ranks) that lie within a body the largest
+     * distance to the closest of the @p others whose normal opposes theirs; length. Zero if no
+     * position lies within the body. Collective. */
     double
     deepest(const std::vector<Place> &places,
             const std::vector<Place> &others,
@@ -91,6 +97,7 @@ namespace Touchstone
     {
       if (places.empty())
         return 0.;
+      // Each rank tests against its own cells; a place lies within the body if any rank says so.
       const DeformedCells cells(solid, body, u);
       std::vector<int>    inside(places.size(), 0);
       for (std::size_t k = 0; k < places.size(); ++k)
@@ -102,6 +109,7 @@ namespace Touchstone
           {
             double closest = std::numeric_limits<double>::max();
             for (const Place &other : others)
+              // Only surfaces that oppose each other: the other side of a thin body may be closer.
               if (normal(places[k]) * normal(other) < -Tolerances::perpendicular_cosine)
                 closest = std::min(closest, position(places[k]).distance(position(other)));
             if (closest < std::numeric_limits<double>::max())
@@ -150,6 +158,8 @@ namespace Touchstone
   {
     if (master == nullptr || slave_body == master_body)
       return 0.;
+    // Nodes with a partner have a row that resists the overlap. Only faces with a node without one
+    // can be lost.
     std::set<Index> nodes;
     for (const ContactRow &row : rows)
       if (!row.has_partner)
@@ -165,6 +175,8 @@ namespace Touchstone
       return 0.;
     double depth =
       deepest(alone, all_places(*master, u, solid.communicator), solid, master_body, u);
+    // No centre of a slave face needs to lie within the master body, for instance if slave faces
+    // are much larger than the master: then test master faces within the slave body.
     if (depth == 0. && nothing_found())
       {
         for (const Face &face : master->owned_faces())
@@ -211,6 +223,8 @@ namespace Touchstone
       }
     const bool   nothing = nothing_found();
     const double asked   = parameters.search_distance;
+    // With the default reach, which is at least the size of a face, and a partner found, the
+    // surfaces face each other. A search distance set by the user may be less than the overlap.
     if (!nothing && asked == 0.)
       return;
     const double depth = depth_of_overlap();
@@ -224,6 +238,8 @@ namespace Touchstone
                        "set it to 0 or to more than the overlap, or name the boundaries that meet");
     if (!nothing)
       return;
+    // No node is within reach, as with bodies that are brought together later. At least one slave
+    // node must face the master node closest to it.
     const std::vector<Place> masters = all_places(*master, u, solid.communicator);
     for (const SurfaceNode &node : slave.owned_nodes())
       {

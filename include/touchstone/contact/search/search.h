@@ -81,12 +81,12 @@ namespace Touchstone
       return received;
     }
 
-    /** @brief The same in R-trees. Made when first asked for after an update: who knows which
-     * faces are near needs none. */
+    /** @brief The same faces in R-trees, built at the first call after an update: where candidates
+     * are known from before no tree is needed. */
     const FaceTree &
     tree() const;
 
-    /** @brief The search for passed faces in them. */
+    /** @brief The search for faces that nodes have passed through, in tree(). */
     SweptSearch
     swept() const
     {

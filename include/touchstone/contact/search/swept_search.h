@@ -17,8 +17,8 @@ namespace Touchstone
     /** Outward normal of the slave surface there: faces whose normals are about the same
      * are on the far side of a body. */
     dealii::Tensor<1, dim> normal;
-    /** A node in contact slides off an edge only at a multiple of the distance beyond it at which
-     * one that is not comes on. */
+    /** The node carried a contact force before: it leaves the end of the surface only at a multiple
+     * of the distance beyond it up to which other nodes find a partner (hysteresis). */
     bool in_contact = false;
     /** Key of the face that a node in contact had last. */
     std::optional<std::uint64_t> present_face;
