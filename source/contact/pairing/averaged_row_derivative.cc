@@ -6,6 +6,10 @@
 
 #include <limits>
 
+// The derivative of one averaged row: sums over the slave faces are differentiated first, by
+// positions and by averaged nodal normals, then the formulas of AveragedRow are applied to the
+// complete sums. Derivatives by normals are continued to node positions only at the end, once per
+// face, since each normal depends on all nodes of the faces around (doc/theory.md 4).
 namespace Touchstone
 {
   using namespace dealii;
@@ -50,7 +54,7 @@ namespace Touchstone
   AveragedRowDerivative::add_positions(const unsigned int k, const SlaveFaceDerivative<n> &face)
   {
     // Terms W_km of the stencil: integrals of master shapes (which column), and, with the opposite
-    // sign, what slave nodes leave to this one (which node of the face).
+    // sign, the areas that slave nodes give to this row (which node of the face).
     std::vector<std::pair<unsigned int, unsigned int>> of_masters, of_slaves;
     for (unsigned int m = 0; m < face.masters.size(); ++m)
       if (const auto found = in_stencil.find(face.masters[m]); found != in_stencil.end())
@@ -58,6 +62,8 @@ namespace Touchstone
     for (unsigned int i = 0; i < n; ++i)
       if (const auto found = in_stencil.find(face.own[i]); found != in_stencil.end())
         of_slaves.emplace_back(i, found->second);
+    // The area of a row changes only where less than the whole face is covered; elsewhere it is
+    // that of the reference state.
     const bool part = with_area && face.covered_in_part(k);
     area_changes    = area_changes || part;
 
@@ -67,6 +73,7 @@ namespace Touchstone
       {
         for (unsigned int e = 0; e < dim; ++e)
           face.differentiate(k, i, e, change[e]);
+        // The chain rule for hanging nodes: x_i = sum C_ip x_p.
         for (const auto &[node, weight] : face.carriers(i))
           {
             const std::size_t    to  = index(node);
@@ -76,6 +83,7 @@ namespace Touchstone
                 const auto &d = change[e];
                 sum.area[e] += weight * d.integrals[OverlapColumns::area];
                 sum.kept[e] += weight * d.share[k];
+                // Given away is what is not kept of the area of the node.
                 sum.given[e] += weight * (d.area - d.share[k]);
                 if (part)
                   sum.reference[e] += weight * d.reference;
@@ -107,6 +115,7 @@ namespace Touchstone
         for (unsigned int m = 0; m < n; ++m)
           for (unsigned int j = 0; j < n; ++j)
             {
+              // Weights W_kj make the integral with psi'_k of those with N_j.
               const double w = face.dual.weight(k, j);
               by_master.normal[m] += w * part.normal_normal[j][m];
               by_master.gap[m] += w * part.gap_normal[j][m];
@@ -130,6 +139,8 @@ namespace Touchstone
                                const SlaveFaceDerivative<n>                   &face,
                                const Face                                     &master)
   {
+    // A minimum has the derivative of the point where it is attained; at a change of that point the
+    // derivative is one-sided.
     if (gap.val() == std::numeric_limits<double>::max() || (closest && closest->gap <= gap.val()))
       return;
     closest.emplace(ClosestPoint{gap.val(), &master, face.slave.face().key, {}, {}, {}});
@@ -137,6 +148,7 @@ namespace Touchstone
     std::copy(by_normals.slave, by_normals.slave + n, closest->by_slave_normals.begin());
     for (unsigned int i = 0; i < 2 * n; ++i)
       {
+        // Variables are the slave nodes, then the master nodes: components 3 i to 3 i + 2.
         const Tensor<1, dim> by_node({gap.fastAccessDx(dim * i),
                                       gap.fastAccessDx(dim * i + 1),
                                       gap.fastAccessDx(dim * i + 2)});
@@ -184,12 +196,14 @@ namespace Touchstone
   std::shared_ptr<const RowDerivative>
   AveragedRowDerivative::finish(const OfMaster &of_master, const OfSlave &of_slave)
   {
+    // Averaged normals of slave faces move the points of a smoothed slave face and thereby the gap.
     for (const auto &[key, by_normals] : by_slave_normals)
       for (const NormalDerivative &d : *of_slave(key))
         {
           const std::size_t to = index(d.node);
           sums[to].gap += by_normals[d.m] * d.value;
         }
+    // Those of master faces change the normal, and the gap if the master is smoothed.
     for (const auto &[face, by_normals] : by_master_normals)
       if (const auto *derivatives = of_master(face))
         for (const NormalDerivative &d : *derivatives)

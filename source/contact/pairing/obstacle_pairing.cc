@@ -10,6 +10,9 @@
 #include <array>
 #include <memory>
 
+// Contact with a rigid obstacle whose surface is given by a formula: projection, normal and their
+// derivatives come from AnalyticSurface, so that no search and no communication is needed. The
+// obstacle moves as a rigid body by a translation, a function of time.
 namespace Touchstone
 {
   using namespace dealii;
@@ -37,6 +40,7 @@ namespace Touchstone
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
+            // In the frame of the obstacle.
             const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
             ContactRow      &row = rows[k];
             row.stencil.clear();
@@ -63,6 +67,7 @@ namespace Touchstone
             const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
             RowDerivativeBuilder builder(0);
             builder.index(row.slave);
+            // gap vector x - P(x).
             builder.result->gap_vector[0] = identity - surface->projection_gradient(x);
             // Central differences: normals are given by formulas that are simple, and
             // smooth over the size of a face.
@@ -83,6 +88,7 @@ namespace Touchstone
       double
       distance(const Point<dim> &x, const double time) const override
       {
+        // The signed distance; negative inside.
         const Point<dim> y = x - motion_at(time);
         return (y - surface->project(y)) * surface->normal(y);
       }

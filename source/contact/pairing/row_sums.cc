@@ -34,6 +34,7 @@ namespace Touchstone
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int c = 0; c < r.size(); ++c)
         r[c] += dual.weight(k, j) * part.q[j][c];
+    // Integrals with psi'_k of 1, gap, normal and master shapes.
     area += r[OverlapColumns::area];
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -65,8 +66,8 @@ namespace Touchstone
   void
   RowSums::finish()
   {
-    // Of two nodes that each leave something to the other on different faces, only the one
-    // that takes more refers to the other: constraints must not depend on each other in a
+    // Of two nodes that each give area to the other on different faces, only the one that
+    // receives more has the other in its stencil: constraints must not depend on each other in a
     // cycle. It is rare: both must lie at the edge of the cover, on different sides.
     for (const StencilEntry &entry : taken)
       {
@@ -74,10 +75,15 @@ namespace Touchstone
           return other.node == entry.node;
         });
         if (back != left.end() && std::abs(entry.weight) <= std::abs(back->weight))
+          // The rejected share counts as the node's own, so that D = sum D_ki and with it the sum
+          // of the weights remains.
           kept += entry.weight;
         else
+          // +D_ki x_i in equation (5), of opposite sign to master weights, which the stencil
+          // subtracts.
           add(stencil, entry.node, -entry.weight);
       }
+    // Independent of the order in which faces were added.
     std::sort(stencil.begin(), stencil.end(), [](const StencilEntry &a, const StencilEntry &b) {
       return a.node < b.node;
     });

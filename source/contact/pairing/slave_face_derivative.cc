@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+// Integrals over a slave face that several master faces cover, with their derivatives, and from
+// these the derivatives of the integrals with psi'_k (doc/theory.md 4, dr_k = dS_k Y + W_k (dQ - dM
+// C Y)). Master faces share nodes, so their local variables are summed into one numbering first.
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,6 +35,7 @@ namespace Touchstone
     for (const OverlapDerivative<n> &part : parts)
       masters.insert(masters.end(), part.master->nodes.begin(), part.master->nodes.begin() + n);
     std::sort(masters.begin(), masters.end());
+    // Each master node once, as several faces have it.
     masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
     solution = dual.solve(assemble());
   }
@@ -77,6 +81,7 @@ namespace Touchstone
               for (unsigned int v = 0; v < n_local; ++v)
                 {
                   const double d = part.mass[j][k].fastAccessDx(v);
+                  // The parts store the lower triangle only.
                   d_mass(variable[v], j, k) += d;
                   if (k < j)
                     d_mass(variable[v], k, j) += d;
@@ -122,7 +127,8 @@ namespace Touchstone
                                         Change            &change) const
   {
     const unsigned int v = dim * i + e;
-    DualBasis::Values  d_areas{};
+    // The covered areas a~ = C^T a are column "area" of Q.
+    DualBasis::Values d_areas{};
     for (unsigned int j = 0; j < n; ++j)
       d_areas[j] = d_q(v, j, OverlapColumns::area);
     if (basis)
@@ -131,6 +137,7 @@ namespace Touchstone
     change.share = dual.share_derivative(k, d_areas);
     // S_kk A_k / A_k(x), with A_k(x) of the whole face in the present position.
     change.reference = change.share[k];
+    // A_k(x) depends on the slave nodes alone.
     if (i < n)
       change.reference -= dual.shares.share[k][k] / present[k] * d_present[i][e][k];
     change.reference *= whole[k] / present[k];
