@@ -28,6 +28,8 @@ namespace Touchstone
     Place
     place(const Surface &surface, const SurfaceNode &node, const Vector &u)
     {
+      // Six numbers, so that the positions and normals of all ranks can be exchanged as plain
+      // arrays.
       const Point<dim>     x = surface.position(node, u);
       const Tensor<1, dim> n = surface.normal(node.node);
       return {{x[0], x[1], x[2], n[0], n[1], n[2]}};
@@ -102,6 +104,7 @@ namespace Touchstone
       std::vector<int>    inside(places.size(), 0);
       for (std::size_t k = 0; k < places.size(); ++k)
         inside[k] = cells.contain(position(places[k]));
+      // Element by element over the ranks.
       Utilities::MPI::max(inside, solid.communicator, inside);
       double result = 0.;
       for (std::size_t k = 0; k < places.size(); ++k)
@@ -112,6 +115,7 @@ namespace Touchstone
               // Only surfaces that oppose each other: the other side of a thin body may be closer.
               if (normal(places[k]) * normal(other) < -Tolerances::perpendicular_cosine)
                 closest = std::min(closest, position(places[k]).distance(position(other)));
+            // Without any opposed surface the depth cannot be measured.
             if (closest < std::numeric_limits<double>::max())
               result = std::max(result, closest);
           }
@@ -147,6 +151,7 @@ namespace Touchstone
   {
     unsigned int found = 0;
     for (const ContactRow &row : rows)
+      // A partner on one rank suffices: then the surfaces are within reach of each other somewhere.
       found += row.has_partner;
     return Utilities::MPI::sum(found, solid.communicator) == 0;
   }
@@ -156,6 +161,8 @@ namespace Touchstone
   double
   StartCheck::depth_of_overlap() const
   {
+    // An obstacle has a distance everywhere, and in self-contact points near the surface always lie
+    // within the body.
     if (master == nullptr || slave_body == master_body)
       return 0.;
     // Nodes with a partner have a row that resists the overlap. Only faces with a node without one
@@ -217,10 +224,13 @@ namespace Touchstone
     if (master == nullptr)
       {
         for (const ContactRow &row : rows)
+          // Normals of slave and obstacle must be opposed at one node at least.
           looks = looks || slave.normal(row.slave) * row.normal < Tolerances::perpendicular_cosine;
         throw_if_all_look_away(looks, "the obstacle '" + parameters.obstacle + "'");
         return;
       }
+    // All ranks take the same branches, since what decides is reduced over them: the calls below
+    // are collective.
     const bool   nothing = nothing_found();
     const double asked   = parameters.search_distance;
     // With the default reach, which is at least the size of a face, and a partner found, the

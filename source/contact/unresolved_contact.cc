@@ -67,6 +67,7 @@ namespace Touchstone
     double
     size_of(const Face &face)
     {
+      // The diagonal over the square root of two: the side of a square face.
       return face.position(0).distance(face.position(face.n_nodes() - 1)) / std::sqrt(2.);
     }
 
@@ -118,6 +119,7 @@ namespace Touchstone
   std::vector<Face>
   UnresolvedContact::nearby_master_faces() const
   {
+    // Boxes around all nodes of the slave faces decide which master faces are sent here.
     std::vector<Point<dim>> corners;
     for (const Face &face : slave.owned_faces())
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
@@ -146,6 +148,7 @@ namespace Touchstone
       {
         const double length = edge.a.distance(edge.b);
         Box          box    = box_of(edge);
+        // Edges may have passed each other by a part of their length and are still to be found.
         box.extend(0.5 * length);
         namespace query = boost::geometry::index;
         for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
@@ -203,6 +206,7 @@ namespace Touchstone
         // it.
         if (other.edge_normals[m] * normal >= 0. || !box.point_inside(x))
           continue;
+        // Depth is measured from the foot point on the slave face along its normal.
         const Projection foot = closest_point_projection(x, geometry);
         // The node belongs to a neighbouring face, or to none.
         if (foot.beyond_inner > 0. || foot.beyond_outer > 0.)
@@ -224,6 +228,7 @@ namespace Touchstone
   UnresolvedContact::deepest(const std::vector<Overlap> &found, const bool edges) const
   {
     Overlap result{Point<dim>(), Point<dim>(), 0.};
+    // Nothing on any rank, the normal case: no cells need be gathered in trees.
     if (Utilities::MPI::max(found.size(), solid.communicator) == 0)
       return result;
     // All ranks test all candidates: the cells around a point may belong to any rank.
@@ -282,6 +287,7 @@ namespace Touchstone
   UnresolvedContact::oblique_force() const
   {
     double sum = 0.;
+    // Forces on hanging nodes are on those that they follow, so owned nodes have all of the force.
     for (const SurfaceNode &node : slave.owned_nodes())
       sum += force_on(node.node, forces).norm();
     // Scale for what is a small force: the sum of the magnitudes over the pair.
@@ -307,6 +313,8 @@ namespace Touchstone
             cone.distance(-1. * around / around.norm()) > Tolerances::oblique_sine)
           oblique.push_back({around.norm(), slave.position(node, u)});
       }
+    // The one with the largest force (or depth), and among equal ones that with the largest
+    // coordinates: the same on any partition.
     Located worst;
     for (const auto &part : gather_records(oblique, solid.communicator))
       for (const Located &force : part)
@@ -332,6 +340,7 @@ namespace Touchstone
   UnresolvedContact::overlap() const
   {
     const std::vector<Face> others = nearby_master_faces();
+    // Each kind is reported by its deepest case.
     const Overlap edges = deepest(crossing_edges(others, Tolerances::deep_edge), /*edges=*/true);
     if (edges.depth > 0.)
       return "an edge of '" + parameters.slave_body + "' and an edge of '" +

@@ -93,6 +93,7 @@ namespace Touchstone
   node_coordinates(const Face &face, const unsigned int m)
   {
     const unsigned int p = face.degree;
+    // Lexicographic numbering of p + 1 equidistant nodes per direction.
     return {{2. * (m % (p + 1)) / p - 1., 2. * (m / (p + 1)) / p - 1.}};
   }
 
@@ -103,6 +104,8 @@ namespace Touchstone
   {
     const Tensor<1, dim> cross  = cross_product_3d(tangents[0], tangents[1]);
     const double         length = cross.norm();
+    // A degenerate face has no normal; zero avoids a division by zero, and such a face is opposed
+    // to nothing.
     return length > 0. ? cross / length : cross;
   }
 
@@ -122,6 +125,8 @@ namespace Touchstone
     FacePoint      result;
     Point<dim>     reference;
     Tensor<1, dim> displacement;
+    // Reference position, its tangents, and the displacement apart, as only the first two are
+    // projected.
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       {
         reference += shapes.value[m] * face.reference[m];

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+// Areas of faces and of their nodes, int N_m, with derivatives: the measure of which part of a face
+// is covered (doc/theory.md 3.1), and the tributary areas by which forces become tractions.
 namespace Touchstone
 {
   using namespace dealii;
@@ -44,6 +46,7 @@ namespace Touchstone
   {
     double sum = 0.;
     for_each_face_point(face, false, [&](const double w, const FaceShapes &, const auto &t) {
+      // In the present state.
       sum += w * cross_product_3d(t[0], t[1]).norm();
     });
     return sum;

@@ -69,6 +69,8 @@ namespace Touchstone
     else if (geometry.interpolates_normals() && geometry.exact_surface())
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         {
+          // On an exact surface n = own normal + sum N_m (n_m - own normal at m), so the own
+          // normals at the nodes are functions of all node positions, too.
           const auto       xi    = node_coordinates(face, m);
           const FacePoint  point = geometry.evaluate(xi);
           const FaceShapes shapes(face.degree, xi);
@@ -148,6 +150,8 @@ namespace Touchstone
     const unsigned int n      = face.n_nodes();
     const FaceShapes  &shapes = result.shapes;
     Tensor<1, dim>     sum;
+    // The nodal normals n_m are differentiated elsewhere (NormalDerivative); here n depends on them
+    // with the shape N_m, and on positions over the own normals.
     if (geometry.exact_surface())
       {
         sum = own_normal;
@@ -174,6 +178,7 @@ namespace Touchstone
       result.normal_xi[b] = direction * result.normal_xi[b];
     for (unsigned int m = 0; m < n; ++m)
       {
+        // Through the normalisation s/|s| only the part perpendicular to n remains.
         result.normal_normal[m] = shapes.value[m] * direction;
         if (geometry.exact_surface())
           result.normal_position[m] = direction * result.normal_position[m];
@@ -197,6 +202,8 @@ namespace Touchstone
                           {}};
     differentiate_position(result, xi);
     // The normal of the surface itself, unless the normal is interpolated from the nodes alone.
+    // Which of the contributions to the normal exist depends on "Master normal" and on the exact
+    // surface; see FaceGeometry::normal().
     const bool           interpolated = geometry.interpolates_normals();
     const Tensor<1, dim> own_normal   = result.point.normal();
     if (!interpolated || geometry.exact_surface())
@@ -215,7 +222,8 @@ namespace Touchstone
   {
     const Face          &face = geometry.face();
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-    FacePosition         result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
+    // Position alone: all that the slave side of a gap needs, as the normal is that of the master.
+    FacePosition result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
     if (patch)
       {
         const GregoryPatch::Basis basis(xi);

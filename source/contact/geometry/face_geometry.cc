@@ -37,10 +37,13 @@ namespace Touchstone
   FacePoint
   FaceGeometry::evaluate(const std::array<double, 2> &xi) const
   {
+    // A Gregory patch has its displacement in its control points.
     if (patch)
       return patch->evaluate(xi);
     if (data.degree > 1)
       return Touchstone::evaluate(data, exact, xi);
+    // Bilinear: reference position and displacement are evaluated apart, as only the former is
+    // projected onto the exact surface.
     FacePoint                     point;
     Tensor<1, dim>                u;
     std::array<Tensor<1, dim>, 2> du;
@@ -98,7 +101,8 @@ namespace Touchstone
   {
     if (patch)
       return patch->second_derivatives(xi);
-    const auto                    hessians = shape_hessians(data.degree, xi);
+    const auto hessians = shape_hessians(data.degree, xi);
+    // 11, 12, 22 of the reference position and of the displacement.
     std::array<Tensor<1, dim>, 3> of_reference, result;
     for (unsigned int m = 0; m < data.n_nodes(); ++m)
       for (unsigned int a = 0; a < 3; ++a)
@@ -127,6 +131,8 @@ namespace Touchstone
           change[b] = (exact->projection_gradient(x + step * t[b]) -
                        exact->projection_gradient(x - step * t[b])) /
                       (2. * step);
+        // The mixed derivative from one order of differentiation only; both agree up to the error
+        // of the difference.
         result[0] += change[0] * t[0];
         result[1] += change[1] * t[0];
         result[2] += change[1] * t[1];

@@ -79,6 +79,7 @@ namespace Touchstone
     xi = {{0., 0.}};
     for (unsigned int iteration = 0; iteration < max_inversion_steps; ++iteration)
       {
+        // Biquadratic faces: Newton's method with the full map.
         Point2<double>       t[2];
         const Point2<double> position = evaluate(FaceShapes(face.degree, xi), t);
         const Point2<double> r{x.x - position.x, x.y - position.y};

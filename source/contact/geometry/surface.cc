@@ -27,6 +27,7 @@ namespace Touchstone
     std::uint64_t
     face_key(const CellId &id, const unsigned int face)
     {
+      // 27 bits for the coarse cell, 30 for the path, 4 for the level and 3 for the face make 64.
       constexpr unsigned int max_level = 10;
       const auto             path      = id.get_child_indices();
       AssertThrow(path.size() <= max_level && id.get_coarse_cell_id() < (1u << 27),
@@ -209,6 +210,7 @@ namespace Touchstone
   void
   Surface::collect_owned_nodes(const Solid &solid)
   {
+    // A map, for ascending order of the nodes.
     std::map<Index, SurfaceNode> found;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
@@ -267,6 +269,9 @@ namespace Touchstone
   void
   Surface::mark_outer_edges(const std::vector<SplitEdge> &split_edges)
   {
+    // An edge of the interior belongs to two faces. Ghost faces count as well, or the border of a
+    // rank would be taken for the end of the surface; only owned faces are marked, since the
+    // neighbours of ghosts may be unknown.
     std::map<Edge, unsigned int> count;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
@@ -319,6 +324,7 @@ namespace Touchstone
             if (basis->nodes[m] != face.nodes[m] && !solid.owned.is_element(dim * basis->nodes[m]))
               visit(face, *basis, dim * basis->nodes[m]);
     };
+    // Who owns these nodes is not known from the ghost layer: ask (collective).
     IndexSet foreign(solid.owned.size());
     for_each_foreign(
       [&](const Face &, const TraceBasis &, const Index dof) { foreign.add_index(dof); });
@@ -387,6 +393,8 @@ namespace Touchstone
         Tensor<1, dim>                             normal;
         for (const auto &[face, corner] : list)
           {
+            // The frame of the node: its mean normal in the reference state and two directions
+            // perpendicular to it.
             const FaceShapes              shapes(face->degree, node_coordinates(*face, corner));
             std::array<Tensor<1, dim>, 2> t;
             for (unsigned int m = 0; m < face->n_nodes(); ++m)
@@ -409,6 +417,9 @@ namespace Touchstone
         directions[0] /= directions[0].norm();
         directions[1] = -cross_product_3d(normal, directions[0]);
 
+        // Each direction d is the image of a combination c_0, c_1 of the face tangents; sum_m (c .
+        // grad N_m) x_m is then a vector of the surface that moves with the material. Solved by the
+        // metric g_ab = t_a . t_b.
         std::array<std::map<Index, double>, 2> sum;
         for (std::size_t f = 0; f < list.size(); ++f)
           {
@@ -531,6 +542,7 @@ namespace Touchstone
   std::vector<NormalDerivative>
   Surface::normal_derivative(const Face &face) const
   {
+    // Tangents at the nodes of the present state, as in move().
     const auto tangents = [this](const Face &f, const unsigned int m) {
       return evaluate(f, exact_surface(f), node_coordinates(f, m)).tangents;
     };

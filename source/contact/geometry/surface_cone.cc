@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+// All directions in which a contact force may act on a surface at a node: non-negative combinations
+// of the normals of the faces around it. UnresolvedContact measures how far a force lies outside
+// (doc/theory.md 4.1).
 namespace Touchstone
 {
   using namespace dealii;
@@ -26,6 +29,8 @@ namespace Touchstone
   {
     const auto faces = surface.faces_around(node);
     for (const auto &[face, m] : faces)
+      // Normals at the other nodes of these faces belong to the cone: on curved facets the force of
+      // a node acts over all of its faces.
       for (unsigned int l = 0; l < face->n_nodes(); ++l)
         {
           around.push_back(face->nodes[l]);

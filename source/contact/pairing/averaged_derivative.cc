@@ -40,6 +40,8 @@ namespace Touchstone
                                const TraceBasis                *basis,
                                const std::vector<const Face *> &covering)
   {
+    // The number of nodes is a template parameter: derivative numbers have a fixed length of 24 or
+    // 54.
     if (slave.face().degree == 1)
       add<4>(slave, basis, covering);
     else

@@ -33,6 +33,7 @@ namespace Touchstone
   AveragedRowDerivative::index(const Index node)
   {
     const std::size_t result = builder.index(node);
+    // Both lists grow together: entry i of the sums belongs to node i of the result.
     sums.resize(builder.result->nodes.size());
     return result;
   }
@@ -67,7 +68,9 @@ namespace Touchstone
     const bool part = with_area && face.covered_in_part(k);
     area_changes    = area_changes || part;
 
-    RowDerivative                                           &result = *builder.result;
+    RowDerivative &result = *builder.result;
+    // Node by node: change[e] is the derivative of everything that row k takes from this face by
+    // component e of its position.
     std::array<typename SlaveFaceDerivative<n>::Change, dim> change;
     for (unsigned int i = 0; i < face.n_nodes(); ++i)
       {
@@ -107,6 +110,7 @@ namespace Touchstone
   void
   AveragedRowDerivative::add_normals(const unsigned int k, const SlaveFaceDerivative<n> &face)
   {
+    // Facets do not depend on the normals of their nodes, patches do.
     const bool slave_smooth = face.slave.smooth();
     for (const OverlapDerivative<n> &part : face.parts)
       {
@@ -122,6 +126,8 @@ namespace Touchstone
               if (slave_smooth)
                 by_slave_normals[face.slave.face().key][m] += w * part.gap_slave_normal[j][m];
             }
+        // Smallest gaps enter by equation (7). In most rows their derivative is zero, and the
+        // search for the closest point is spared.
         if (row.needs_least())
           offer<n>(least, part.least, part.least_by_normals, face, *part.master);
         if (row.needs_own())
@@ -179,10 +185,12 @@ namespace Touchstone
   {
     const auto add = [&](const Index node, const Tensor<1, dim> &value) {
       const std::size_t to = index(node);
+      // The member that is differentiated, CoverSumsDerivative::least or own, is a parameter.
       sums[to].*of_point += value;
     };
     for (const auto &[node, value] : point.by_nodes)
       add(node, value);
+    // Derivative by the normals times that of the normals by all nodes around the face.
     if (const auto *derivatives = of_master(point.master))
       for (const NormalDerivative &d : *derivatives)
         add(d.node, point.by_master_normals[d.m] * d.value);

@@ -64,6 +64,7 @@ namespace Touchstone
     // Hanging nodes: M~ = C^T M C, W = S M~^-1 C^T (equation (27)).
     const FullMatrix<double> transposed = to_basis(mass.m());
     FullMatrix<double>       product(mass.m(), mass.m());
+    // M~ = C^T M C, then S M~^-1, then times C^T.
     product.triple_product(mass, transposed, transposed, false, true);
     inverse = product;
     product = divide_by_mass(shares, inverse);
@@ -79,6 +80,7 @@ namespace Touchstone
     FullMatrix<double> result(n, n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int p = 0; p < n; ++p)
+        // C^T, with C_ip the weight of node p in the hanging node i.
         result(p, i) = basis->weights[i][p];
     return result;
   }
@@ -138,6 +140,7 @@ namespace Touchstone
           result[c] += d_share[i] * solution.of_basis(i, c);
     for (unsigned int j = 0; j < n; ++j)
       {
+        // Only row k of W is needed, so no product of full matrices.
         double of_mass = 0.; // (W_k dM)_j
         for (unsigned int i = 0; i < n; ++i)
           of_mass += weights(k, i) * d_mass(v, i, j);

@@ -7,6 +7,8 @@
 
 #include <Sacado.hpp>
 
+// The factor by which area counts where slave and master surface are inclined to each other
+// (doc/theory.md 3.2), and the plane of a slave face from which the inclination is measured.
 namespace Touchstone
 {
   using namespace dealii;

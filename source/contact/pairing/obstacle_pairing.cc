@@ -62,10 +62,12 @@ namespace Touchstone
           {
             ContactRow &row = rows[k];
             row.derivative.reset();
+            // Open rows contribute neither force nor condition.
             if (!row.was_active)
               continue;
             const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
             RowDerivativeBuilder builder(0);
+            // The only node that the row depends on: the obstacle is rigid.
             builder.index(row.slave);
             // gap vector x - P(x).
             builder.result->gap_vector[0] = identity - surface->projection_gradient(x);
@@ -99,6 +101,7 @@ namespace Touchstone
       {
         Tensor<1, dim> shift;
         for (unsigned int d = 0; d < dim; ++d)
+          // Directions without a formula do not move.
           shift[d] = motion[d] ? motion[d]->value(Point<dim>(), time) : 0.;
         formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
         return shift;

@@ -20,6 +20,8 @@ namespace Touchstone
   {
     const FaceShapes shapes(slave.face().degree, point.slave);
     const FaceShapes master_shapes(master.face().degree, point.master);
+    // The contact normal is that of the master surface, possibly averaged or smoothed; the cosine
+    // below is about the surface itself.
     const auto [x, normal] = master.position_and_normal(point.master, master_shapes);
     const double part =
       FacingPart(facing_cosine(plane, normal, master.face(), master.exact_surface(), point.master))
@@ -27,6 +29,8 @@ namespace Touchstone
     // Master surface too steep here: the point counts as not covered.
     if (part == 0.)
       return false;
+    // Gap vector from master to slave, as in pointwise rows: g = n . gap < 0 is penetration
+    // (doc/theory.md 1).
     const Tensor<1, dim> gap = slave.position(point.slave, shapes) - x;
     sample.weight            = part * point.weight;
     for (unsigned int m = 0; m < n; ++m)
@@ -62,8 +66,10 @@ namespace Touchstone
       const FacePoint      x       = evaluate(face, master.exact_surface(), point.master);
       const Tensor<1, dim> product = cross_product_3d(x.tangents[0], x.tangents[1]);
       // c = sign * zeta . product / |product|, as in facing_cosine().
-      const double                  sign       = product * normal < 0. ? 1. : -1.;
-      const Tensor<1, dim>          nu         = sign * product / product.norm();
+      const double         sign = product * normal < 0. ? 1. : -1.;
+      const Tensor<1, dim> nu   = sign * product / product.norm();
+      // d c = by_product . d(t_1 x t_2), from the derivative of the unit vector, and d(t_1 x t_2) =
+      // dt_1 x t_2 + t_1 x dt_2.
       const Tensor<1, dim>          by_product = sign * (plane * normalisation_derivative(product));
       const Tensor<1, dim>          by_t[2]    = {cross_product_3d(x.tangents[1], by_product),
                                                   cross_product_3d(by_product, x.tangents[0])};
@@ -115,6 +121,7 @@ namespace Touchstone
       constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
       const double           cosine      = facing_cosine(
         plane_normal(slave), normal, master.face(), master.exact_surface(), point.master);
+      // Product rule: weight = S(c) times area weight.
       const FacingPart part(cosine);
       weight.val() = part.value * point.weight;
       for (unsigned int v = 0; v < n_variables; ++v)

@@ -7,7 +7,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 
 // The pairing "pointwise": each slave node against the closest point of the master surface. It is
-// cheap and robust but does not pass the patch test (doc/theory.md 3). The second half of the file
+// simple, but does not pass the patch test (doc/theory.md 3). The second half of the file
 // differentiates these rows for the consistent linearisation (doc/theory.md 4, equation (9)).
 namespace Touchstone
 {

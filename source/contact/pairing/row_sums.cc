@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+// Sums over the slave faces around a node: D, D_kk, the integrals of gap and normal, and the
+// stencil of equation (5) of doc/theory.md 3.1. Derivatives are in AveragedRowDerivative.
 namespace Touchstone
 {
   using namespace dealii;
@@ -14,6 +16,7 @@ namespace Touchstone
   RowSums::clear()
   {
     static_cast<CoverSums &>(*this) = CoverSums();
+    // Minima of nothing.
     least = own = std::numeric_limits<double>::max();
     lever       = Tensor<1, dim>();
     for (Stencil *list : {&stencil, &taken, &left})

@@ -46,6 +46,7 @@ namespace Touchstone
   unsigned int
   SlaveFaceDerivative<n>::index_of_master(const Index node) const
   {
+    // Slave nodes come first in the numbering, then the sorted master nodes.
     return n + (std::lower_bound(masters.begin(), masters.end(), node) - masters.begin());
   }
 
@@ -64,6 +65,7 @@ namespace Touchstone
         // Variables and columns of the part among those of all.
         constexpr unsigned int n_local = OverlapPointDerivative<n>::n_variables;
         unsigned int           variable[n_local], column[OverlapColumns::master + n];
+        // The slave variables are the same for all parts.
         for (unsigned int v = 0; v < n * dim; ++v)
           {
             variable[v]           = v;
@@ -104,7 +106,10 @@ namespace Touchstone
   SlaveFaceDerivative<n>::carriers(const unsigned int i) const
   {
     if (i >= n)
+      // A master node carries itself: weights of hanging master nodes are condensed later, like any
+      // other dof (doc/theory.md 11).
       return {{masters[i - n], 1.}};
+    // A slave node of the face that hangs moves with the nodes that it follows.
     return basis ? basis->stencil(i) : Stencil{{own[i], 1.}};
   }
 
@@ -114,6 +119,8 @@ namespace Touchstone
   bool
   SlaveFaceDerivative<n>::covered_in_part(const unsigned int k) const
   {
+    // In the present state, as the shares are: where all of a node is covered D_kk is its present
+    // area, and its reference area is that of the mesh.
     return std::abs(dual.shares.share[k][k] - present[k]) > Tolerances::fully_covered * present[k];
   }
 
@@ -133,7 +140,8 @@ namespace Touchstone
       d_areas[j] = d_q(v, j, OverlapColumns::area);
     if (basis)
       d_areas = basis->apply(d_areas);
-    change.area  = d_areas[k];
+    change.area = d_areas[k];
+    // d S_ki; S_kk is also the kept area D_kk.
     change.share = dual.share_derivative(k, d_areas);
     // S_kk A_k / A_k(x), with A_k(x) of the whole face in the present position.
     change.reference = change.share[k];

@@ -88,6 +88,7 @@ namespace Touchstone
   FaceExchange::commit(const Vector *u)
   {
     has_committed = true;
+    // Zero displacement: the reference state.
     committed.assign(surface.owned_faces().size(), {});
     if (u != nullptr)
       for (std::size_t f = 0; f < committed.size(); ++f)
@@ -125,6 +126,7 @@ namespace Touchstone
   Face
   FaceExchange::own_face(const std::size_t f) const
   {
+    // Faces of the surface know their present displacement only.
     Face face = surface.owned_faces()[f];
     if (!committed.empty())
       face.committed = committed[f];
@@ -159,6 +161,7 @@ namespace Touchstone
     std::map<unsigned int, std::vector<Face>> messages;
     for (std::size_t f = 0; f < n_own; ++f)
       {
+        // The swept box: also faces that were near at the start of the step are of interest.
         const Face face = own_face(f);
         const Box  box  = swept_box(face);
         for (unsigned int rank = 0; rank < captures.size(); ++rank)
@@ -224,8 +227,10 @@ namespace Touchstone
   FaceExchange::normal_derivatives(const std::vector<const Face *> &needed) const
   {
     std::unordered_map<const Face *, std::vector<NormalDerivative>> result;
+    // Normals of facets do not depend on averages.
     if (kind == MasterNormal::face)
       return result;
+    // Each face once, also with an empty result if it has no derivative.
     for (const Face *face : needed)
       result[face];
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
@@ -247,6 +252,7 @@ namespace Touchstone
         for (auto it = received.begin(); it != received.end(); ++it)
           if (it->second <= f && (from == received.end() || it->second > from->second))
             from = it;
+        // The index among the faces that this rank has sent.
         questions[from->first].push_back(f - from->second);
       }
     // Owners answer by the index in what they have sent.

@@ -85,8 +85,10 @@ namespace Touchstone
   std::vector<const Face *>
   FaceTree::facing(const Box &box, const Tensor<1, dim> &slave_normal, const double reach) const
   {
+    // The reach in all directions: the gap may be as large as that.
     Box capture = box;
     capture.extend(reach);
+    // Spheres around the box and around each face.
     const double              radius = half_diagonal(box);
     std::vector<const Face *> result;
     for (const std::size_t i : meeting(capture))
