@@ -104,8 +104,7 @@ namespace Touchstone
   {
     const Tensor<1, dim> cross  = cross_product_3d(tangents[0], tangents[1]);
     const double         length = cross.norm();
-    // A degenerate face has no normal; zero avoids a division by zero, and such a face is opposed
-    // to nothing.
+    // A degenerate face has no normal: return zero instead of dividing by it.
     return length > 0. ? cross / length : cross;
   }
 

@@ -40,8 +40,8 @@ namespace Touchstone
                 std::find(parents.begin(), parents.end(), entry.first / dim) == parents.end())
               parents.push_back(entry.first / dim);
         }
-    // The order is immaterial: the weights below refer to the new list. There are never more new
-    // nodes than hanging ones, or C would not be square.
+    // The order is immaterial, as the weights below refer to the new list. With more new nodes than
+    // hanging ones C would not be square; that is checked below.
     for (unsigned int k = 0; k < std::min(hanging_nodes.size(), parents.size()); ++k)
       nodes[hanging_nodes[k]] = parents[k];
     for (unsigned int i = 0; i < n; ++i)

@@ -459,8 +459,8 @@ namespace Touchstone
           row.gap_vector = means.gap_vector;
           row.gap        = row.gap_vector * row.normal;
           row.lever      = sum.lever / sum.area;
-          // Round-off and the ratio of present to reference areas must not exceed the tributary
-          // area.
+          // Not more than the tributary area, by round-off or by the ratio of reference to present
+          // areas.
           row.area = std::min(sum.reference, nodes[k].area);
         }
     }

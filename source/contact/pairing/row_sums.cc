@@ -16,7 +16,7 @@ namespace Touchstone
   RowSums::clear()
   {
     static_cast<CoverSums &>(*this) = CoverSums();
-    // Minima of nothing.
+    // Infinite until a point is added.
     least = own = std::numeric_limits<double>::max();
     lever       = Tensor<1, dim>();
     for (Stencil *list : {&stencil, &taken, &left})
