@@ -14,7 +14,7 @@ namespace Touchstone
    * (doc/theory.md 3.1, equation (4)).
    *
    * With the dual basis of the covered part each node has its own row, however little of its
-   * shape function is covered: the row then asks the gap extrapolated to the node to vanish,
+   * shape function is covered: the row then requires that the gap extrapolated to the node vanish,
    * with a force that does not vanish with the area, so the pressure grows without bound.
    * Here nodes of which little is covered give their part to the other nodes of the face,
    *

@@ -31,7 +31,8 @@ namespace Touchstone
    * FaceExchange brings the faces near this rank's slave nodes, FaceTree keeps their boxes in an
    * R-tree. Closest-point projection on the faces in the order of the distance of their
    * boxes, until no box is closer than the best point found; SweptSearch finds nodes that would be
-   * lost because they have passed through a face (doc/theory.md 4).
+   * lost because they have passed through a face (doc/theory.md 4, "Search" and "Passing
+   * through").
    */
   class Search
   {

@@ -9,7 +9,7 @@
 
 namespace Touchstone
 {
-  /** @brief A slave node that looks for a partner. */
+  /** @brief A slave node for which a partner is searched. */
   struct SlavePoint
   {
     /** Present position, and at the start of the step. */
@@ -44,7 +44,8 @@ namespace Touchstone
     /** @brief Where a node has passed into a body since the start of the step, unless it
      * came out again: the point closest to its present position around the face that it passed
      * first. Nothing if steps are not committed.
-     * @param penetrates It is known to be in one body, which does not count. */
+     * @param penetrates The closest face already shows that the node is within one body, which is
+     * then not counted. */
     std::optional<FaceProjection>
     passed(const SlavePoint &point, bool penetrates) const;
 
