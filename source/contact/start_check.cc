@@ -12,6 +12,10 @@
 #include <limits>
 #include <set>
 
+// Checks of a contact pair before the first step, for mistakes of the input that would let bodies
+// pass through each other without a message: surfaces that face away from each other, and an
+// initial overlap deeper than the search distance, where slave nodes find no partner. The checks
+// are collective and throw on all ranks alike.
 namespace Touchstone
 {
   using namespace dealii;
@@ -24,6 +28,8 @@ namespace Touchstone
     Place
     place(const Surface &surface, const SurfaceNode &node, const Vector &u)
     {
+      // Six numbers, so that the positions and normals of all ranks can be exchanged as plain
+      // arrays.
       const Point<dim>     x = surface.position(node, u);
       const Tensor<1, dim> n = surface.normal(node.node);
       return {{x[0], x[1], x[2], n[0], n[1], n[2]}};
@@ -57,11 +63,12 @@ namespace Touchstone
         }
       if (n.norm() > 0.)
         n /= n.norm();
+      // Inward by a thousandth of an edge.
       centre -= Tolerances::touching * face.reference[0].distance(face.reference[1]) * n;
       return {{centre[0], centre[1], centre[2], n[0], n[1], n[2]}};
     }
 
-    /** The places of all ranks, one rank after the other. */
+    /** The positions and normals of all ranks, one rank after the other. */
     std::vector<Place>
     gather(const std::vector<Place> &mine, const MPI_Comm communicator)
     {
@@ -80,8 +87,9 @@ namespace Touchstone
       return gather(mine, communicator);
     }
 
-    /** Of the @p places (the same on all ranks) that lie within a body the largest
-     * distance to the closest of the @p others that looks the other way. */
+    /** Of the positions in @p places (the same on all ranks) that lie within a body the largest
+     * distance to the closest of the @p others whose normal opposes theirs; length. Zero if no
+     * position lies within the body. Collective. */
     double
     deepest(const std::vector<Place> &places,
             const std::vector<Place> &others,
@@ -91,10 +99,12 @@ namespace Touchstone
     {
       if (places.empty())
         return 0.;
+      // Each rank tests against its own cells; a place lies within the body if any rank says so.
       const DeformedCells cells(solid, body, u);
       std::vector<int>    inside(places.size(), 0);
       for (std::size_t k = 0; k < places.size(); ++k)
         inside[k] = cells.contain(position(places[k]));
+      // Element by element over the ranks.
       Utilities::MPI::max(inside, solid.communicator, inside);
       double result = 0.;
       for (std::size_t k = 0; k < places.size(); ++k)
@@ -102,8 +112,10 @@ namespace Touchstone
           {
             double closest = std::numeric_limits<double>::max();
             for (const Place &other : others)
+              // Only surfaces that oppose each other: the other side of a thin body may be closer.
               if (normal(places[k]) * normal(other) < -Tolerances::perpendicular_cosine)
                 closest = std::min(closest, position(places[k]).distance(position(other)));
+            // Without any opposed surface the depth cannot be measured.
             if (closest < std::numeric_limits<double>::max())
               result = std::max(result, closest);
           }
@@ -139,6 +151,7 @@ namespace Touchstone
   {
     unsigned int found = 0;
     for (const ContactRow &row : rows)
+      // A partner on one rank suffices: then the surfaces are within reach of each other somewhere.
       found += row.has_partner;
     return Utilities::MPI::sum(found, solid.communicator) == 0;
   }
@@ -148,8 +161,12 @@ namespace Touchstone
   double
   StartCheck::depth_of_overlap() const
   {
+    // An obstacle has a distance everywhere, and in self-contact points near the surface always lie
+    // within the body.
     if (master == nullptr || slave_body == master_body)
       return 0.;
+    // Nodes with a partner have a row that resists the overlap. Only faces with a node without one
+    // can be lost.
     std::set<Index> nodes;
     for (const ContactRow &row : rows)
       if (!row.has_partner)
@@ -165,6 +182,8 @@ namespace Touchstone
       return 0.;
     double depth =
       deepest(alone, all_places(*master, u, solid.communicator), solid, master_body, u);
+    // No centre of a slave face needs to lie within the master body, for instance if slave faces
+    // are much larger than the master: then test master faces within the slave body.
     if (depth == 0. && nothing_found())
       {
         for (const Face &face : master->owned_faces())
@@ -205,12 +224,17 @@ namespace Touchstone
     if (master == nullptr)
       {
         for (const ContactRow &row : rows)
+          // Normals of slave and obstacle must be opposed at one node at least.
           looks = looks || slave.normal(row.slave) * row.normal < Tolerances::perpendicular_cosine;
         throw_if_all_look_away(looks, "the obstacle '" + parameters.obstacle + "'");
         return;
       }
+    // All ranks take the same branches, since what decides is reduced over them: the calls below
+    // are collective.
     const bool   nothing = nothing_found();
     const double asked   = parameters.search_distance;
+    // With the default reach, which is at least the size of a face, and a partner found, the
+    // surfaces face each other. A search distance set by the user may be less than the overlap.
     if (!nothing && asked == 0.)
       return;
     const double depth = depth_of_overlap();
@@ -224,6 +248,8 @@ namespace Touchstone
                        "set it to 0 or to more than the overlap, or name the boundaries that meet");
     if (!nothing)
       return;
+    // No node is within reach, as with bodies that are brought together later. At least one slave
+    // node must face the master node closest to it.
     const std::vector<Place> masters = all_places(*master, u, solid.communicator);
     for (const SurfaceNode &node : slave.owned_nodes())
       {

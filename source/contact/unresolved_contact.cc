@@ -16,6 +16,10 @@
 #include <cstdio>
 #include <tuple>
 
+// Contact that no row of a slave node can describe (doc/theory.md 4.1): crossed edges, vertices of
+// the master inside slave faces, and forces that are not normal to the slave surface. A converged
+// step is checked for it, since Newton's method does not see it: the residual is zero while bodies
+// overlap. Each finding is a sentence for the user, and the same on all ranks.
 namespace Touchstone
 {
   using namespace dealii;
@@ -52,6 +56,7 @@ namespace Touchstone
     bool
     idle(const Surface &slave, const Face &face, const Vector &forces)
     {
+      // A hanging node has no row; the force is on the nodes that it follows.
       const TraceBasis *basis = slave.trace(face);
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         if (force_on(basis ? basis->nodes[m] : face.nodes[m], forces).norm() > 0.)
@@ -62,10 +67,11 @@ namespace Touchstone
     double
     size_of(const Face &face)
     {
+      // The diagonal over the square root of two: the side of a square face.
       return face.position(0).distance(face.position(face.n_nodes() - 1)) / std::sqrt(2.);
     }
 
-    /** A position as a user reads it, with components that are round-off as zero. */
+    /** A position for messages, with components that are only round-off set to zero. */
     std::string
     at(const Point<dim> &x)
     {
@@ -113,10 +119,12 @@ namespace Touchstone
   std::vector<Face>
   UnresolvedContact::nearby_master_faces() const
   {
+    // Boxes around all nodes of the slave faces decide which master faces are sent here.
     std::vector<Point<dim>> corners;
     for (const Face &face : slave.owned_faces())
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         corners.push_back(face.position(m));
+    // The reach of one slave face: overlaps of interest are much less deep.
     FaceExchange exchange(master, slave.largest_face(), MasterNormal::face, solid.communicator);
     exchange.update(corners);
     return exchange.faces();
@@ -133,19 +141,23 @@ namespace Touchstone
     std::vector<std::pair<Box, std::size_t>> boxes;
     for (std::size_t i = 0; i < others.size(); ++i)
       boxes.emplace_back(box_of(others[i]), i);
+    // Master edges by their boxes, so that each slave edge meets only those nearby.
     const auto           tree = pack_rtree(boxes);
     std::vector<Overlap> result;
     for (const SharpEdge &edge : own)
       {
         const double length = edge.a.distance(edge.b);
         Box          box    = box_of(edge);
+        // Edges may have passed each other by a part of their length and are still to be found.
         box.extend(0.5 * length);
         namespace query = boost::geometry::index;
         for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
           {
             const SharpEdge &other = others[entry.second];
-            const double     least = least_depth * std::min(length, other.a.distance(other.b));
-            const auto       found = edge_crossing(edge, other);
+            // Depth as a fraction of the shorter edge: the check must not depend on the unit of
+            // length.
+            const double least = least_depth * std::min(length, other.a.distance(other.b));
+            const auto   found = edge_crossing(edge, other);
             if (found && found->depth > least)
               result.push_back({found->first, found->second, found->depth});
           }
@@ -165,6 +177,7 @@ namespace Touchstone
     std::vector<Overlap> result;
     for (const Face &face : slave.owned_faces())
       {
+        // Where a node of the face carries a force, its row resists the penetration already.
         if (!idle(slave, face, forces))
           continue;
         Box box = box_of(face);
@@ -189,12 +202,17 @@ namespace Touchstone
     for (unsigned int m = 0; m < other.n_nodes(); ++m)
       {
         const Point<dim> x = other.position(m);
+        // The node must face the slave face; those of the far side of the master have normals along
+        // it.
         if (other.edge_normals[m] * normal >= 0. || !box.point_inside(x))
           continue;
+        // Depth is measured from the foot point on the slave face along its normal.
         const Projection foot = closest_point_projection(x, geometry);
+        // The node belongs to a neighbouring face, or to none.
         if (foot.beyond_inner > 0. || foot.beyond_outer > 0.)
           continue;
-        // A node of a smooth surface reaches into a coarser face by its sagitta, a vertex does not.
+        // A node of a smooth surface may reach into a coarser face by the sagitta of the arc (the
+        // larger tolerance), a vertex may not.
         const bool sharp =
           other.own_normals[m] * other.edge_normals[m] < Tolerances::sharp_node_cosine;
         const FacePoint point = geometry.evaluate(foot.xi);
@@ -210,9 +228,10 @@ namespace Touchstone
   UnresolvedContact::deepest(const std::vector<Overlap> &found, const bool edges) const
   {
     Overlap result{Point<dim>(), Point<dim>(), 0.};
+    // Nothing on any rank, the normal case: no cells need be gathered in trees.
     if (Utilities::MPI::max(found.size(), solid.communicator) == 0)
       return result;
-    // All ranks look at all of them: the other body may lie on any.
+    // All ranks test all candidates: the cells around a point may belong to any rank.
     std::vector<Overlap> all;
     for (const auto &part : gather_records(found, solid.communicator))
       all.insert(all.end(), part.begin(), part.end());
@@ -225,8 +244,9 @@ namespace Touchstone
       return key(a) > key(b);
     });
 
-    // The two sides of a thin body are near each other and overlap with nothing: what counts lies
-    // within the other body.
+    // The two sides of a thin body are near each other and seem to overlap with what touches one of
+    // them: only points within the cells of the other body count.
+    // Each rank has only its own cells: a point lies in the body if it lies in a cell of any rank.
     const DeformedCells slave_cells(solid, slave_body, u), master_cells(solid, master_body, u);
     std::vector<int>    master_point_inside, slave_point_inside;
     for (const Overlap &o : all)
@@ -267,8 +287,10 @@ namespace Touchstone
   UnresolvedContact::oblique_force() const
   {
     double sum = 0.;
+    // Forces on hanging nodes are on those that they follow, so owned nodes have all of the force.
     for (const SurfaceNode &node : slave.owned_nodes())
       sum += force_on(node.node, forces).norm();
+    // Scale for what is a small force: the sum of the magnitudes over the pair.
     sum = Utilities::MPI::sum(sum, solid.communicator);
     std::vector<Located> oblique;
     for (const SurfaceNode &node : slave.owned_nodes())
@@ -277,7 +299,7 @@ namespace Touchstone
         if (size == 0.)
           continue;
         // Forces of neighbours are summed: on both sides of a sharp edge of the master each
-        // of them is oblique and their sum is right (doc/theory.md 4, "What rows cannot describe").
+        // of them is oblique and their sum is right (doc/theory.md 4.1).
         const SurfaceCone cone(slave, node.node);
         Tensor<1, dim>    around;
         bool              largest = true;
@@ -286,19 +308,23 @@ namespace Touchstone
             around += force_on(other, forces);
             largest = largest && force_on(other, forces).norm() <= size;
           }
-        // Beside a larger force the smaller one does not tell where the bodies touch.
+        // Only the largest force of a neighbourhood tells where the bodies touch.
         if (largest && around.norm() >= Tolerances::small_force * sum &&
             cone.distance(-1. * around / around.norm()) > Tolerances::oblique_sine)
           oblique.push_back({around.norm(), slave.position(node, u)});
       }
+    // The one with the largest force (or depth), and among equal ones that with the largest
+    // coordinates: the same on any partition.
     Located worst;
     for (const auto &part : gather_records(oblique, solid.communicator))
       for (const Located &force : part)
         worst = std::max(worst, force);
     if (worst.size == 0.)
       return "";
-    // Whether it is two edges that touch there.
+    // Whether edges of both bodies touch there.
     int touch = 0;
+    // Also edges that only come close, as a converged contact of rows leaves them: negative depth.
+    // Every rank takes part, as the exchange of faces is collective.
     for (const Overlap &crossing : crossing_edges(nearby_master_faces(), -Tolerances::near_edge))
       if (crossing.slave.distance(worst.x) < slave.largest_face())
         touch = 1;
@@ -314,6 +340,7 @@ namespace Touchstone
   UnresolvedContact::overlap() const
   {
     const std::vector<Face> others = nearby_master_faces();
+    // Each kind is reported by its deepest case.
     const Overlap edges = deepest(crossing_edges(others, Tolerances::deep_edge), /*edges=*/true);
     if (edges.depth > 0.)
       return "an edge of '" + parameters.slave_body + "' and an edge of '" +
@@ -339,6 +366,8 @@ namespace Touchstone
     std::vector<Located> found;
     for (const Face &face : slave.owned_faces())
       if (idle(slave, face, forces))
+        // An obstacle has no nodes: nine points inside the face are tested instead. Nodes of the
+        // face have rows of their own.
         for (const double a : {-0.5, 0., 0.5})
           for (const double b : {-0.5, 0., 0.5})
             {

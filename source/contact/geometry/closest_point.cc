@@ -5,16 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+// Closest-point projection of a point onto one face: minimise |x - x(xi)|^2 over xi in [-1,1]^2
+// (doc/theory.md 4, "Projection"). FaceTree::project() calls it for each candidate face of a
+// search, so it must end on warped and degenerate faces, too. The result also says how far the
+// point lies beyond the edges of the face, from which the searches tell a wedge over a sharp edge
+// and the end of the surface.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** 50 steps are many more than any face has needed; each halving is the last resort. */
+    /** Limit of Newton steps. 50 are many more than any face has needed. */
     constexpr unsigned int max_steps = 50;
 
-    /** Steps of the projected Newton method for the closest point on a face, in xi. */
+    /** Projected Newton method for the closest point on a face, in xi: half the squared distance
+     * has the gradient -t_a . r and the Hessian t_a . t_b - r . x,ab, with r = x - x(xi). A step
+     * solves Hessian * step = t . r for the coordinates that are not held at a bound. */
     class ClosestPoint
     {
     public:
@@ -39,6 +46,9 @@ namespace Touchstone
             if (!newton_step(step))
               return false;
             const double change = take(step);
+            // Quadratic convergence ends here. If the last step is still large, the iteration has
+            // not converged and another start is tried; between the two limits round-off of a flat
+            // minimum is accepted.
             if (change < 1e-13)
               return true;
             if (iteration + 1 == max_steps && change > 1e-9)
@@ -57,14 +67,14 @@ namespace Touchstone
       FacePoint             point;
       Tensor<1, dim>        r; // x - point
 
-      /** The matrix t_a . t_b - r . x_ab, as far as it stays positive definite: curvature of a
-       * patch and twist of a warped face belong to it, or convergence would be linear. */
+      /** The Hessian t_a . t_b - r . x,ab, as far as it stays positive definite. Without the
+       * curvature of a patch and the twist of a warped face convergence would be linear. */
       std::array<std::array<double, 2>, 2>
       matrix() const;
       /** @return false if the face is degenerate. */
       bool
       newton_step(double (&step)[2]) const;
-      /** Take a step, held within the face, halved until the distance does not grow.
+      /** Apply a step, restricted to the face and halved until the distance does not grow.
        * @return the largest change of a coordinate. */
       double
       take(const double (&step)[2]);
@@ -88,6 +98,8 @@ namespace Touchstone
           for (unsigned int i = 0; i < 2; ++i)
             {
               const double curved = a[i][i] - r * second[2 * i];
+              // Beyond a centre of curvature the Hessian is not positive definite and a Newton step
+              // would go to a maximum of the distance: there the Gauss-Newton term t_a . t_a stays.
               if (curved > 0.1 * a[i][i])
                 a[i][i] = curved;
             }
@@ -96,6 +108,7 @@ namespace Touchstone
         twist =
           0.25 * ((face.position(0) - face.position(1)) - (face.position(2) - face.position(3)));
       const double coupling = a[0][1] - r * twist;
+      // The off-diagonal entry must leave the determinant clearly positive.
       if (coupling * coupling < 0.9 * a[0][0] * a[1][1])
         a[0][1] = a[1][0] = coupling;
       return a;
@@ -108,10 +121,12 @@ namespace Touchstone
     {
       const double b[2] = {point.tangents[0] * r, point.tangents[1] * r};
       const auto   a    = matrix();
-      // Coordinates that stay at a bound because the step would leave it.
+      // Coordinates at a bound at which the distance decreases towards the outside.
       bool at_bound[2];
       for (unsigned int i = 0; i < 2; ++i)
         at_bound[i] = (xi[i] >= 1. && b[i] > 0.) || (xi[i] <= -1. && b[i] < 0.);
+      // With one coordinate held, the other takes the step of the one-dimensional problem along the
+      // edge; at a corner that holds both the step is zero, and the iteration has converged.
       if (at_bound[0] || at_bound[1])
         {
           for (unsigned int i = 0; i < 2; ++i)
@@ -144,6 +159,8 @@ namespace Touchstone
               next[i] = std::clamp(xi[i] + scale * step[i], -1., 1.);
               change  = std::max(change, std::abs(next[i] - xi[i]));
             }
+          // The bounds are imposed on each trial, so that the distance compared is that of a point
+          // of the face.
           next_point = geometry.evaluate(next);
           next_r     = x - next_point.x;
           // Distances are equal up to round-off long before coordinates are.
@@ -167,6 +184,8 @@ namespace Touchstone
       for (unsigned int i = 0; i < 2; ++i)
         {
           const double length = point.tangents[i].norm();
+          // Only a coordinate at its bound can have held the projection back. What is left of r
+          // along the tangent is then how far the point lies beyond that edge.
           if (length == 0. || std::abs(xi[i]) < 1.)
             continue;
           // Half the face is one unit of xi.

@@ -11,10 +11,14 @@ namespace Touchstone
   namespace
   {
     /** Whether @p x lies in one of the six tetrahedra around the diagonal of the cell with
-     * the vertices @p c. */
+     * the vertices @p c, in the order of deal.II. */
     bool
     contains(const std::array<Point<dim>, 8> &c, const Point<dim> &x)
     {
+      // Vertices 1 to 6 in a closed path along edges of the cell: each edge of the path and the
+      // diagonal from vertex 0 to vertex 7 make a tetrahedron. Warped faces are thus replaced by
+      // two triangles. This is accurate enough to tell whether bodies overlap and needs no inverse
+      // mapping, which may diverge in distorted cells.
       constexpr unsigned int around[7] = {1, 3, 2, 6, 4, 5, 1};
       for (unsigned int k = 0; k < 6; ++k)
         {
@@ -27,6 +31,8 @@ namespace Touchstone
             }
           if (std::abs(determinant(edges)) == 0.)
             continue;
+          // Barycentric coordinates of the point in the tetrahedron; the fourth is one less their
+          // sum.
           const Tensor<1, dim> part = invert(edges) * (x - c[0]);
           if (part[0] >= 0. && part[1] >= 0. && part[2] >= 0. && part[0] + part[1] + part[2] <= 1.)
             return true;
@@ -54,6 +60,7 @@ namespace Touchstone
                              cells.size());
           cells.push_back(corners);
         }
+    // Only cells whose bounding box has the point are tested in contain().
     tree = pack_rtree(boxes);
   }
 

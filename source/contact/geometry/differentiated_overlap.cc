@@ -5,6 +5,11 @@
 
 #include <algorithm>
 
+// The quadrature points on the overlap of two faces with their derivatives by the positions of all
+// nodes, for the consistent linearisation of averaged rows (doc/theory.md 4, "Derivatives of
+// rows"). The clipping itself carries forward derivatives (Sacado); face coordinates and surface
+// weights are differentiated by hand, because inverting a map by Newton's method with such numbers
+// would cost many times as much.
 namespace Touchstone
 {
   using namespace dealii;
@@ -22,6 +27,8 @@ namespace Touchstone
     {
       Point2<double> t[2];
       face.evaluate(shapes, t);
+      // The columns of J are the tangents t_1, t_2 in the plane; Cramer's rule solves the 2 x 2
+      // system for each variable v.
       const double jacobian = cross(t[0], t[1]);
       for (unsigned int v = 0; v < gradients[0].size(); ++v)
         {
@@ -38,10 +45,10 @@ namespace Touchstone
 
 
 
-    /** Set weight and d_weight of a point at which all else is known: the weight in the plane times
-     * the surface Jacobian ratio of the slave face, |t_1 x t_2| over the Jacobian j of its
-     * projection. Relative changes add up; each of the two is differentiated by the directions
-     * in which its tangents matter, d |c| / |c| = sum_a b_a . dt_a. */
+    /** Set weight and d_weight of a point whose coordinates and their derivatives are known: the
+     * weight in the plane times the surface Jacobian ratio of the slave face, |t_1 x t_2| over the
+     * Jacobian j of its projection. Relative changes add up; each of the two is differentiated by
+     * the directions in which its tangents matter, d |c| / |c| = sum_a b_a . dt_a. */
     template <unsigned int n, typename Number>
     void
     differentiate_area_weight(const Face                  &slave,
@@ -52,16 +59,21 @@ namespace Touchstone
                               OverlapPointDerivative<n>   &point)
     {
       constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
-      const FacePoint        on_slave    = evaluate(slave, nullptr, point.slave);
-      const Tensor<1, dim>   c       = cross_product_3d(on_slave.tangents[0], on_slave.tangents[1]);
-      const double           size    = c.norm();
-      const Tensor<1, dim>   by_t[2] = {cross_product_3d(on_slave.tangents[1], c / (size * size)),
-                                        cross_product_3d(c / (size * size), on_slave.tangents[0])};
-      Point2<double>         t[2];
+      // b_a in space: d|c| = c/|c| . (dt_1 x t_2 + t_1 x dt_2) gives t_2 x c/|c|^2 for dt_1 and
+      // c/|c|^2 x t_1 for dt_2.
+      const FacePoint      on_slave = evaluate(slave, nullptr, point.slave);
+      const Tensor<1, dim> c        = cross_product_3d(on_slave.tangents[0], on_slave.tangents[1]);
+      const double         size     = c.norm();
+      const Tensor<1, dim> by_t[2]  = {cross_product_3d(on_slave.tangents[1], c / (size * size)),
+                                       cross_product_3d(c / (size * size), on_slave.tangents[0])};
+      Point2<double>       t[2];
       projected.evaluate(shapes, t);
+      // The same for the Jacobian j = t_1 x t_2 of the projection, in the plane.
       const double         j          = cross(t[0], t[1]);
       const Point2<double> by_flat[2] = {{t[1].y / j, -t[1].x / j}, {-t[0].y / j, t[0].x / j}};
 
+      // The tangents change with the nodes at a fixed xi (relative) and as xi itself moves on the
+      // face (by_xi, over the second derivatives of the shapes).
       const auto hessians = shape_hessians(slave.degree, point.slave);
       double     by_xi[2] = {0., 0.};
       typename OverlapPointDerivative<n>::Gradient relative; // of the weight
@@ -79,6 +91,7 @@ namespace Touchstone
                 relative[dim * m + d] += shapes.gradient[m][a] * by_t[a][d];
               }
             for (unsigned int b = 0; b < 2; ++b)
+              // Entry a + b of the Hessians 11, 12, 22 is the derivative of tangent a by xi_b.
               by_xi[b] += hessians[m][a + b] * (in_space - along);
             const double gx = shapes.gradient[m][a] * by_flat[a].x,
                          gy = shapes.gradient[m][a] * by_flat[a].y;
@@ -94,7 +107,7 @@ namespace Touchstone
 
 
 
-    /** Whether two faces overlap at all, which costs little beside derivatives. */
+    /** Whether two faces overlap at all, tested without derivatives, which costs little. */
     bool
     overlaps(const Face              &slave,
              const Positions<double> &slave_x,
@@ -129,6 +142,7 @@ namespace Touchstone
     if (!overlaps(slave, slave_x, master, master_x))
       return points;
 
+    // The independent variables: first the positions of the slave nodes, then those of the master.
     Positions<Number> x, y;
     for (unsigned int m = 0; m < n; ++m)
       for (unsigned int d = 0; d < dim; ++d)
@@ -142,7 +156,9 @@ namespace Touchstone
 
     for_each_common_point(
       of_slave, of_master, [&](const Point2<Number> &position, const Number &weight) {
-        Result               point;
+        Result point;
+        // Values without derivatives suffice to invert the maps; the derivatives follow from the
+        // implicit function theorem.
         const Point2<double> at{position.x.val(), position.y.val()};
         if (!of_slave.invert(at, point.slave) || !of_master.invert(at, point.master))
           return;
@@ -154,6 +170,8 @@ namespace Touchstone
                               FaceShapes(master.degree, point.master),
                               position,
                               point.d_master);
+        // Corners of the overlap have weight zero: they only take part in the smallest gap of a
+        // row.
         if (weight.val() != 0.)
           differentiate_area_weight<n>(slave, slave_x, of_slave, shapes, weight, point);
         points.push_back(point);

@@ -7,13 +7,17 @@
 #include <cmath>
 #include <map>
 
+// Contact of two sharp edges, which no row can describe (doc/theory.md 4.1): collects the convex
+// edges of a surface and tests pairs of them for their common perpendicular. UnresolvedContact
+// reports those that have passed through each other.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** An edge of a face with what is needed of the face. */
+    /** An edge of a face with centre and normal of that face. `outer`: the surface ends there.
+     * `own`: the face is one of those whose edges are wanted. */
     struct Side
     {
       Point<dim>     a, b, centre;
@@ -21,7 +25,8 @@ namespace Touchstone
       bool           outer, own;
     };
 
-    /** Away from the face within its tangent plane, across the edge. */
+    /** Unit vector in the tangent plane of the face, perpendicular to the edge, away from the face.
+     */
     Tensor<1, dim>
     outward(const Side &side)
     {
@@ -37,6 +42,9 @@ namespace Touchstone
       const auto angle = [](const Tensor<1, dim> &x, const Tensor<1, dim> &y) {
         return std::acos(std::clamp(x * y, -1., 1.));
       };
+      // Along one of the normals it is the face beside the edge that touches, which rows describe.
+      // In between, both angles add up to the angle of the edge if the direction lies in the plane
+      // of the normals; a direction outside that plane has a larger sum.
       const auto &m = edge.normals;
       return n * m[0] < Tolerances::along_normal_cosine &&
              n * m[1] < Tolerances::along_normal_cosine &&
@@ -54,6 +62,8 @@ namespace Touchstone
       for (const Face &face : *list)
         {
           // Corners in the order of the bits of Face::outer_edges.
+          // Edges are identified by their two corner nodes, so each face around an edge contributes
+          // one side.
           const unsigned int p = face.degree, last = face.n_nodes() - 1;
           const unsigned int corners[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
           const FacePoint    middle        = evaluate(face, nullptr, {{0., 0.}});
@@ -73,14 +83,19 @@ namespace Touchstone
     for (const auto &[nodes, list] : sides)
       {
         const Side &one = list.front();
+        // Each edge is reported by ranks that own a face there.
         if (std::none_of(list.begin(), list.end(), [](const Side &s) { return s.own; }))
           continue;
+        // Where the surface ends the body may go on at any angle: the second normal lies in the
+        // tangent plane of the face, which admits all directions up to a right angle.
         if (list.size() == 1 && one.outer)
           result.push_back({one.a, one.b, {{one.normal, outward(one)}}});
         if (list.size() == 2)
           {
-            const Side &two    = list.back();
-            const bool  convex = (two.centre - one.a) * one.normal < 0.;
+            const Side &two = list.back();
+            // The centre of the neighbour lies below the face. A concave edge cannot be touched
+            // from outside.
+            const bool convex = (two.centre - one.a) * one.normal < 0.;
             if (convex && one.normal * two.normal < Tolerances::touching_edge_cosine)
               result.push_back({one.a, one.b, {{one.normal, two.normal}}});
           }
@@ -97,21 +112,27 @@ namespace Touchstone
                          offset = second.a - first.a;
     Tensor<1, dim> n            = cross_product_3d(d, e);
     const double   square       = n.norm_square();
+    // The sine of the angle between the edges: along parallel edges the common perpendicular is not
+    // unique, and the position of the feet would be round-off.
     if (square <=
         Tolerances::parallel_sine * Tolerances::parallel_sine * d.norm_square() * e.norm_square())
       return {};
     // Feet of the common perpendicular of two lines.
     const double s = cross_product_3d(offset, e) * n / square,
                  t = cross_product_3d(offset, d) * n / square;
-    // Where edges end in each other no perpendicular is to be lost by round-off.
+    // Where the end of an edge touches the other edge, round-off must not lose the crossing.
     constexpr double slack = Tolerances::edge_end;
     if (std::min(s, t) < -slack || std::max(s, t) > 1. + slack)
       return {};
     n /= n.norm();
+    // The perpendicular is oriented outward from the second edge. The direction from the first to
+    // the second point is then positive along it where the edges have passed through each other.
     if (n * (second.normals[0] + second.normals[1]) < 0.)
       n *= -1.;
     const Point<dim> x = first.a + s * d, y = second.a + t * e;
     const double     depth = (y - x) * n;
+    // The contact force is normal to both surfaces only if the perpendicular lies in the cone of
+    // normals of either edge.
     if (!between_normals(second, n) || !between_normals(first, -1. * n))
       return {};
     return EdgeCrossing{x, y, depth};

@@ -3,6 +3,9 @@
 #include <touchstone/contact/geometry/face.h>
 
 
+// Shape functions of bilinear and biquadratic faces and the position on a face, on facets or on the
+// exact surface (doc/theory.md 4, equation (8)). Everything that measures gaps evaluates faces here
+// or in FaceGeometry.
 namespace Touchstone
 {
   using namespace dealii;
@@ -51,6 +54,7 @@ namespace Touchstone
         gradient[3]          = {{0.5 * high[1], 0.5 * high[0]}};
         return;
       }
+    // Tensor products of one-dimensional Lagrange polynomials, numbered with xi_1 first.
     double n[2][3], dn[2][3];
     for (unsigned int d = 0; d < 2; ++d)
       lagrange(degree, xi[d], n[d], dn[d]);
@@ -68,6 +72,8 @@ namespace Touchstone
   std::array<std::array<double, 3>, Face::max_nodes>
   shape_hessians(const unsigned int degree, const std::array<double, 2> &xi)
   {
+    // Second derivatives of the one-dimensional polynomials are constant: zero if linear, 1, -2, 1
+    // if quadratic.
     double n[2][3], dn[2][3];
     for (unsigned int d = 0; d < 2; ++d)
       lagrange(degree, xi[d], n[d], dn[d]);
@@ -87,6 +93,7 @@ namespace Touchstone
   node_coordinates(const Face &face, const unsigned int m)
   {
     const unsigned int p = face.degree;
+    // Lexicographic numbering of p + 1 equidistant nodes per direction.
     return {{2. * (m % (p + 1)) / p - 1., 2. * (m / (p + 1)) / p - 1.}};
   }
 
@@ -97,6 +104,7 @@ namespace Touchstone
   {
     const Tensor<1, dim> cross  = cross_product_3d(tangents[0], tangents[1]);
     const double         length = cross.norm();
+    // A degenerate face has no normal: return zero instead of dividing by it.
     return length > 0. ? cross / length : cross;
   }
 
@@ -116,6 +124,8 @@ namespace Touchstone
     FacePoint      result;
     Point<dim>     reference;
     Tensor<1, dim> displacement;
+    // Reference position, its tangents, and the displacement apart, as only the first two are
+    // projected.
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
       {
         reference += shapes.value[m] * face.reference[m];
@@ -123,6 +133,9 @@ namespace Touchstone
         for (unsigned int a = 0; a < 2; ++a)
           result.tangents[a] += shapes.gradient[m][a] * face.reference[m];
       }
+    // x(xi) = P(sum N_m X_m) + sum N_m u_m, equation (8): only the reference position is projected
+    // onto the exact surface; the projection maps its tangents by grad P. Displacements are added
+    // after that, without projection.
     if (exact)
       reference = exact->project_with(reference, result.tangents);
     for (unsigned int m = 0; m < face.n_nodes(); ++m)

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+// Areas of faces and of their nodes, int N_m, with derivatives: the measure of which part of a face
+// is covered (doc/theory.md 3.1), and the tributary areas by which forces become tractions.
 namespace Touchstone
 {
   using namespace dealii;
@@ -15,6 +17,8 @@ namespace Touchstone
     void
     for_each_face_point(const Face &face, const bool reference, const Visit &visit)
     {
+      // |t_1 x t_2| is no polynomial on warped faces; three points per direction integrate it with
+      // a shape function exactly on flat parallelograms of degree 1 and 2.
       static const QGauss<2> quadrature(3);
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
@@ -29,6 +33,7 @@ namespace Touchstone
               for (unsigned int a = 0; a < 2; ++a)
                 t[a] += shapes.gradient[m][a] * x;
             }
+          // The rule is for [0,1]^2, face coordinates are in [-1,1]^2.
           visit(4. * quadrature.weight(q), shapes, t);
         }
     }
@@ -41,6 +46,7 @@ namespace Touchstone
   {
     double sum = 0.;
     for_each_face_point(face, false, [&](const double w, const FaceShapes &, const auto &t) {
+      // In the present state.
       sum += w * cross_product_3d(t[0], t[1]).norm();
     });
     return sum;
@@ -59,6 +65,7 @@ namespace Touchstone
                           for (unsigned int m = 0; m < face.n_nodes(); ++m)
                             result[m] += weight * shapes.value[m];
                         });
+    // Integrals of N~ = C^T N are C^T times those of N (doc/theory.md 11).
     return basis ? basis->apply(result) : result;
   }
 
@@ -69,6 +76,7 @@ namespace Touchstone
   {
     std::array<std::array<std::array<double, Face::max_nodes>, dim>, Face::max_nodes> result{};
     for_each_face_point(face, false, [&](const double w, const FaceShapes &shapes, const auto &t) {
+      // d|c| = n . (dt_1 x t_2 + t_1 x dt_2) = dt_1 . (t_2 x n) + dt_2 . (n x t_1), n = c/|c|.
       const Tensor<1, dim> cross     = cross_product_3d(t[0], t[1]);
       const Tensor<1, dim> normal    = cross / cross.norm();
       const Tensor<1, dim> by_first  = cross_product_3d(t[1], normal),

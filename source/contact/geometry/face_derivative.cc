@@ -4,6 +4,9 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+// Derivatives of position, tangents and normal on a face by the positions and the nodal normals of
+// its nodes, at a fixed xi and by xi. Pairings chain them into derivatives of rows (doc/theory.md
+// 4, "Derivatives of rows"), which the consistent linearisation needs (equations (11) and (12)).
 namespace Touchstone
 {
   using namespace dealii;
@@ -11,6 +14,7 @@ namespace Touchstone
   Tensor<2, dim>
   cross_matrix(const Tensor<1, dim> &a)
   {
+    // The matrix A with A b = a x b.
     Tensor<2, dim> result;
     result[0][1] = -a[2];
     result[0][2] = a[1];
@@ -29,6 +33,7 @@ namespace Touchstone
     const double length = v.norm();
     if (length == 0.)
       return {};
+    // d(v/|v|) = (I - n n) dv / |v|. A zero vector has no direction and stays without derivative.
     const Tensor<1, dim> n      = v / length;
     Tensor<2, dim>       result = unit_symmetric_tensor<dim>();
     result -= outer_product(n, n);
@@ -43,6 +48,7 @@ namespace Touchstone
     std::array<Tensor<2, dim>, 2>
     own_normal_derivative(const FacePoint &point)
     {
+      // c = t_1 x t_2: dc = -t_2 x dt_1 + t_1 x dt_2, then the derivative of c/|c|.
       const Tensor<2, dim> direction =
         normalisation_derivative(cross_product_3d(point.tangents[0], point.tangents[1]));
       return {{-1. * direction * cross_matrix(point.tangents[1]),
@@ -56,11 +62,15 @@ namespace Touchstone
     : geometry(geometry)
   {
     const Face &face = geometry.face();
+    // What does not depend on xi is computed once per face: the control points of a patch, or the
+    // jumps between averaged and own normals at the nodes.
     if (geometry.smooth())
       patch = std::make_unique<GregoryPatch::Derivative>(GregoryPatch::differentiate(face));
     else if (geometry.interpolates_normals() && geometry.exact_surface())
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         {
+          // On an exact surface n = own normal + sum N_m (n_m - own normal at m), so the own
+          // normals at the nodes are functions of all node positions, too.
           const auto       xi    = node_coordinates(face, m);
           const FacePoint  point = geometry.evaluate(xi);
           const FaceShapes shapes(face.degree, xi);
@@ -97,8 +107,9 @@ namespace Touchstone
       for (unsigned int m = 0; m < 8; ++m)
         {
           const Tensor<2, dim> &d = (*patch)[k][m];
-          const bool            p = m < 4;
-          const unsigned int    i = m % 4;
+          // Control points depend on four positions and on four nodal normals.
+          const bool         p = m < 4;
+          const unsigned int i = m % 4;
           (p ? result.x_position : result.x_normal)[i] += basis.value[k] * d;
           for (unsigned int a = 0; a < 2; ++a)
             (p ? result.tangent_position : result.tangent_normal)[a][i] += basis.gradient[k][a] * d;
@@ -112,7 +123,8 @@ namespace Touchstone
                                                const std::array<double, 2> &xi) const
   {
     const auto by_tangents = own_normal_derivative(result.point);
-    const auto second      = geometry.second_derivatives(xi);
+    // The normal changes along xi with the tangents, by the second derivatives 11, 12, 22.
+    const auto second = geometry.second_derivatives(xi);
     for (unsigned int b = 0; b < 2; ++b)
       result.normal_xi[b] = by_tangents[0] * second[b] + by_tangents[1] * second[b + 1];
     for (unsigned int m = 0; m < geometry.face().n_nodes(); ++m)
@@ -138,6 +150,8 @@ namespace Touchstone
     const unsigned int n      = face.n_nodes();
     const FaceShapes  &shapes = result.shapes;
     Tensor<1, dim>     sum;
+    // The nodal normals n_m are differentiated elsewhere (NormalDerivative); here n depends on them
+    // with the shape N_m, and on positions over the own normals.
     if (geometry.exact_surface())
       {
         sum = own_normal;
@@ -157,12 +171,14 @@ namespace Touchstone
           for (unsigned int b = 0; b < 2; ++b)
             result.normal_xi[b] += shapes.gradient[m][b] * face.normals[m];
         }
+    // All derivatives so far are those of the sum s; the derivative of s/|s| is applied last.
     result.normal                  = sum / sum.norm();
     const Tensor<2, dim> direction = normalisation_derivative(sum);
     for (unsigned int b = 0; b < 2; ++b)
       result.normal_xi[b] = direction * result.normal_xi[b];
     for (unsigned int m = 0; m < n; ++m)
       {
+        // Through the normalisation s/|s| only the part perpendicular to n remains.
         result.normal_normal[m] = shapes.value[m] * direction;
         if (geometry.exact_surface())
           result.normal_position[m] = direction * result.normal_position[m];
@@ -185,7 +201,9 @@ namespace Touchstone
                           {},
                           {}};
     differentiate_position(result, xi);
-    // The normal of the surface itself, where it counts.
+    // The normal of the surface itself, unless the normal is interpolated from the nodes alone.
+    // Which of the contributions to the normal exist depends on "Master normal" and on the exact
+    // surface; see FaceGeometry::normal().
     const bool           interpolated = geometry.interpolates_normals();
     const Tensor<1, dim> own_normal   = result.point.normal();
     if (!interpolated || geometry.exact_surface())
@@ -204,7 +222,8 @@ namespace Touchstone
   {
     const Face          &face = geometry.face();
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
-    FacePosition         result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
+    // Position alone: all that the slave side of a gap needs, as the normal is that of the master.
+    FacePosition result{FaceShapes(face.degree, xi), geometry.evaluate(xi), {}, {}};
     if (patch)
       {
         const GregoryPatch::Basis basis(xi);

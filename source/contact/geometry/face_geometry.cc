@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+// The surface over a face to which gaps are measured: facet, exact surface or Gregory patch, and
+// its normal by the key "Master normal" (doc/theory.md 4). The position on bilinear faces has its
+// own path without shape functions, since searches evaluate it most often.
 namespace Touchstone
 {
   using namespace dealii;
@@ -16,6 +19,7 @@ namespace Touchstone
     , exact(exact)
     , kind(kind)
   {
+    // Where the exact surface is known a patch would only approximate it.
     if (kind == MasterNormal::smoothed && exact == nullptr)
       patch.emplace(face);
     else if (face.degree == 1)
@@ -33,15 +37,20 @@ namespace Touchstone
   FacePoint
   FaceGeometry::evaluate(const std::array<double, 2> &xi) const
   {
+    // A Gregory patch has its displacement in its control points.
     if (patch)
       return patch->evaluate(xi);
     if (data.degree > 1)
       return Touchstone::evaluate(data, exact, xi);
+    // Bilinear: reference position and displacement are evaluated apart, as only the former is
+    // projected onto the exact surface.
     FacePoint                     point;
     Tensor<1, dim>                u;
     std::array<Tensor<1, dim>, 2> du;
     reference.evaluate(xi, point.x, point.tangents);
     displacement.evaluate(xi, u, du);
+    // Project the reference position and map its tangents before the displacement is added:
+    // equation (8) of doc/theory.md 4.
     if (exact)
       point.x = exact->project_with(point.x, point.tangents);
     point.x += u;
@@ -79,6 +88,8 @@ namespace Touchstone
   FaceGeometry::position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const
   {
     const FacePoint point =
+      // The shapes at hand are of use for biquadratic faces only; bilinear faces and patches are
+      // cheaper by themselves.
       patch || data.degree == 1 ? evaluate(xi) : Touchstone::evaluate(data, exact, shapes);
     return {point.x, interpolates_normals() ? interpolated_normal(shapes, point) : point.normal()};
   }
@@ -90,7 +101,8 @@ namespace Touchstone
   {
     if (patch)
       return patch->second_derivatives(xi);
-    const auto                    hessians = shape_hessians(data.degree, xi);
+    const auto hessians = shape_hessians(data.degree, xi);
+    // 11, 12, 22 of the reference position and of the displacement.
     std::array<Tensor<1, dim>, 3> of_reference, result;
     for (unsigned int m = 0; m < data.n_nodes(); ++m)
       for (unsigned int a = 0; a < 3; ++a)
@@ -111,12 +123,16 @@ namespace Touchstone
               t[a] += shapes.gradient[m][a] * data.reference[m];
           }
         const Tensor<2, dim> gradient = exact->projection_gradient(x);
-        const double         step     = 1e-5; // in xi, where a face measures 2
-        Tensor<2, dim>       change[2];
+        // A central difference, since surfaces give their projection and its gradient but no second
+        // derivative. Its error is of the order of the square of the step.
+        const double   step = 1e-5; // in xi, where a face measures 2
+        Tensor<2, dim> change[2];
         for (unsigned int b = 0; b < 2; ++b)
           change[b] = (exact->projection_gradient(x + step * t[b]) -
                        exact->projection_gradient(x - step * t[b])) /
                       (2. * step);
+        // The mixed derivative from one order of differentiation only; both agree up to the error
+        // of the difference.
         result[0] += change[0] * t[0];
         result[1] += change[1] * t[0];
         result[2] += change[1] * t[1];
@@ -140,6 +156,9 @@ namespace Touchstone
         result += shapes.value[m] * data.normals[m];
     else
       {
+        // The own normal of the moved exact surface jumps at the edges between faces, because
+        // displacements are only continuous. Adding the interpolated difference to the averaged
+        // nodal normals makes it continuous (doc/theory.md 4, "Normals").
         result = point.normal();
         for (unsigned int m = 0; m < data.n_nodes(); ++m)
           result += shapes.value[m] * (data.normals[m] - data.own_normals[m]);
@@ -164,6 +183,9 @@ namespace Touchstone
     mean = Tensor<1, dim>();
     for (unsigned int m = 0; m < data.n_nodes(); ++m)
       mean += shapes.value[m] * data.edge_normals[m];
+    // At a sharp edge the averages for this face leave out the faces beyond the edge, so its
+    // interpolated normal differs from the mean over all faces (the pseudonormal); elsewhere both
+    // are the same.
     return interpolated_normal(shapes, evaluate(xi)) * mean <
            Tolerances::same_normal_cosine * mean.norm();
   }

@@ -6,6 +6,10 @@
 #include <Sacado.hpp>
 #include <cmath>
 
+// Gregory patches: smooth surfaces over bilinear faces that meet with a common tangent plane at
+// their edges (doc/theory.md 4, "Smoothing"; Chiyokura and Kimura 1983). The control points are
+// templates of the number type, so that the same code gives positions and, with Sacado numbers,
+// their derivatives.
 namespace Touchstone
 {
   using namespace dealii;
@@ -23,10 +27,15 @@ namespace Touchstone
                        const Vector3<Number>                &d0,
                        const Vector3<Number>                &d3)
     {
+      // The derivative c' of the cubic boundary curve is a quadratic Bezier curve with these
+      // coefficients.
       Vector3<Number> along[3];
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int d = 0; d < dim; ++d)
           along[i][d] = 3. * (c[i + 1][d] - c[i][d]);
+      // In the tangent plane, perpendicular to the curve: g = n x c' at both ends. The given
+      // derivatives d0 and d3 across the edge are split into components along g and c', which k and
+      // h interpolate linearly.
       const Vector3<Number> g0 = cross(n[0], along[0]), g1 = cross(n[1], along[2]);
       const Number          k0 = dot(d0, g0) / dot(g0, g0);
       const Number          k1 = dot(d3, g1) / dot(g1, g1);
@@ -36,6 +45,8 @@ namespace Touchstone
       std::array<Vector3<Number>, 2> result;
       for (unsigned int d = 0; d < dim; ++d)
         {
+          // Bernstein coefficients 1 and 2 of the cubic k g + h c': a product of a linear and a
+          // linear (k g) or quadratic (h c') function, raised to degree 3.
           const Number mixed = k0 * g1[d] + k1 * g0[d];
           result[0][d]       = (k0 * g0[d] + mixed + 2. * h0 * along[1][d] + h1 * along[0][d]) / 3.;
           result[1][d]       = (k1 * g1[d] + mixed + 2. * h1 * along[1][d] + h0 * along[2][d]) / 3.;
@@ -43,7 +54,7 @@ namespace Touchstone
       return result;
     }
 
-    /** Number of the control point (i, j). The inner ones that belong to the edges
+    /** Index of the control point (i, j). The inner ones that belong to the edges
      * xi_2 = +-1 are numbered like this, those of the edges xi_1 = +-1 from 16. */
     constexpr unsigned int
     control(const unsigned int i, const unsigned int j)
@@ -66,6 +77,7 @@ namespace Touchstone
       Vector3<Number> chord = b;
       for (unsigned int d = 0; d < dim; ++d)
         chord[d] -= a[d];
+      // Householder reflection: a circle has its normals at the ends of a chord mirrored along it.
       const Number    along  = 2. * dot(n, chord) / dot(chord, chord);
       Vector3<Number> result = n;
       for (unsigned int d = 0; d < dim; ++d)
@@ -73,7 +85,7 @@ namespace Touchstone
       return result;
     }
 
-    /** At the edge of the whole surface the averages know one side only and are
+    /** At the edge of the whole surface nodal normals are averages over faces on one side only and
      * wrong by half the angle between faces. There the normal of the next node inward
      * is mirrored, as on a circle; neighbours along the edge do the same. Where two such edges
      * meet, the normal of the node across is mirrored over one of its neighbours and over the
@@ -135,6 +147,8 @@ namespace Touchstone
             const Number at_a = dot(chord, n[a]), at_b = dot(chord, n[b]);
             for (unsigned int d = 0; d < dim; ++d)
               {
+                // A cubic Bezier curve: its inner control points are a third of the chord,
+                // projected on the tangent planes of the nodes, from the ends.
                 p[index(first, 0, row)][d] = x[a][d];
                 p[index(first, 1, row)][d] = x[a][d] + (chord[d] - at_a * n[a][d]) / 3.;
                 p[index(first, 2, row)][d] = x[b][d] - (chord[d] - at_b * n[b][d]) / 3.;
@@ -150,6 +164,8 @@ namespace Touchstone
             std::array<Vector3<Number>, 4> c;
             for (unsigned int i = 0; i < 4; ++i)
               c[i] = p[index(first, i, row)];
+            // Derivatives across the edge at its ends are those of the two boundary curves that
+            // leave it there.
             Vector3<Number> d0 = p[index(first, 0, inner)], d3 = p[index(first, 3, inner)];
             for (unsigned int d = 0; d < dim; ++d)
               {
@@ -160,6 +176,8 @@ namespace Touchstone
               inner_coefficients<Number>(c, std::array<Vector3<Number>, 2>{{n[a], n[b]}}, d0, d3);
             for (const unsigned int i : {1, 2})
               {
+                // Each inner control point exists twice, once for either adjacent edge, since both
+                // conditions of tangent planes cannot be met by one point.
                 auto &point = p[first ? control(i, inner) : second_control(inner, i)];
                 for (unsigned int d = 0; d < dim; ++d)
                   point[d] = c[i][d] + across[i - 1][d] / 3.;
@@ -191,6 +209,7 @@ namespace Touchstone
   GregoryPatch::Derivative
   GregoryPatch::differentiate(const Face &face)
   {
+    // Forward derivatives by four positions and four normals.
     constexpr int n_variables = 8 * dim;
     using Number              = Sacado::Fad::SFad<double, n_variables>;
     std::array<Vector3<Number>, 4> x, n;
@@ -255,7 +274,9 @@ namespace Touchstone
           const double sign[2] = {i == 1 ? 0.5 : -0.5, j == 1 ? 0.5 : -0.5};
           const double p = i == 1 ? t[0] : 1. - t[0], q = j == 1 ? t[1] : 1. - t[1];
           const double s = p + q;
-          double       r = 0.5, r1 = 0., r2 = 0., r11 = 0., r12 = 0., r22 = 0.;
+          // At a corner r has no limit, but its f vanishes there with its first derivatives: the
+          // mean is as good as any value.
+          double r = 0.5, r1 = 0., r2 = 0., r11 = 0., r12 = 0., r22 = 0.;
           if (s > 0.)
             {
               r   = p / s;
@@ -266,6 +287,8 @@ namespace Touchstone
               r22 = 2. * sign[1] * sign[1] * p / (s * s * s);
             }
           const unsigned int k = control(i, j), l = second_control(i, j);
+          // The two copies of an inner control point share its Bernstein polynomial f with the
+          // rational weights r and 1 - r; product rule for the derivatives.
           value[k]    = r * f;
           gradient[k] = {{r * f1 + r1 * f, r * f2 + r2 * f}};
           hessian[k]  = {{r * f11 + 2. * r1 * f1 + r11 * f,

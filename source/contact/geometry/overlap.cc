@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+// Quadrature on the common part of a slave and a master face, on which averaged rows are integrated
+// (doc/theory.md 3; Puso 2004). differentiated_overlap.cc is the same with derivatives.
 namespace Touchstone
 {
   using namespace dealii;
@@ -41,6 +43,8 @@ namespace Touchstone
                 for (unsigned int d = 0; d < dim; ++d)
                   t[a][d] += shapes.gradient[m][a] * x[m][d];
           }
+        // Integrals are over the slave face itself and not over its projection: otherwise the areas
+        // of warped or curved faces would not add up to those of the surface.
         const Vector3<double> c = cross(t[0], t[1]);
         return std::sqrt(dot(c, c)) / std::abs(dot(c, normal));
       }
@@ -68,7 +72,7 @@ namespace Touchstone
     for (std::size_t f = 0; f < masters.size(); ++f)
       {
         const ProjectedFace<double> of_master(*masters[f], positions(*masters[f]), plane);
-        // Most faces that are near are beside it.
+        // Most candidates are beside the slave face.
         if (apart(of_slave, of_master))
           continue;
         points.clear();
@@ -76,6 +80,8 @@ namespace Touchstone
                               of_master,
                               [&](const Point2<double> &position, const double weight) {
                                 OverlapPoint point;
+                                // A point that is mapped to no coordinates near either face comes
+                                // from a folded projection; it is left out.
                                 if (!of_slave.invert(position, point.slave) ||
                                     !of_master.invert(position, point.master))
                                   return;
@@ -103,11 +109,16 @@ namespace Touchstone
     const Positions<double>    x = positions(slave), y = positions(master);
     const TangentPlane<double> plane(slave, x);
     const Vector3<double>      normal = cross(plane.e1, plane.e2);
-    double                     height = 0.;
+    // Largest distance of a master node from the plane of the slave face, length.
+    double height = 0.;
     for (unsigned int m = 0; m < master.n_nodes(); ++m)
       height = std::max(height, std::abs(dot(normal, y[m]) - dot(normal, plane.origin)));
-    // The plane may tilt, and then projections move by the height.
+    // The plane may tilt by an angle of about motion / size; projections then move by the height
+    // times this angle.
     const double tilt = motion * (1. / plane.length + plane.length / plane.area);
+    // Relative positions in the plane change by twice the motion, as both faces move, and by the
+    // tilt times the height. The factor in front is a margin: a candidate too many costs little, a
+    // missed one changes the contact.
     return !apart(ProjectedFace<double>(slave, x, plane),
                   ProjectedFace<double>(master, y, plane),
                   2. * (2. * motion + tilt * height));

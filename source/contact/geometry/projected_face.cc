@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+// Faces projected on a plane: the inverse of their maps, by which quadrature points on the overlap
+// get coordinates on both faces, and a quick test that two faces are apart.
 namespace Touchstone
 {
   using namespace dealii;
@@ -26,19 +28,21 @@ namespace Touchstone
   {
     constexpr unsigned int max_inversion_steps = 20;
 
-    /** Whether @p xi are coordinates of a point on a face or not far beside it. Newton's method
-     * goes astray where the map folds. */
+    /** Whether @p xi are coordinates of a point on a face or not far beside it. Where the map of a
+     * distorted face folds, Newton's method may converge to a point far away. */
     bool
     near_face(const std::array<double, 2> &xi)
     {
       return std::abs(xi[0]) < 1.5 && std::abs(xi[1]) < 1.5;
     }
 
-    /** Where @p map takes the value @p x, by Newton's method.
-     * @return false if that is not near the face. */
+    /** Solve map(xi) = x by Newton's method.
+     * @return false if the solution is not near the face. */
     bool
     invert_bilinear(const Bilinear<2> &map, const Point2<double> &x, std::array<double, 2> &xi)
     {
+      // x(xi) = c_0 + c_1 xi_1 + c_2 xi_2 + c_3 xi_1 xi_2. The residual after a Newton step is -d_1
+      // d_2 c_3 exactly, so the position need not be evaluated again.
       const auto          &c = map.c;
       const Point2<double> mixed{c[3][0], c[3][1]};
       Point2<double>       t[2] = {{c[1][0], c[1][1]}, {c[2][0], c[2][1]}};
@@ -75,6 +79,7 @@ namespace Touchstone
     xi = {{0., 0.}};
     for (unsigned int iteration = 0; iteration < max_inversion_steps; ++iteration)
       {
+        // Biquadratic faces: Newton's method with the full map.
         Point2<double>       t[2];
         const Point2<double> position = evaluate(FaceShapes(face.degree, xi), t);
         const Point2<double> r{x.x - position.x, x.y - position.y};
@@ -84,7 +89,7 @@ namespace Touchstone
         const double d[2] = {cross(r, t[1]) / jacobian, cross(t[0], r) / jacobian};
         xi[0] += d[0];
         xi[1] += d[1];
-        // The error that is left is of the order of the square.
+        // Convergence is quadratic: the remaining error is about the square of this step.
         if (std::abs(d[0]) + std::abs(d[1]) < 1e-8)
           break;
       }
@@ -112,6 +117,8 @@ namespace Touchstone
     };
     for (const auto axis : {&Point2<double>::x, &Point2<double>::y})
       {
+        // Bounding boxes along the axes of the plane: no overlap of the boxes, no overlap of the
+        // faces.
         const auto of_a = range(a, axis), of_b = range(b, axis);
         if (of_a.second + distance <= of_b.first || of_b.second + distance <= of_a.first)
           return true;

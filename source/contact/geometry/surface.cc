@@ -11,18 +11,23 @@
 #include <map>
 #include <numeric>
 
+// One side of a contact pair as this rank sees it: its boundary faces, the nodes that carry rows
+// with their tributary areas, and averaged normals. Faces of ghost cells are kept as well, so that
+// areas and normals of owned nodes are complete without communication in each iteration; the faces
+// farther away that hanging nodes need are exchanged once per mesh (doc/theory.md 11).
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** A number for the face of a cell that does not depend on the partition:
+    /** An identifier for the face of a cell that does not depend on the partition:
      * the path to the cell in the forest, in 30 bits for ten levels; the level, which
      * tells a cell from its first child; and the face. */
     std::uint64_t
     face_key(const CellId &id, const unsigned int face)
     {
+      // 27 bits for the coarse cell, 30 for the path, 4 for the level and 3 for the face make 64.
       constexpr unsigned int max_level = 10;
       const auto             path      = id.get_child_indices();
       AssertThrow(path.size() <= max_level && id.get_coarse_cell_id() < (1u << 27),
@@ -65,8 +70,7 @@ namespace Touchstone
       return result;
     }
 
-    /** A face takes its share of the average only from faces that it meets in
-     * less than a sharp edge. */
+    /** Whether two faces at a node are averaged: they do not meet in a sharp edge. */
     bool
     averaged_with(const Tensor<1, dim> &unit_normal, const Tensor<1, dim> &own)
     {
@@ -94,12 +98,13 @@ namespace Touchstone
   Surface::edges(const Face &face)
   {
     // In the order of the bits of Face::outer_edges.
-    const unsigned int p    = face.degree;
-    const Index        c[4] = {face.nodes[0],
-                               face.nodes[p],
-                               face.nodes[(p + 1) * p],
-                               face.nodes[(p + 1) * (p + 1) - 1]};
-    const auto         pair = [](const Index a, const Index b) {
+    const unsigned int p = face.degree;
+    // Corners in the numbering of the face, xi_1 first: (-1,-1), (1,-1), (-1,1), (1,1).
+    const Index c[4] = {face.nodes[0],
+                        face.nodes[p],
+                        face.nodes[(p + 1) * p],
+                        face.nodes[(p + 1) * (p + 1) - 1]};
+    const auto  pair = [](const Index a, const Index b) {
       return std::make_pair(std::min(a, b), std::max(a, b));
     };
     return {{pair(c[0], c[2]), pair(c[1], c[3]), pair(c[0], c[1]), pair(c[2], c[3])}};
@@ -119,7 +124,7 @@ namespace Touchstone
     mark_outer_edges(collect_faces(solid, body));
     if (solid.has_hanging_nodes())
       exchange_far_faces(solid);
-    // No face is added from here on: what refers to them stays valid.
+    // No face is added from here on, so pointers to faces stay valid.
     collect_nodes_of_faces();
     collect_owned_nodes(solid);
     measure_faces(solid.communicator);
@@ -143,6 +148,7 @@ namespace Touchstone
               continue;
             cell->get_dof_indices(dofs);
             Face face;
+            // Keys are the same on every rank: sums in their order do not depend on the partition.
             face.key      = face_key(cell->id(), f);
             face.degree   = solid.fe.degree;
             face.boundary = cell->face(f)->boundary_id();
@@ -157,6 +163,9 @@ namespace Touchstone
               traces.emplace(face.key, TraceBasis(face, solid.hanging));
             (cell->is_locally_owned() ? faces : ghost_faces).push_back(face);
 
+            // A line of the face that is refined on the other side: its halves belong to smaller
+            // faces with other nodes, so counting equal edges alone would take it for the end of
+            // the surface.
             for (unsigned int l = 0; l < GeometryInfo<2>::lines_per_cell; ++l)
               {
                 const auto line = cell->face(f)->line(l);
@@ -201,6 +210,7 @@ namespace Touchstone
   void
   Surface::collect_owned_nodes(const Solid &solid)
   {
+    // A map, for ascending order of the nodes.
     std::map<Index, SurfaceNode> found;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
@@ -216,6 +226,8 @@ namespace Touchstone
               const Index index = basis ? basis->nodes[m] : face.nodes[m];
               if (!solid.owned.is_element(dim * index))
                 continue;
+              // The area A = int N_s of the reference state, by which forces become tractions
+              // (doc/theory.md 1).
               SurfaceNode &node = found[index];
               node.node         = index;
               node.area += areas[m];
@@ -239,6 +251,8 @@ namespace Touchstone
       for (const Face &face : *list)
         {
           const unsigned int last = face.n_nodes() - 1, p = face.degree;
+          // The longest diagonal sets the reach of searches, the shortest side the motion up to
+          // which their candidates remain valid; both are the same on all ranks.
           diagonal = std::max({diagonal,
                                face.reference[0].distance(face.reference[last]),
                                face.reference[p].distance(face.reference[last - p])});
@@ -255,13 +269,16 @@ namespace Touchstone
   void
   Surface::mark_outer_edges(const std::vector<SplitEdge> &split_edges)
   {
+    // An edge of the interior belongs to two faces. Ghost faces count as well, or the border of a
+    // rank would be taken for the end of the surface; only owned faces are marked, since the
+    // neighbours of ghosts may be unknown.
     std::map<Edge, unsigned int> count;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
         for (const Edge &edge : edges(face))
           ++count[edge];
-    // A larger face and its two neighbours on one side of it meet without sharing
-    // an edge.
+    // A larger face and its two smaller neighbours on one side meet without sharing an edge: their
+    // edges are counted for each other.
     for (const auto &[whole, halves] : split_edges)
       for (const Edge &part : halves)
         {
@@ -275,6 +292,7 @@ namespace Touchstone
       {
         const auto all = edges(face);
         for (unsigned int e = 0; e < 4; ++e)
+          // Nobody shares it: the surface ends there.
           if (count[all[e]] == 1)
             face.outer_edges |= 1u << e;
       }
@@ -306,6 +324,7 @@ namespace Touchstone
             if (basis->nodes[m] != face.nodes[m] && !solid.owned.is_element(dim * basis->nodes[m]))
               visit(face, *basis, dim * basis->nodes[m]);
     };
+    // Who owns these nodes is not known from the ghost layer: ask (collective).
     IndexSet foreign(solid.owned.size());
     for_each_foreign(
       [&](const Face &, const TraceBasis &, const Index dof) { foreign.add_index(dof); });
@@ -316,6 +335,7 @@ namespace Touchstone
     std::set<std::pair<unsigned int, std::uint64_t>>   sent;
     for_each_foreign([&](const Face &face, const TraceBasis &basis, const Index dof) {
       const unsigned int rank = owners[foreign.index_within_set(dof)];
+      // Once to each rank, however many of its nodes the face has.
       if (sent.emplace(rank, face.key).second)
         messages[rank].push_back({face, basis});
     });
@@ -326,13 +346,16 @@ namespace Touchstone
     for (const auto &[rank, received] : exchange_records(messages, solid.communicator))
       for (const FaceWithTrace &record : received)
         {
-          // This rank may see the face, but not all that its nodes follow.
+          // This rank may know the face as a ghost, but not all nodes that its hanging nodes
+          // follow.
           traces[record.face.key] = record.basis;
           if (!known.insert(record.face.key).second)
             continue;
           ghost_faces.push_back(record.face);
           for (unsigned int m = 0; m < record.face.n_nodes(); ++m)
             for (unsigned int d = 0; d < dim; ++d)
+              // Positions of these nodes are needed in each iteration: their dofs become further
+              // ghosts of displacement vectors.
               far.push_back(dim * record.face.nodes[m] + d);
         }
   }
@@ -350,7 +373,7 @@ namespace Touchstone
   std::vector<std::array<Stencil, 2>>
   Surface::material_tangents() const
   {
-    // In the order of keys, so that every partition sums up the same.
+    // Summed in the order of keys, so that results do not depend on the partition.
     std::unordered_map<Index, std::vector<std::pair<const Face *, unsigned int>>> around;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
@@ -370,6 +393,8 @@ namespace Touchstone
         Tensor<1, dim>                             normal;
         for (const auto &[face, corner] : list)
           {
+            // The frame of the node: its mean normal in the reference state and two directions
+            // perpendicular to it.
             const FaceShapes              shapes(face->degree, node_coordinates(*face, corner));
             std::array<Tensor<1, dim>, 2> t;
             for (unsigned int m = 0; m < face->n_nodes(); ++m)
@@ -392,6 +417,9 @@ namespace Touchstone
         directions[0] /= directions[0].norm();
         directions[1] = -cross_product_3d(normal, directions[0]);
 
+        // Each direction d is the image of a combination c_0, c_1 of the face tangents; sum_m (c .
+        // grad N_m) x_m is then a vector of the surface that moves with the material. Solved by the
+        // metric g_ab = t_a . t_b.
         std::array<std::map<Index, double>, 2> sum;
         for (std::size_t f = 0; f < list.size(); ++f)
           {
@@ -409,7 +437,8 @@ namespace Touchstone
                 std::array<double, Face::max_nodes> weights{};
                 for (unsigned int m = 0; m < face->n_nodes(); ++m)
                   weights[m] = c0 * shapes.gradient[m][0] + c1 * shapes.gradient[m][1];
-                // Conditions on the slip must not refer to nodes that follow the slave node.
+                // Constraints on the slip must not refer to hanging nodes, which follow the slave
+                // node: a constraint would then depend on itself.
                 const TraceBasis *basis = trace(*face);
                 if (basis)
                   weights = basis->apply(weights);
@@ -465,10 +494,15 @@ namespace Touchstone
             for (unsigned int l = 0; l < face.n_nodes(); ++l)
               for (unsigned int a = 0; a < 2; ++a)
                 t[a] += at_nodes[m].gradient[l][a] * face.displacement[l];
+            // The area vector t_1 x t_2 of the face at the node: faces count by their area around
+            // it.
             face.normals[m]     = cross_product_3d(t[0], t[1]);
             const double length = face.normals[m].norm();
             face.own_normals[m] = length > 0. ? face.normals[m] / length : face.normals[m];
           }
+    // Average the area vectors around each node, once over all faces (edge_normals, the
+    // pseudonormal of an edge) and once for each face over those that it does not meet in a sharp
+    // edge (normals).
     std::vector<Tensor<1, dim>> parts, units;
     for (auto &[node, all, list] : surface_nodes)
       {
@@ -490,6 +524,7 @@ namespace Touchstone
           {
             const auto &[face, m] = list[k];
             face->edge_normals[m] = face->normals[m] = all;
+            // Around a smooth node both averages are the same for all faces.
             if (smooth)
               continue;
             Tensor<1, dim> sum;
@@ -507,6 +542,7 @@ namespace Touchstone
   std::vector<NormalDerivative>
   Surface::normal_derivative(const Face &face) const
   {
+    // Tangents at the nodes of the present state, as in move().
     const auto tangents = [this](const Face &f, const unsigned int m) {
       return evaluate(f, exact_surface(f), node_coordinates(f, m)).tangents;
     };
@@ -515,6 +551,8 @@ namespace Touchstone
       {
         const std::size_t first = result.size();
         Tensor<1, dim>    sum;
+        // n = s/|s| with the sum s of the area vectors of the faces with which this one is
+        // averaged, each a function of all nodes of its face.
         for (const auto &[f, k] : node_of_faces(face.nodes[m]).faces)
           {
             const auto           t    = tangents(*f, k);
@@ -537,6 +575,7 @@ namespace Touchstone
                                [&](const NormalDerivative &d) { return d.node == f->nodes[l]; });
                 if (entry == result.end())
                   entry = result.insert(entry, {m, f->nodes[l], Tensor<2, dim>()});
+                // A node of several of these faces gets one entry.
                 entry->value += gradient[0] * by_first + gradient[1] * by_second;
               }
           }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+// All directions in which a contact force may act on a surface at a node: non-negative combinations
+// of the normals of the faces around it. UnresolvedContact measures how far a force lies outside
+// (doc/theory.md 4.1).
 namespace Touchstone
 {
   using namespace dealii;
@@ -26,6 +29,8 @@ namespace Touchstone
   {
     const auto faces = surface.faces_around(node);
     for (const auto &[face, m] : faces)
+      // Normals at the other nodes of these faces belong to the cone: on curved facets the force of
+      // a node acts over all of its faces.
       for (unsigned int l = 0; l < face->n_nodes(); ++l)
         {
           around.push_back(face->nodes[l]);
@@ -36,6 +41,9 @@ namespace Touchstone
 
     for (const auto &[face, m] : faces)
       {
+        // Where an edge at the node belongs to one face only, the surface ends and the body goes on
+        // behind it with a side that is not part of the pair: directions up to the outward one in
+        // the tangent plane of the face, across that edge, are admitted.
         const unsigned int p = face->degree, last = face->n_nodes() - 1;
         const unsigned int edges[4][2] = {{0, last - p}, {p, last}, {0, p}, {last - p, last}};
         const auto         xi          = node_coordinates(*face, m);
@@ -54,6 +62,7 @@ namespace Touchstone
             Tensor<1, dim> away =
               cross_product_3d(face->position(j) - face->position(i), face->own_normals[m]);
             away /= away.norm();
+            // Oriented away from the opposite edge of the face.
             const double side = away * (face->position(i) - face->position(last - j));
             normals.push_back(side > 0. ? away : -1. * away);
           }
@@ -75,6 +84,8 @@ namespace Touchstone
         double change = 0.;
         for (std::size_t k = 0; k < normals.size(); ++k)
           {
+            // Minimise |direction - sum c_k n_k|^2 by c_k alone, as the n_k are unit vectors;
+            // "left" is the residual vector.
             const double next = std::max(0., c[k] + left * normals[k]);
             left -= (next - c[k]) * normals[k];
             change = std::max(change, std::abs(next - c[k]));

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+// The basis of the continuous displacements on a face with hanging nodes, N~ = C^T N, written with
+// as many nodes as the face has: the nodes that hanging ones follow replace these (doc/theory.md
+// 11, "Hanging nodes").
 namespace Touchstone
 {
   using namespace dealii;
@@ -11,6 +14,7 @@ namespace Touchstone
   bool
   TraceBasis::needed(const Face &face, const AffineConstraints<double> &hanging)
   {
+    // All components of a node hang together, so the constraint of the first one tells.
     return std::any_of(face.nodes.begin(), face.nodes.begin() + face.n_nodes(), [&](const Index m) {
       return hanging.is_constrained(dim * m);
     });
@@ -36,9 +40,12 @@ namespace Touchstone
                 std::find(parents.begin(), parents.end(), entry.first / dim) == parents.end())
               parents.push_back(entry.first / dim);
         }
+    // The order is immaterial, as the weights below refer to the new list. With more new nodes than
+    // hanging ones C would not be square; that is checked below.
     for (unsigned int k = 0; k < std::min(hanging_nodes.size(), parents.size()); ++k)
       nodes[hanging_nodes[k]] = parents[k];
     for (unsigned int i = 0; i < n; ++i)
+      // A node that does not hang follows itself.
       if (!hanging.is_constrained(dim * face.nodes[i]))
         weights[i][i] = 1.;
       else
@@ -47,6 +54,7 @@ namespace Touchstone
             const auto found = std::find(nodes.begin(), end, entry.first / dim);
             AssertThrow(found != end,
                         ExcMessage("A face has more parents of hanging nodes than nodes."));
+            // Row i of C: u_i = sum_p C_ip u_p on the face (doc/theory.md 11).
             weights[i][found - nodes.begin()] = entry.second;
           }
   }
@@ -59,6 +67,7 @@ namespace Touchstone
     std::array<double, Face::max_nodes> result{};
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int p = 0; p < n; ++p)
+        // C^T times values: what belongs to node i goes to the nodes that it follows.
         result[p] += weights[i][p] * values[i];
     return result;
   }
@@ -71,6 +80,7 @@ namespace Touchstone
     Stencil result;
     for (unsigned int p = 0; p < n; ++p)
       if (weights[i][p] != 0.)
+        // Row i of C without zeros: the nodes that node i of the face follows.
         result.push_back({nodes[p], weights[i][p]});
     return result;
   }

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <numeric>
 
+// Collects the derivatives of averaged rows for the consistent linearisation (doc/theory.md 4,
+// "Derivatives of rows"; 5, "Linearisation"). Only rows that were active are differentiated: open
+// rows contribute no force and no condition.
 namespace Touchstone
 {
   using namespace dealii;
@@ -37,6 +40,8 @@ namespace Touchstone
                                const TraceBasis                *basis,
                                const std::vector<const Face *> &covering)
   {
+    // The number of nodes is a template parameter: derivative numbers have a fixed length of 24 or
+    // 54.
     if (slave.face().degree == 1)
       add<4>(slave, basis, covering);
     else
@@ -55,21 +60,26 @@ namespace Touchstone
     typename SlaveFaceDerivative<n>::Parts parts;
     for (const Face *face : covering)
       {
+        // Most candidates do not overlap; they are recognised without derivatives.
         const auto points = differentiated_overlap<n>(slave.face(), *face);
         if (points.empty())
           continue;
+        // What belongs to a master face alone (patch, derivatives of its control points) is
+        // computed once, though several slave faces may meet it.
         const Master &master = masters.try_emplace(face, exchange.geometry(*face)).first->second;
         auto         &part   = parts.emplace_back(master.geometry);
         for (const auto &point : points)
           part.add(point, on_slave, master.differentiator);
       }
-    // Where the surfaces are too inclined to each other nothing is covered: the rows have
-    // nothing of this face.
+    // Where the surfaces are too inclined to each other nothing counts as covered: the face
+    // contributes to no row (doc/theory.md 3.2).
     const auto areas = total_areas<n>(parts);
     if (std::accumulate(areas.begin(), areas.end(), 0.) <= 0.)
       return;
     const SlaveFaceDerivative<n> face(slave, basis, parts, gradual);
     for (unsigned int k = 0; k < n; ++k)
+      // A face contributes to the rows of all its nodes, or of the nodes that its hanging nodes
+      // follow.
       if (const auto row = rows.find(face.own[k]); row != rows.end())
         row->second.add_face(k, face);
   }
@@ -80,11 +90,14 @@ namespace Touchstone
   AveragedDerivative::finish()
   {
     using Derivatives = std::unordered_map<const Face *, std::vector<NormalDerivative>>;
+    // Nodal normals depend on faces of other ranks: their derivatives are requested from the owners
+    // for all rows at once. Collective, also on ranks without active rows.
     std::vector<const Face *> needed;
     for (const auto &[face, master] : masters)
       needed.push_back(face);
     const Derivatives of_masters = exchange.normal_derivatives(needed);
     Derivatives       of_slaves;
+    // Slave normals matter only where slave faces are smooth patches.
     if (slave_exchange)
       {
         needed.clear();

@@ -14,6 +14,11 @@
 #include <optional>
 #include <unordered_map>
 
+// The pairing "averaged" (mortar with a dual basis, condensed to rows of single slave nodes):
+// update() finds the covering master faces of each slave face, integrates over the common parts,
+// and makes weights, normal and gap of the rows from the sums over the faces around each node
+// (doc/theory.md 3, 3.1, 3.2). The rows of nodes at the border of a rank are summed on the owner of
+// the node, which also knows the faces of ghost cells around it.
 namespace Touchstone
 {
   using namespace dealii;
@@ -21,16 +26,16 @@ namespace Touchstone
   namespace
   {
     /**
-     * Rows that pass the patch test: the stencil of a slave node are averages of
+     * Rows that pass the patch test: the weights of a stencil are averages of
      * the master shapes, weighted with the dual basis of its slave faces. With
      * int psi_s N_t = delta_st int N_s the gap of the slave side is that of the
      * node alone, so a row keeps its form.
      * A face with hanging nodes takes the basis of the continuous displacements
-     * instead of its shape functions, and rows go to the nodes that these follow.
+     * instead of its shape functions; rows belong to the nodes that the hanging ones follow.
      * Wohlmuth (2000), SIAM J. Numer. Anal. 38; on faces that are covered only in
      * part the basis is dual on the covered part: Popp, Seitz, Gee and Wall (2013),
-     * Comput. Methods Appl. Mech. Engng 264. Nodes of which little is covered leave it to
-     * others (CoverShares), whose stencils then contain them.
+     * Comput. Methods Appl. Mech. Engng 264. Nodes of which little is covered give
+     * their part to others (CoverShares), whose stencils then contain them.
      */
     class AveragedPairing : public Pairing
     {
@@ -68,18 +73,20 @@ namespace Touchstone
                   slave.row[m] = found != row_of_node.end() ? found->second : -1;
                   any          = any || found != row_of_node.end();
                 }
+              // Faces without a node of this rank contribute to no row here.
               if (any)
                 faces.push_back(slave);
             }
         std::sort(faces.begin(), faces.end(), [](const SlaveFace &a, const SlaveFace &b) {
           return a.face->key < b.face->key;
         });
+        // Copies, in which the displacement at the start of the step is kept as well.
         slave_faces.reserve(faces.size());
         for (const SlaveFace &face : faces)
           slave_faces.push_back({*face.face, {}});
         search.commit(nullptr);
-        // Both sides of the gap are smooth or none, or it would be measured from
-        // facets that stray from their surface to one that does not. The normals of
+        // Either both sides of the gap are smooth or none: the deviation of facets on one side
+        // from their smooth surface would be taken for a gap. The normals of
         // faces of ghost cells are known to their owners only.
         if (kind == MasterNormal::smoothed)
           slave_exchange = std::make_unique<FaceExchange>(*input.slave,
@@ -106,7 +113,7 @@ namespace Touchstone
       void
       remember(const PairingMemory &memory) override
       {
-        // Of all ranks; those of this one are enough.
+        // The memory has the faces of all ranks; this rank keeps those of its own slave faces.
         FacingFaces::Touched own;
         for (const CoveredFace &covered : slave_faces)
           if (const auto found = memory.of_faces.find(covered.slave.key);
@@ -130,7 +137,7 @@ namespace Touchstone
       Search       search;
       FacingFaces  facing;
       MasterNormal kind;
-      /** Rows of tied pairs act once and for all: there is nothing to be smooth. */
+      /** Rows of tied pairs are made once, so they need not depend smoothly on the cover. */
       const bool tied;
       /** The slave faces, only if they are smoothed. */
       std::unique_ptr<FaceExchange> slave_exchange;
@@ -156,7 +163,7 @@ namespace Touchstone
       std::unordered_map<Index, int> row_of_node;
       std::vector<SlaveFace>         faces;
 
-      /** Of the faces that the search knows, made when one is first asked for. */
+      /** Geometries of the faces that the search knows, made on demand. */
       std::vector<std::optional<FaceGeometry>> geometries;
 
       /** Displacements of the faces of this rank, slaves and then masters: of the last
@@ -165,12 +172,12 @@ namespace Touchstone
 
       const FaceGeometry &
       geometry(const Face &master);
-      /** Look for facing faces anew if any node has moved so far that others may face.
-       * Collective. */
+      /** Discard the candidates for covering faces if any node, on any rank, has moved so far that
+       * other faces may cover each other. Collective. */
       void
       watch_motion();
-      /** Whether any face is not where it was at the last update: a step begins where the
-       * one before has ended. Collective. */
+      /** Whether any face has moved since the last update. A step begins where the one before has
+       * ended, and nothing need be integrated again. Collective. */
       bool
       has_moved();
       void
@@ -179,7 +186,7 @@ namespace Touchstone
       template <unsigned int n>
       void
       add_face(const SlaveFace &face, CoveredFace &covered);
-      /** Add what nodes leave to others. @param shares Of the face. */
+      /** Add the parts of the face that nodes give to others. @param shares Of the face. */
       void
       add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares);
       /** Present positions of the nodes to which the rows of a slave face belong. */
@@ -196,8 +203,11 @@ namespace Touchstone
     void
     AveragedPairing::commit_positions(const Vector &u)
     {
+      // The covering faces of the converged state tell what each slave face touches when the next
+      // step begins.
       facing.commit(slave_faces);
       search.commit(&u);
+      // The motion within a step is counted from here: candidates are searched anew.
       searched.clear();
       for (CoveredFace &covered : slave_faces)
         for (unsigned int m = 0; m < covered.slave.n_nodes(); ++m)
@@ -221,6 +231,9 @@ namespace Touchstone
     void
     AveragedPairing::watch_motion()
     {
+      // All nodes of this rank's slave and master faces are compared with where they were at the
+      // last search. One rank alone cannot decide: a master face that moves on one rank may come
+      // near a slave face of another.
       const double square = facing.motion() * facing.motion();
       bool         close  = searched.size() == present.size();
       for (std::size_t i = 0; close && i < present.size(); ++i)
@@ -236,6 +249,9 @@ namespace Touchstone
     bool
     AveragedPairing::has_moved()
     {
+      // Exact equality is meant: the first update of a step has the displacements of the last
+      // update of the step before, and the integrals can be kept. All ranks must agree, since
+      // integrate() communicates.
       std::vector<Tensor<1, dim>> now;
       for (const Surface *surface : {input.slave, input.master})
         for (const Face &face : surface->owned_faces())
@@ -257,9 +273,11 @@ namespace Touchstone
       const std::vector<FacingFace> &masters = covered.masters = facing.find(slave);
       if (masters.empty())
         return;
-      const FaceGeometry   on_slave(slave, input.slave->exact_surface(slave), kind);
+      const FaceGeometry on_slave(slave, input.slave->exact_surface(slave), kind);
+      // Points of both faces are paired along the normal of this plane.
       const Tensor<1, dim> plane = plane_normal(slave);
 
+      // Integrals over what each master face covers: M_jk and Q_jc of doc/theory.md 4.
       std::vector<OverlapIntegrals<n, double>> parts(masters.size());
       OverlapSample<n, double>                 sample;
       for (std::size_t f = 0; f < masters.size(); ++f)
@@ -270,8 +288,11 @@ namespace Touchstone
               parts[f].add(sample);
         }
       const auto areas = total_areas<n>(parts);
+      // Covered only where the surfaces are too inclined to each other (doc/theory.md 3.2).
       if (std::accumulate(areas.begin(), areas.end(), 0.) <= 0.)
         return;
+      // The dual basis of the whole covered part, which several master faces may share. Tied rows
+      // are made once and need not change smoothly.
       const DualBasis dual(total_mass<n>(parts),
                            areas,
                            face.basis,
@@ -282,12 +303,14 @@ namespace Touchstone
 
       for (unsigned int k = 0; k < n; ++k)
         {
-          // Nodes of other ranks get their shares there.
+          // Rows of other ranks are summed there.
           if (face.row[k] < 0)
             continue;
           RowSums &sum = sums[face.row[k]];
           for (std::size_t f = 0; f < masters.size(); ++f)
             sum.add<n>(k, dual, *masters[f].master, parts[f]);
+          // D_kk of equation (5), the area given to other nodes, and D_kk in the reference state,
+          // for tractions are nominal (doc/theory.md 2.2).
           const double kept = dual.shares.share[k][k];
           sum.kept += kept;
           sum.given += dual.areas[k] - kept;
@@ -309,6 +332,8 @@ namespace Touchstone
       if (!face.basis)
         return x;
       // The nodes that those of the face follow: x_i = sum C_ip x_p.
+      // A node that a hanging one follows need not belong to the face, so its position is not
+      // stored with it: invert C.
       FullMatrix<double> inverse(n, n);
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int p = 0; p < n; ++p)
@@ -336,6 +361,8 @@ namespace Touchstone
               if (i == k)
                 continue;
               RowSums &sum = sums[face.row[k]];
+              // Row k receives T_ki a_i of node i. The lever is the first moment of these areas
+              // about node k: the resultant acts at their centroid.
               if (const double area = shares.share[k][i]; area != 0.)
                 {
                   RowSums::add(sum.taken, nodes[i], area);
@@ -354,6 +381,8 @@ namespace Touchstone
       for (RowSums &sum : sums)
         sum.clear();
 
+      // Bring the copies of the slave faces to the present state. Master faces are wanted around
+      // the nodes where they are and where they were at the start of the step, for SweptSearch.
       std::vector<Point<dim>> positions;
       for (std::size_t f = 0; f < faces.size(); ++f)
         {
@@ -382,6 +411,7 @@ namespace Touchstone
               covered.slave.outer_edges  = complete.outer_edges;
             }
         }
+      // Faces of the search have changed or moved.
       geometries.clear();
       geometries.resize(search.known_faces().size());
       watch_motion();
@@ -409,6 +439,7 @@ namespace Touchstone
           row.stencil.clear();
           if (!sum.suffices(nodes[k].area))
             {
+              // Too little is left of the node for a row: it carries no force.
               row.has_partner = false;
               row.gap         = 0.;
               row.share       = 1.;
@@ -417,15 +448,20 @@ namespace Touchstone
             }
           row.has_partner = true;
           for (const StencilEntry &entry : sum.stencil)
+            // Weights are integrals over D_kk (equation (5)); zeros by round-off would only enlarge
+            // the matrix pattern.
             if (std::abs(entry.weight) > Tolerances::negligible_weight * sum.area)
               row.stencil.push_back({entry.node, entry.weight / sum.kept});
+          // Mean normal and gap with the corrections of equations (6) and (7).
           const AveragedRow means(sum, nodes[k].size);
           row.share      = means.share;
           row.normal     = means.normal;
           row.gap_vector = means.gap_vector;
           row.gap        = row.gap_vector * row.normal;
           row.lever      = sum.lever / sum.area;
-          row.area       = std::min(sum.reference, nodes[k].area);
+          // Not more than the tributary area, by round-off or by the ratio of reference to present
+          // areas.
+          row.area = std::min(sum.reference, nodes[k].area);
         }
     }
 
@@ -434,6 +470,7 @@ namespace Touchstone
     void
     AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
+      // All ranks must take part: finish() is collective.
       AveragedDerivative derivative(search.exchange(), slave_exchange.get(), /*gradual=*/!tied);
       for (const ContactRow &row : rows)
         if (row.was_active)

@@ -6,6 +6,10 @@
 
 #include <limits>
 
+// The derivative of one averaged row: sums over the slave faces are differentiated first, by
+// positions and by averaged nodal normals, then the formulas of AveragedRow are applied to the
+// complete sums. Derivatives by normals are continued to node positions only at the end, once per
+// face, since each normal depends on all nodes of the faces around (doc/theory.md 4).
 namespace Touchstone
 {
   using namespace dealii;
@@ -29,6 +33,7 @@ namespace Touchstone
   AveragedRowDerivative::index(const Index node)
   {
     const std::size_t result = builder.index(node);
+    // Both lists grow together: entry i of the sums belongs to node i of the result.
     sums.resize(builder.result->nodes.size());
     return result;
   }
@@ -50,7 +55,7 @@ namespace Touchstone
   AveragedRowDerivative::add_positions(const unsigned int k, const SlaveFaceDerivative<n> &face)
   {
     // Terms W_km of the stencil: integrals of master shapes (which column), and, with the opposite
-    // sign, what slave nodes leave to this one (which node of the face).
+    // sign, the areas that slave nodes give to this row (which node of the face).
     std::vector<std::pair<unsigned int, unsigned int>> of_masters, of_slaves;
     for (unsigned int m = 0; m < face.masters.size(); ++m)
       if (const auto found = in_stencil.find(face.masters[m]); found != in_stencil.end())
@@ -58,15 +63,20 @@ namespace Touchstone
     for (unsigned int i = 0; i < n; ++i)
       if (const auto found = in_stencil.find(face.own[i]); found != in_stencil.end())
         of_slaves.emplace_back(i, found->second);
+    // The area of a row changes only where less than the whole face is covered; elsewhere it is
+    // that of the reference state.
     const bool part = with_area && face.covered_in_part(k);
     area_changes    = area_changes || part;
 
-    RowDerivative                                           &result = *builder.result;
+    RowDerivative &result = *builder.result;
+    // Node by node: change[e] is the derivative of everything that row k takes from this face by
+    // component e of its position.
     std::array<typename SlaveFaceDerivative<n>::Change, dim> change;
     for (unsigned int i = 0; i < face.n_nodes(); ++i)
       {
         for (unsigned int e = 0; e < dim; ++e)
           face.differentiate(k, i, e, change[e]);
+        // The chain rule for hanging nodes: x_i = sum C_ip x_p.
         for (const auto &[node, weight] : face.carriers(i))
           {
             const std::size_t    to  = index(node);
@@ -76,6 +86,7 @@ namespace Touchstone
                 const auto &d = change[e];
                 sum.area[e] += weight * d.integrals[OverlapColumns::area];
                 sum.kept[e] += weight * d.share[k];
+                // Given away is what is not kept of the area of the node.
                 sum.given[e] += weight * (d.area - d.share[k]);
                 if (part)
                   sum.reference[e] += weight * d.reference;
@@ -99,6 +110,7 @@ namespace Touchstone
   void
   AveragedRowDerivative::add_normals(const unsigned int k, const SlaveFaceDerivative<n> &face)
   {
+    // Facets do not depend on the normals of their nodes, patches do.
     const bool slave_smooth = face.slave.smooth();
     for (const OverlapDerivative<n> &part : face.parts)
       {
@@ -107,12 +119,15 @@ namespace Touchstone
         for (unsigned int m = 0; m < n; ++m)
           for (unsigned int j = 0; j < n; ++j)
             {
+              // Weights W_kj make the integral with psi'_k of those with N_j.
               const double w = face.dual.weight(k, j);
               by_master.normal[m] += w * part.normal_normal[j][m];
               by_master.gap[m] += w * part.gap_normal[j][m];
               if (slave_smooth)
                 by_slave_normals[face.slave.face().key][m] += w * part.gap_slave_normal[j][m];
             }
+        // Smallest gaps enter by equation (7). In most rows their derivative is zero, and the
+        // search for the closest point is spared.
         if (row.needs_least())
           offer<n>(least, part.least, part.least_by_normals, face, *part.master);
         if (row.needs_own())
@@ -130,6 +145,8 @@ namespace Touchstone
                                const SlaveFaceDerivative<n>                   &face,
                                const Face                                     &master)
   {
+    // A minimum has the derivative of the point where it is attained; at a change of that point the
+    // derivative is one-sided.
     if (gap.val() == std::numeric_limits<double>::max() || (closest && closest->gap <= gap.val()))
       return;
     closest.emplace(ClosestPoint{gap.val(), &master, face.slave.face().key, {}, {}, {}});
@@ -137,6 +154,7 @@ namespace Touchstone
     std::copy(by_normals.slave, by_normals.slave + n, closest->by_slave_normals.begin());
     for (unsigned int i = 0; i < 2 * n; ++i)
       {
+        // Variables are the slave nodes, then the master nodes: components 3 i to 3 i + 2.
         const Tensor<1, dim> by_node({gap.fastAccessDx(dim * i),
                                       gap.fastAccessDx(dim * i + 1),
                                       gap.fastAccessDx(dim * i + 2)});
@@ -167,10 +185,12 @@ namespace Touchstone
   {
     const auto add = [&](const Index node, const Tensor<1, dim> &value) {
       const std::size_t to = index(node);
+      // The member that is differentiated, CoverSumsDerivative::least or own, is a parameter.
       sums[to].*of_point += value;
     };
     for (const auto &[node, value] : point.by_nodes)
       add(node, value);
+    // Derivative by the normals times that of the normals by all nodes around the face.
     if (const auto *derivatives = of_master(point.master))
       for (const NormalDerivative &d : *derivatives)
         add(d.node, point.by_master_normals[d.m] * d.value);
@@ -184,12 +204,14 @@ namespace Touchstone
   std::shared_ptr<const RowDerivative>
   AveragedRowDerivative::finish(const OfMaster &of_master, const OfSlave &of_slave)
   {
+    // Averaged normals of slave faces move the points of a smoothed slave face and thereby the gap.
     for (const auto &[key, by_normals] : by_slave_normals)
       for (const NormalDerivative &d : *of_slave(key))
         {
           const std::size_t to = index(d.node);
           sums[to].gap += by_normals[d.m] * d.value;
         }
+    // Those of master faces change the normal, and the gap if the master is smoothed.
     for (const auto &[face, by_normals] : by_master_normals)
       if (const auto *derivatives = of_master(face))
         for (const NormalDerivative &d : *derivatives)

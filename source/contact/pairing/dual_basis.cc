@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+// The weight functions of averaged rows. The formulas are in the header; here with the matrices of
+// one slave face (4 or 9 functions).
 namespace Touchstone
 {
   using namespace dealii;
@@ -13,10 +15,10 @@ namespace Touchstone
   {
     /** S M~^-1; @p mass becomes the inverse of the regularised M~.
      *
-     * On a sliver the mass matrix is singular to working precision. What is added to the diagonal
-     * is taken out again of the weights by iterative refinement, and not of the inverse: weights of
-     * nodes that take the shares of others are moderate and leave small residuals, however thin
-     * the sliver. */
+     * On a sliver the mass matrix is singular to working precision, so a small multiple of its
+     * trace is added to the diagonal. Iterative refinement removes the effect of this addition from
+     * the weights, not from the inverse: the weights of nodes that receive the shares of others are
+     * moderate and leave small residuals, however thin the sliver. */
     FullMatrix<double>
     divide_by_mass(const CoverShares &shares, FullMatrix<double> &mass)
     {
@@ -34,6 +36,7 @@ namespace Touchstone
           for (unsigned int k = 0; k < n; ++k)
             for (unsigned int i = 0; i < n; ++i)
               residual(k, i) = shares.share[k][i] - residual(k, i);
+          // result += (S - result M~) (M~ + addition)^-1.
           residual.mmult(result, mass, /*adding=*/true);
         }
       return result;
@@ -58,8 +61,10 @@ namespace Touchstone
         weights = divide_by_mass(shares, inverse);
         return;
       }
+    // Hanging nodes: M~ = C^T M C, W = S M~^-1 C^T (equation (27)).
     const FullMatrix<double> transposed = to_basis(mass.m());
     FullMatrix<double>       product(mass.m(), mass.m());
+    // M~ = C^T M C, then S M~^-1, then times C^T.
     product.triple_product(mass, transposed, transposed, false, true);
     inverse = product;
     product = divide_by_mass(shares, inverse);
@@ -75,6 +80,7 @@ namespace Touchstone
     FullMatrix<double> result(n, n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int p = 0; p < n; ++p)
+        // C^T, with C_ip the weight of node p in the hanging node i.
         result(p, i) = basis->weights[i][p];
     return result;
   }
@@ -91,6 +97,7 @@ namespace Touchstone
         result.of_shapes = result.of_basis;
         return result;
       }
+    // Y = M~^-1 C^T Q, and C Y, which the derivative needs with dM.
     const FullMatrix<double> transposed = to_basis(q.m());
     FullMatrix<double>       of_trace(q.m(), q.n());
     transposed.mmult(of_trace, q);
@@ -108,6 +115,7 @@ namespace Touchstone
     Values             result{};
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int l = 0; l < n; ++l)
+        // S_ki = T_ki a_i depends on all areas of the face, because T does on their mean cover.
         result[i] += shares.derivative[k][i][l] * d_areas[l];
     return result;
   }
@@ -126,11 +134,13 @@ namespace Touchstone
     const unsigned int n = weights.m(), n_columns = result.size();
     std::fill(result.begin(), result.end(), 0.);
     for (unsigned int i = 0; i < n; ++i)
+      // The term dS_k Y; then W_k (dQ - dM C Y) row by row.
       if (d_share[i] != 0.)
         for (unsigned int c = 0; c < n_columns; ++c)
           result[c] += d_share[i] * solution.of_basis(i, c);
     for (unsigned int j = 0; j < n; ++j)
       {
+        // Only row k of W is needed, so no product of full matrices.
         double of_mass = 0.; // (W_k dM)_j
         for (unsigned int i = 0; i < n; ++i)
           of_mass += weights(k, i) * d_mass(v, i, j);

@@ -7,6 +7,8 @@
 
 #include <Sacado.hpp>
 
+// The factor by which area counts where slave and master surface are inclined to each other
+// (doc/theory.md 3.2), and the plane of a slave face from which the inclination is measured.
 namespace Touchstone
 {
   using namespace dealii;
@@ -30,6 +32,8 @@ namespace Touchstone
               t[a] += shapes.gradient[m][a] * face.position(m);
           }
         product = cross_product_3d(t[0], t[1]);
+        // The order of the tangents is chosen such that their product points outward, as the
+        // averaged normals of the nodes do.
         if (product * outward < 0.)
           {
             std::swap(t[0], t[1]);
@@ -70,6 +74,7 @@ namespace Touchstone
   FacingPart::FacingPart(const double cosine)
   {
     using Number = Sacado::Fad::SFad<double, 1>;
+    // One forward derivative, by the cosine.
     const Number part(
       smooth_step(Number(1, 0, cosine), Tolerances::steep_cosine, Tolerances::inclined_cosine));
     value     = part.val();
@@ -85,6 +90,8 @@ namespace Touchstone
                 const AnalyticSurface       *exact,
                 const std::array<double, 2> &xi)
   {
+    // Averaged normals are at hand. Only where they are inclined clearly is the surface itself
+    // evaluated, for the average may hide how steep a single face is.
     if (const double cosine = -(plane * normal); cosine > Tolerances::hardly_inclined_cosine)
       return cosine;
     const FacePoint      point   = evaluate(master, exact, xi);

@@ -10,6 +10,9 @@
 #include <array>
 #include <memory>
 
+// Contact with a rigid obstacle whose surface is given by a formula: projection, normal and their
+// derivatives come from AnalyticSurface, so that no search and no communication is needed. The
+// obstacle moves as a rigid body by a translation, a function of time.
 namespace Touchstone
 {
   using namespace dealii;
@@ -37,6 +40,7 @@ namespace Touchstone
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
+            // In the frame of the obstacle.
             const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
             ContactRow      &row = rows[k];
             row.stencil.clear();
@@ -58,11 +62,14 @@ namespace Touchstone
           {
             ContactRow &row = rows[k];
             row.derivative.reset();
+            // Open rows contribute neither force nor condition.
             if (!row.was_active)
               continue;
             const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
             RowDerivativeBuilder builder(0);
+            // The only node that the row depends on: the obstacle is rigid.
             builder.index(row.slave);
+            // gap vector x - P(x).
             builder.result->gap_vector[0] = identity - surface->projection_gradient(x);
             // Central differences: normals are given by formulas that are simple, and
             // smooth over the size of a face.
@@ -83,6 +90,7 @@ namespace Touchstone
       double
       distance(const Point<dim> &x, const double time) const override
       {
+        // The signed distance; negative inside.
         const Point<dim> y = x - motion_at(time);
         return (y - surface->project(y)) * surface->normal(y);
       }
@@ -93,6 +101,7 @@ namespace Touchstone
       {
         Tensor<1, dim> shift;
         for (unsigned int d = 0; d < dim; ++d)
+          // Directions without a formula do not move.
           shift[d] = motion[d] ? motion[d]->value(Point<dim>(), time) : 0.;
         formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
         return shift;

@@ -2,6 +2,10 @@
 
 #include <touchstone/contact/pairing/overlap_derivative.h>
 
+// Adds quadrature points to the integrals of one slave and one master face with derivatives. Those
+// by node positions are carried by the numbers (PositionFad); those by averaged nodal normals are
+// kept apart, because the nodes around the face on which they depend are not variables of this pair
+// of faces.
 namespace Touchstone
 {
   using namespace dealii;
@@ -18,19 +22,23 @@ namespace Touchstone
     if (!differentiate<n>(
           point, on_slave.geometry, slave_point, on_master.geometry, master_point, sample))
       return;
+    // To see whether this point becomes the one with the smallest gap, whose dependence on normals
+    // is then stored.
     const double          least_before = this->least.val();
     std::array<double, n> own_before;
     for (unsigned int j = 0; j < n; ++j)
       own_before[j] = this->own[j].val();
     OverlapIntegrals<n, PositionFad<n>>::add(sample);
 
-    // Positions depend on nodal normals only where the surfaces are smooth patches.
+    // The normal depends on nodal normals; positions do only where the surfaces are smooth patches.
     const bool slave_smooth = on_slave.geometry.smooth();
     const auto by_normals   = [&]() {
       const Tensor<1, dim> gap({sample.gap[0].val(), sample.gap[1].val(), sample.gap[2].val()});
       ByNormals            result;
       for (unsigned int m = 0; m < n; ++m)
         {
+          // Of g = n . (x_s - x_m): by n directly, and by the points where these depend on nodal
+          // normals.
           result.master[m] = gap * master_point.normal_normal[m];
           if (master_smooth)
             result.master[m] -= master_point.normal * master_point.x_normal[m];
@@ -45,6 +53,7 @@ namespace Touchstone
       if (this->own[j].val() < own_before[j])
         own_by_normals[j] = by_normals();
 
+    // A corner takes part in the smallest gaps only.
     if (sample.weight.val() == 0.)
       return;
     for (unsigned int j = 0; j < n; ++j)

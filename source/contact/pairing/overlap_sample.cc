@@ -3,6 +3,9 @@
 #include <touchstone/contact/pairing/facing_part.h>
 #include <touchstone/contact/pairing/overlap_sample.h>
 
+// What is integrated at one quadrature point of an overlap: weight, shapes, gap vector and normal,
+// and the same with derivatives by the positions of the nodes of both faces (doc/theory.md 3 and
+// 4).
 namespace Touchstone
 {
   using namespace dealii;
@@ -17,12 +20,17 @@ namespace Touchstone
   {
     const FaceShapes shapes(slave.face().degree, point.slave);
     const FaceShapes master_shapes(master.face().degree, point.master);
+    // The contact normal is that of the master surface, possibly averaged or smoothed; the cosine
+    // below is about the surface itself.
     const auto [x, normal] = master.position_and_normal(point.master, master_shapes);
     const double part =
       FacingPart(facing_cosine(plane, normal, master.face(), master.exact_surface(), point.master))
         .value;
+    // Master surface too steep here: the point counts as not covered.
     if (part == 0.)
       return false;
+    // Gap vector from master to slave, as in pointwise rows: g = n . gap < 0 is penetration
+    // (doc/theory.md 1).
     const Tensor<1, dim> gap = slave.position(point.slave, shapes) - x;
     sample.weight            = part * point.weight;
     for (unsigned int m = 0; m < n; ++m)
@@ -43,8 +51,8 @@ namespace Touchstone
   namespace
   {
     /** The derivative of the cosine between the slave plane and the master surface at @p point,
-     * c = -zeta . nu, nu = x,1 x x,2 / |x,1 x x,2| (doc/theory.md 3). Here nu is the normal of the
-     * master surface itself: averaged normals do not see how steep a single face is. */
+     * c = -zeta . nu, nu = x,1 x x,2 / |x,1 x x,2| (doc/theory.md 3.2). Here nu is the normal of
+     * the master surface itself: averaged normals hide how steep a single face is. */
     template <unsigned int n>
     typename OverlapPointDerivative<n>::Gradient
     cosine_derivative(const Face                      &slave,
@@ -52,13 +60,16 @@ namespace Touchstone
                       const FaceGeometry              &master,
                       const Tensor<1, dim>            &normal)
     {
-      const Face                   &face  = master.face();
-      const Tensor<1, dim>          plane = plane_normal(slave);
-      const FaceShapes              shapes(face.degree, point.master);
-      const FacePoint               x       = evaluate(face, master.exact_surface(), point.master);
-      const Tensor<1, dim>          product = cross_product_3d(x.tangents[0], x.tangents[1]);
-      const double                  sign    = product * normal < 0. ? 1. : -1.;
-      const Tensor<1, dim>          nu      = sign * product / product.norm();
+      const Face          &face  = master.face();
+      const Tensor<1, dim> plane = plane_normal(slave);
+      const FaceShapes     shapes(face.degree, point.master);
+      const FacePoint      x       = evaluate(face, master.exact_surface(), point.master);
+      const Tensor<1, dim> product = cross_product_3d(x.tangents[0], x.tangents[1]);
+      // c = sign * zeta . product / |product|, as in facing_cosine().
+      const double         sign = product * normal < 0. ? 1. : -1.;
+      const Tensor<1, dim> nu   = sign * product / product.norm();
+      // d c = by_product . d(t_1 x t_2), from the derivative of the unit vector, and d(t_1 x t_2) =
+      // dt_1 x t_2 + t_1 x dt_2.
       const Tensor<1, dim>          by_product = sign * (plane * normalisation_derivative(product));
       const Tensor<1, dim>          by_t[2]    = {cross_product_3d(x.tangents[1], by_product),
                                                   cross_product_3d(by_product, x.tangents[0])};
@@ -73,6 +84,7 @@ namespace Touchstone
             for (unsigned int s = 0; s < 3; ++s)
               second[s] += hessians[m][s] * face.position(m);
         }
+      // The master point moves on its face as the overlap changes.
       const double by_xi[2] = {by_t[0] * second[0] + by_t[1] * second[1],
                                by_t[0] * second[1] + by_t[1] * second[2]};
       const auto   by_slave = plane_normal_derivatives(slave);
@@ -82,6 +94,7 @@ namespace Touchstone
         result[v] = by_xi[0] * point.d_master[0][v] + by_xi[1] * point.d_master[1][v];
       for (unsigned int m = 0; m < n; ++m)
         {
+          // Slave nodes tilt the plane zeta; master nodes change nu over the tangents.
           const Tensor<1, dim> by_node = nu * by_slave[m];
           for (unsigned int e = 0; e < dim; ++e)
             {
@@ -108,10 +121,12 @@ namespace Touchstone
       constexpr unsigned int n_variables = OverlapPointDerivative<n>::n_variables;
       const double           cosine      = facing_cosine(
         plane_normal(slave), normal, master.face(), master.exact_surface(), point.master);
+      // Product rule: weight = S(c) times area weight.
       const FacingPart part(cosine);
       weight.val() = part.value * point.weight;
       for (unsigned int v = 0; v < n_variables; ++v)
         weight.fastAccessDx(v) = part.value * point.d_weight[v];
+      // Up to 45 degrees the factor is constant, and this costs nothing.
       if (part.by_cosine != 0.)
         {
           const auto d_cosine = cosine_derivative<n>(slave, point, master, normal);
@@ -141,6 +156,7 @@ namespace Touchstone
     for (unsigned int d = 0; d < dim; ++d)
       {
         PositionFad<n> &gap = sample.gap[d], &normal = sample.normal[d];
+        // Total derivative: over the coordinates d xi on both faces first.
         gap.val()    = on_slave.point.x[d] - on_master.point.x[d];
         normal.val() = on_master.normal[d];
         for (unsigned int v = 0; v < n_variables; ++v)
@@ -158,6 +174,7 @@ namespace Touchstone
         for (unsigned int m = 0; m < n; ++m)
           for (unsigned int e = 0; e < dim; ++e)
             {
+              // Then at fixed xi, directly by the positions of slave and master nodes.
               gap.fastAccessDx(dim * m + e) += on_slave.x_position[m][d][e];
               gap.fastAccessDx(dim * (n + m) + e) -= on_master.x_position[m][d][e];
               normal.fastAccessDx(dim * (n + m) + e) += on_master.normal_position[m][d][e];
@@ -165,6 +182,7 @@ namespace Touchstone
       }
     for (unsigned int m = 0; m < n; ++m)
       {
+        // Shape functions change by xi alone.
         const auto shape = [&](const FaceShapes                                     &shapes,
                                const std::array<std::array<double, n_variables>, 2> &d_xi) {
           PositionFad<n> result(shapes.value[m]);

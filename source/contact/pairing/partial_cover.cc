@@ -7,6 +7,9 @@
 #include <Sacado.hpp>
 #include <algorithm>
 
+// How the nodes of a slave face that is covered in part share it: equation (4) of doc/theory.md
+// 3.1. A template of the number type, so that derivatives by the covered areas come from the same
+// code.
 namespace Touchstone
 {
   using namespace dealii;
@@ -24,6 +27,7 @@ namespace Touchstone
                const std::array<double, Face::max_nodes> &whole,
                const bool                                 gradual)
       {
+        // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
         Number sum = 0., squares = 0., receivers = 0.;
         for (unsigned int i = 0; i < n; ++i)
           if (whole[i] > 0.)
@@ -33,15 +37,20 @@ namespace Touchstone
             }
         for (unsigned int i = 0; i < n; ++i)
           {
-            // Of a function that hangs and is as much negative as positive.
+            // A basis function of a face with hanging nodes may have an integral of zero or less:
+            // it keeps its part.
             const Number cover =
               whole[i] > 0. ? Number(covered[i] / whole[i] * sum / squares) : Number(1.);
             keep[i] = gradual ? smooth_step(cover, Tolerances::gives_all, Tolerances::keeps_all)
                               : Number(cover < Tolerances::keeps_if_at_once ? 0. : 1.);
+            // Receivers are those that keep all of their own (beta = 1), in proportion to their
+            // area, and start from zero there: no jump, and no chain of nodes that both give and
+            // receive.
             take[i] = smooth_step(cover, Tolerances::keeps_all, 1.) * covered[i];
             receivers += take[i];
           }
         for (unsigned int k = 0; k < n; ++k)
+          // w_k, of sum one.
           take[k] /= receivers;
       }
 
@@ -75,6 +84,7 @@ namespace Touchstone
           share[k][i] = division.share(k, i, covered[i]);
           if (with_derivative)
             for (unsigned int l = 0; l < n; ++l)
+              // Without partial cover T is the unit matrix and S = diag(a).
               derivative[k][i][l] = (k == i && i == l);
         }
     if (!with_derivative || !partial)

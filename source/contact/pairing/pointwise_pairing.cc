@@ -6,6 +6,9 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+// The pairing "pointwise": each slave node against the closest point of the master surface. It is
+// simple, but does not pass the patch test (doc/theory.md 3). The second half of the file
+// differentiates these rows for the consistent linearisation (doc/theory.md 4, equation (9)).
 namespace Touchstone
 {
   using namespace dealii;
@@ -20,8 +23,8 @@ namespace Touchstone
       explicit PointwisePairing(const PairingInput &input)
         : Pairing(input)
         , search(*input.master,
-                 // A node that has gone deeper than its neighbours are apart must
-                 // still find its way out.
+                 // A node that has penetrated by more than the size of a face must still find
+                 // the surface.
                  input.search_distance > 0.
                    ? input.search_distance
                    : 4. * std::max(input.slave->largest_face(), input.master->largest_face()),
@@ -72,7 +75,7 @@ namespace Touchstone
       Search search;
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<ContactPartner>> partners;
-      /** Keys of the faces that nodes had last. */
+      /** Keys of the faces that were the partners of the nodes in the last update. */
       std::vector<std::optional<std::uint64_t>> present_faces;
       /** Positions of the slave nodes at the start of the step. */
       std::vector<Point<dim>> start;
@@ -90,6 +93,8 @@ namespace Touchstone
       std::vector<Point<dim>>         positions;
       for (const SurfaceNode &node : nodes)
         positions.push_back(input.slave->position(node, u));
+      // Master faces are needed where nodes are and where they began the step, for nodes that pass
+      // through faces.
       std::vector<Point<dim>> all(positions);
       all.insert(all.end(), start.begin(), start.end());
       search.update(all);
@@ -102,6 +107,8 @@ namespace Touchstone
                                                            input.slave->normal(nodes[k].node),
                                                            row.was_active,
                                                            present_faces[k]});
+          // The face of this update is preferred in the next one, also in the next step and after a
+          // restart (memory()).
           present_faces[k] =
             partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
           row.stencil.clear();
@@ -114,6 +121,7 @@ namespace Touchstone
           row.has_partner = true;
           const FaceShapes shapes(partner->face->degree, partner->xi);
           for (unsigned int m = 0; m < partner->face->n_nodes(); ++m)
+            // A node that lies on an edge or a node of the face depends on fewer master nodes.
             if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
               row.stencil.push_back({partner->face->nodes[m], shapes.value[m]});
           row.normal     = partner->normal;
@@ -124,13 +132,14 @@ namespace Touchstone
 
 
 
-    /** Derivative of the closest point xi with respect to whatever moves. */
+    /** Derivative of the coordinates xi of the closest point by the position (or normal) of one
+     * node. */
     using CoordinateDerivative = std::array<Tensor<1, dim>, 2>;
 
     /**
      * The implicit derivative of the closest point: t_a . r = 0 gives
-     * (t_a . t_b - r . x_ab) d xi_b = t_a . d r + r . d t_a at a fixed xi. A
-     * coordinate at the bound of an edge stays.
+     * (t_a . t_b - r . x,ab) d xi_b = t_a . d r + r . d t_a at a fixed xi (doc/theory.md 4,
+     * equation (9)). A coordinate that is held at an edge does not change.
      */
     class ClosestPointDerivative
     {
@@ -140,6 +149,7 @@ namespace Touchstone
                              const FacePoint             &point,
                              const Tensor<1, dim>        &r)
       {
+        // The matrix of equation (9), which is also the Hessian of the projection.
         const auto second = geometry.second_derivatives(xi);
         double     a[2][2];
         for (unsigned int i = 0; i < 2; ++i)
@@ -149,7 +159,7 @@ namespace Touchstone
         for (unsigned int i = 0; i < 2; ++i)
           {
             const double scale = point.tangents[i].norm_square();
-            // Free in the middle, or at an edge from which the point does not pull away.
+            // Free in the interior, or at an edge if the node lies on the inner side of it.
             free[i] = std::abs(xi[i]) < 1. || xi[i] * (point.tangents[i] * r) <= 1e-12 * scale;
             // At a centre of curvature the closest point is not unique.
             free[i] = free[i] && a[i][i] > 1e-6 * scale;
@@ -157,6 +167,7 @@ namespace Touchstone
         const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
         if (free[0] && free[1])
           {
+            // Nearly singular: xi has no usable derivative and is taken as fixed.
             if (det < 1e-6 * a[0][0] * a[1][1])
               return;
             inverse[0][0] = a[1][1] / det;
@@ -183,8 +194,9 @@ namespace Touchstone
 
 
     /**
-     * The derivative of one row: what moves has a direct effect on gap vector and normal, and one
-     * over the closest point xi (doc/theory.md 4, "Derivatives of rows").
+     * The derivative of one row: each node has a direct effect on gap vector and normal at a fixed
+     * xi, and one through the coordinates xi of the closest point (doc/theory.md 4, "Derivatives of
+     * rows").
      */
     class PointwiseRowDerivative
     {
@@ -271,9 +283,11 @@ namespace Touchstone
       Tensor<2, dim> d_gap = gap_vector, d_normal = normal;
       for (unsigned int a = 0; a < 2; ++a)
         {
+          // Total change: at fixed xi, plus that of the contact point along the face.
           d_gap -= outer_product(master.point.tangents[a], xi[a]);
           d_normal += outer_product(master.normal_xi[a], xi[a]);
         }
+      // In the wedge n = +-r/|r|, which depends on the gap vector alone.
       if (partner.wedge != 0)
         d_normal = by_gap_vector * d_gap;
       const unsigned int i = builder.index(node);
@@ -301,6 +315,9 @@ namespace Touchstone
                         face.nodes.begin());
       RowDerivativeBuilder builder(stencil.size());
       const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+      // The slave node changes r directly and xi over the projection, not the normal at fixed xi.
+      // Master nodes move the point and its tangents; nodes around them act over the averaged
+      // normals.
       add(slave, identity, {}, by_slave, nullptr, local, builder);
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         add(face.nodes[m],
@@ -335,6 +352,7 @@ namespace Touchstone
       for (std::size_t k = 0; k < rows.size(); ++k)
         if (rows[k].was_active)
           needed.push_back(partners[k]->face);
+      // Collective: also without active rows on this rank.
       const auto normal_derivatives = search.normal_derivatives(needed);
 
       for (std::size_t k = 0; k < rows.size(); ++k)
@@ -346,7 +364,8 @@ namespace Touchstone
           const Face                  &face     = *partners[k]->face;
           const FaceGeometry           geometry = search.geometry(face);
           const PointwiseRowDerivative derivative(geometry, *partners[k], row.gap_vector);
-          // A weight that is zero on the edge of the face can still change.
+          // On an edge of the face a weight is zero but its derivative is not: the node belongs to
+          // the stencil for the derivative.
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
             if (std::abs(derivative.weight(m)) <= Tolerances::negligible_weight &&
                 derivative.weight_changes(m))

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+// Sums over the slave faces around a node: D, D_kk, the integrals of gap and normal, and the
+// stencil of equation (5) of doc/theory.md 3.1. Derivatives are in AveragedRowDerivative.
 namespace Touchstone
 {
   using namespace dealii;
@@ -14,6 +16,7 @@ namespace Touchstone
   RowSums::clear()
   {
     static_cast<CoverSums &>(*this) = CoverSums();
+    // Infinite until a point is added.
     least = own = std::numeric_limits<double>::max();
     lever       = Tensor<1, dim>();
     for (Stencil *list : {&stencil, &taken, &left})
@@ -34,6 +37,7 @@ namespace Touchstone
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int c = 0; c < r.size(); ++c)
         r[c] += dual.weight(k, j) * part.q[j][c];
+    // Integrals with psi'_k of 1, gap, normal and master shapes.
     area += r[OverlapColumns::area];
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -65,8 +69,8 @@ namespace Touchstone
   void
   RowSums::finish()
   {
-    // Of two nodes that each leave something to the other on different faces, only the one
-    // that takes more refers to the other: constraints must not depend on each other in a
+    // Of two nodes that each give area to the other on different faces, only the one that
+    // receives more has the other in its stencil: constraints must not depend on each other in a
     // cycle. It is rare: both must lie at the edge of the cover, on different sides.
     for (const StencilEntry &entry : taken)
       {
@@ -74,10 +78,15 @@ namespace Touchstone
           return other.node == entry.node;
         });
         if (back != left.end() && std::abs(entry.weight) <= std::abs(back->weight))
+          // The rejected share counts as the node's own, so that D = sum D_ki and with it the sum
+          // of the weights remains.
           kept += entry.weight;
         else
+          // +D_ki x_i in equation (5), of opposite sign to master weights, which the stencil
+          // subtracts.
           add(stencil, entry.node, -entry.weight);
       }
+    // Independent of the order in which faces were added.
     std::sort(stencil.begin(), stencil.end(), [](const StencilEntry &a, const StencilEntry &b) {
       return a.node < b.node;
     });

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+// Integrals over a slave face that several master faces cover, with their derivatives, and from
+// these the derivatives of the integrals with psi'_k (doc/theory.md 4, dr_k = dS_k Y + W_k (dQ - dM
+// C Y)). Master faces share nodes, so their local variables are summed into one numbering first.
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,6 +35,7 @@ namespace Touchstone
     for (const OverlapDerivative<n> &part : parts)
       masters.insert(masters.end(), part.master->nodes.begin(), part.master->nodes.begin() + n);
     std::sort(masters.begin(), masters.end());
+    // Each master node once, as several faces have it.
     masters.erase(std::unique(masters.begin(), masters.end()), masters.end());
     solution = dual.solve(assemble());
   }
@@ -42,6 +46,7 @@ namespace Touchstone
   unsigned int
   SlaveFaceDerivative<n>::index_of_master(const Index node) const
   {
+    // Slave nodes come first in the numbering, then the sorted master nodes.
     return n + (std::lower_bound(masters.begin(), masters.end(), node) - masters.begin());
   }
 
@@ -60,6 +65,7 @@ namespace Touchstone
         // Variables and columns of the part among those of all.
         constexpr unsigned int n_local = OverlapPointDerivative<n>::n_variables;
         unsigned int           variable[n_local], column[OverlapColumns::master + n];
+        // The slave variables are the same for all parts.
         for (unsigned int v = 0; v < n * dim; ++v)
           {
             variable[v]           = v;
@@ -77,6 +83,7 @@ namespace Touchstone
               for (unsigned int v = 0; v < n_local; ++v)
                 {
                   const double d = part.mass[j][k].fastAccessDx(v);
+                  // The parts store the lower triangle only.
                   d_mass(variable[v], j, k) += d;
                   if (k < j)
                     d_mass(variable[v], k, j) += d;
@@ -99,7 +106,10 @@ namespace Touchstone
   SlaveFaceDerivative<n>::carriers(const unsigned int i) const
   {
     if (i >= n)
+      // A master node carries itself: weights of hanging master nodes are condensed later, like any
+      // other dof (doc/theory.md 11).
       return {{masters[i - n], 1.}};
+    // A slave node of the face that hangs moves with the nodes that it follows.
     return basis ? basis->stencil(i) : Stencil{{own[i], 1.}};
   }
 
@@ -109,6 +119,8 @@ namespace Touchstone
   bool
   SlaveFaceDerivative<n>::covered_in_part(const unsigned int k) const
   {
+    // In the present state, as the shares are: where all of a node is covered D_kk is its present
+    // area, and its reference area is that of the mesh.
     return std::abs(dual.shares.share[k][k] - present[k]) > Tolerances::fully_covered * present[k];
   }
 
@@ -122,15 +134,18 @@ namespace Touchstone
                                         Change            &change) const
   {
     const unsigned int v = dim * i + e;
-    DualBasis::Values  d_areas{};
+    // The covered areas a~ = C^T a are column "area" of Q.
+    DualBasis::Values d_areas{};
     for (unsigned int j = 0; j < n; ++j)
       d_areas[j] = d_q(v, j, OverlapColumns::area);
     if (basis)
       d_areas = basis->apply(d_areas);
-    change.area  = d_areas[k];
+    change.area = d_areas[k];
+    // d S_ki; S_kk is also the kept area D_kk.
     change.share = dual.share_derivative(k, d_areas);
     // S_kk A_k / A_k(x), with A_k(x) of the whole face in the present position.
     change.reference = change.share[k];
+    // A_k(x) depends on the slave nodes alone.
     if (i < n)
       change.reference -= dual.shares.share[k][k] / present[k] * d_present[i][e][k];
     change.reference *= whole[k] / present[k];

@@ -32,9 +32,12 @@ namespace Touchstone
       if (face_of_node[k].first == face_of_node[k - 1].first)
         {
           const unsigned int a = root(face_of_node[k - 1].second), b = root(face_of_node[k].second);
+          // The smaller root wins, so that the number of a component is its smallest index whatever
+          // the order of the unions.
           parent[std::max(a, b)] = std::min(a, b);
         }
     for (unsigned int i = 0; i < faces.size(); ++i)
+      // Roots instead of parents: equal numbers for all faces of a component.
       parent[i] = root(i);
     return parent;
   }

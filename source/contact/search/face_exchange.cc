@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <limits>
 
+// Sends each master face to the ranks whose slave nodes it may meet (doc/theory.md 4, "Search"),
+// once per update of the contact rows, and derivatives of averaged normals back on request. Both
+// bodies of a pair are partitioned without regard to the contact, so the master face of a slave
+// node may lie on any rank.
 namespace Touchstone
 {
   using namespace dealii;
@@ -42,7 +46,9 @@ namespace Touchstone
     // would be bent by more than a right angle.
     const bool   curved = face.degree > 1 || kind == MasterNormal::smoothed;
     const double margin = 0.25 * lower.distance(upper) * (curved ? 1. : 0.5);
-    Box          result({lower, upper});
+    // The size of the face is the diagonal of its box, so no direction is left without a margin,
+    // even if the face is plane.
+    Box result({lower, upper});
     result.extend(margin);
     return result;
   }
@@ -69,6 +75,8 @@ namespace Touchstone
   FaceExchange::swept_box(const Face &face) const
   {
     Box result = box(face);
+    // The box around the first and the last position has all intermediate ones, too, since nodes
+    // move on straight lines.
     if (has_committed)
       result.merge_with(committed_box(face));
     return result;
@@ -80,6 +88,7 @@ namespace Touchstone
   FaceExchange::commit(const Vector *u)
   {
     has_committed = true;
+    // Zero displacement: the reference state.
     committed.assign(surface.owned_faces().size(), {});
     if (u != nullptr)
       for (std::size_t f = 0; f < committed.size(); ++f)
@@ -99,6 +108,7 @@ namespace Touchstone
     Capture result;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        // Without positions the box stays inverted and meets nothing.
         result.lower[d] = std::numeric_limits<double>::max();
         result.upper[d] = std::numeric_limits<double>::lowest();
       }
@@ -116,6 +126,7 @@ namespace Touchstone
   Face
   FaceExchange::own_face(const std::size_t f) const
   {
+    // Faces of the surface know their present displacement only.
     Face face = surface.owned_faces()[f];
     if (!committed.empty())
       face.committed = committed[f];
@@ -131,6 +142,7 @@ namespace Touchstone
     by_key.clear();
     sent.clear();
     received.clear();
+    // On one rank all faces are kept in their order, without boxes.
     const std::size_t n_own = surface.owned_faces().size();
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       {
@@ -139,7 +151,9 @@ namespace Touchstone
         return;
       }
 
-    const unsigned int   this_rank = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int this_rank = Utilities::MPI::this_mpi_process(communicator);
+    // All ranks get the boxes of all (six numbers each) and each decides which of its own faces to
+    // send: one collective and one sparse exchange.
     std::vector<Capture> captures;
     for (const auto &of_rank :
          gather_records(std::vector<Capture>{capture(positions)}, communicator))
@@ -147,6 +161,7 @@ namespace Touchstone
     std::map<unsigned int, std::vector<Face>> messages;
     for (std::size_t f = 0; f < n_own; ++f)
       {
+        // The swept box: also faces that were near at the start of the step are of interest.
         const Face face = own_face(f);
         const Box  box  = swept_box(face);
         for (unsigned int rank = 0; rank < captures.size(); ++rank)
@@ -158,6 +173,7 @@ namespace Touchstone
                       box.upper_bound(d) >= captures[rank].lower[d];
             if (!meets)
               continue;
+            // The order in which faces are sent to a rank identifies them in normal_derivatives().
             sent[rank].push_back(f);
             if (rank == this_rank)
               known.push_back(face);
@@ -165,6 +181,7 @@ namespace Touchstone
               messages[rank].push_back(face);
           }
       }
+    // Faces of one rank are contiguous in "known"; "received" has where they begin.
     if (!known.empty())
       received[this_rank] = 0;
     for (const auto &[rank, faces] : messages)
@@ -184,6 +201,7 @@ namespace Touchstone
   const Face *
   FaceExchange::face(const std::uint64_t key) const
   {
+    // Built on demand, since most updates look no face up.
     if (by_key.empty())
       for (std::size_t i = 0; i < known.size(); ++i)
         by_key.emplace(known[i].key, i);
@@ -209,8 +227,10 @@ namespace Touchstone
   FaceExchange::normal_derivatives(const std::vector<const Face *> &needed) const
   {
     std::unordered_map<const Face *, std::vector<NormalDerivative>> result;
+    // Normals of facets do not depend on averages.
     if (kind == MasterNormal::face)
       return result;
+    // Each face once, also with an empty result if it has no derivative.
     for (const Face *face : needed)
       result[face];
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
@@ -220,6 +240,9 @@ namespace Touchstone
         return result;
       }
 
+    // Averaged normals at the edge of a rank depend on faces that only the owner of the face knows.
+    // So each rank asks the owners for the derivatives; all ranks take part in both exchanges, also
+    // those without a question.
     std::map<unsigned int, std::vector<std::size_t>> questions;
     for (const auto &[face, derivative] : result)
       {
@@ -229,8 +252,10 @@ namespace Touchstone
         for (auto it = received.begin(); it != received.end(); ++it)
           if (it->second <= f && (from == received.end() || it->second > from->second))
             from = it;
+        // The index among the faces that this rank has sent.
         questions[from->first].push_back(f - from->second);
       }
+    // Owners answer by the index in what they have sent.
     std::map<unsigned int, std::vector<DerivativeOfFace>> answers;
     for (const auto &[rank, faces] : exchange_records(questions, communicator))
       for (const std::size_t f : faces)

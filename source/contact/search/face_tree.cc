@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+// R-trees of the boxes around the master faces that this rank knows. They reduce the candidates of
+// each search from all faces to a few; outlines (normal, sphere) exclude most of those before a
+// projection.
 namespace Touchstone
 {
   using namespace dealii;
@@ -29,6 +32,8 @@ namespace Touchstone
     for (const Face &face : exchange.faces())
       {
         boxes.emplace_back(exchange.box(face), boxes.size());
+        // Boxes over the whole step are larger, so they have a tree of their own and do not slow
+        // down the search for the closest face.
         if (exchange.swept())
           swept_boxes.emplace_back(exchange.swept_box(face), swept_boxes.size());
         // The normal of the surface without patches: it only tells on which side the face is.
@@ -46,6 +51,7 @@ namespace Touchstone
   FaceTree::nearest(const Point<dim> &x, const unsigned int n) const
   {
     std::vector<std::pair<double, std::size_t>> result;
+    // Sorted by distance, and by index where distances are equal, so that runs repeat themselves.
     for (auto it = tree.qbegin(bgi::nearest(x, n)); it != tree.qend(); ++it)
       result.emplace_back(bg::comparable_distance(x, it->first), it->second);
     std::sort(result.begin(), result.end());
@@ -79,8 +85,10 @@ namespace Touchstone
   std::vector<const Face *>
   FaceTree::facing(const Box &box, const Tensor<1, dim> &slave_normal, const double reach) const
   {
+    // The reach in all directions: the gap may be as large as that.
     Box capture = box;
     capture.extend(reach);
+    // Spheres around the box and around each face.
     const double              radius = half_diagonal(box);
     std::vector<const Face *> result;
     for (const std::size_t i : meeting(capture))

@@ -10,6 +10,11 @@
 #include <map>
 #include <numeric>
 
+// Which master faces cover a slave face. Normally all faces within reach with an opposed normal do.
+// Exceptions are thin bodies and faces that have passed through a body within a step: then more
+// than one connected component of master faces lies in front of or behind the slave face, and the
+// motion since the start of the step decides (doc/theory.md 4, "Passing through"). The result of
+// the search is kept until nodes have moved by a small part of the shortest edge.
 namespace Touchstone
 {
   using namespace dealii;
@@ -47,10 +52,11 @@ namespace Touchstone
                              });
     }
 
-    /** Of the tangent plane in the middle of a face: an edge length. */
+    /** Length of an edge of a square with the area of the tangent plane at the centre of a face. */
     double
     centre_size(const Face &face)
     {
+      // The face is [-1,1]^2, of area 4 |t_1 x t_2|.
       const FacePoint centre = evaluate(face, nullptr, {{0., 0.}});
       return std::sqrt(4. * cross_product_3d(centre.tangents[0], centre.tangents[1]).norm());
     }
@@ -64,7 +70,8 @@ namespace Touchstone
       return sum / face.n_nodes();
     }
 
-    /** The integral of the gap between the facets; negative where they overlap. */
+    /** The integral of the gap between the facets along the slave normal, volume; negative where
+     * they overlap. */
     double
     gap(const Face &slave, const Tensor<1, dim> &normal, const FacingFace &facing)
     {
@@ -99,10 +106,12 @@ namespace Touchstone
       return result;
     }
 
-    /** The box around the path of @p slave in this step, relative to what covers it. */
+    /** The box around the path of @p slave in this step, relative to the faces that cover it. */
     BoundingBox<dim>
     path(const Face &slave, const std::vector<FacingFace> &covering)
     {
+      // In a frame that moves with the mean of the covering faces: a rigid motion of both bodies is
+      // no motion towards each other.
       Tensor<1, dim> motion = mean_motion(slave);
       for (const FacingFace &facing : covering)
         motion -= mean_motion(*facing.master) / static_cast<double>(covering.size());
@@ -118,7 +127,7 @@ namespace Touchstone
     covering_is_connected(const std::vector<FacingFace>   &covering,
                           const std::vector<const Face *> &near)
     {
-      // Mostly they are without the help of others.
+      // In most cases they are, without faces beside the covered part.
       if (covering.size() < 2 || is_connected(masters_of(covering)))
         return true;
       const std::map<const Face *, unsigned int> number = components_by_face(near);
@@ -137,10 +146,13 @@ namespace Touchstone
       bool entered = false;
     };
 
-    /** Whether @p a takes precedence. */
+    /** Whether @p a takes precedence over @p b. */
     bool
     comes_first(const Component &a, const Component &b)
     {
+      // A component that was entered explains where the slave face came from. Otherwise the one
+      // with the smaller mean gap (integral over area); the key decides between equal ones,
+      // independent of the partition.
       if (a.entered != b.entered)
         return a.entered;
       const double of_a = std::abs(a.gap / a.area), of_b = std::abs(b.gap / b.area);
@@ -158,6 +170,7 @@ namespace Touchstone
           const std::size_t before = result.size();
           for (FacingFace &facing : component.faces)
             {
+              // The area of this face that earlier accepted faces cover.
               double hidden = 0.;
               for (std::size_t i = 0; i < before; ++i)
                 hidden += area(overlap(*result[i].master, *facing.master));
@@ -182,6 +195,8 @@ namespace Touchstone
     SlavePoint        centre{{}, {}, normal, false, {}};
     for (unsigned int m = 0; m < slave.n_nodes(); ++m)
       {
+        // Each node of the face and its centre are followed from the start of the step like nodes
+        // of pointwise rows.
         const SlavePoint corner{
           slave.position(m), slave.reference[m] + slave.committed[m], normal, false, {}};
         centre.x += corner.x / slave.n_nodes();
@@ -191,6 +206,8 @@ namespace Touchstone
       }
     if (const Face *face = swept.entry(centre))
       result.faces.push_back(face);
+    // What the face touched at the start of the step is followed along the surface by closest
+    // points to its present position: sliding must not lose it.
     const auto  known = touched.find(slave.key);
     const Face *face  = known == touched.end() ? nullptr : search.exchange().face(known->second);
     if (face != nullptr)
@@ -211,11 +228,13 @@ namespace Touchstone
   {
     if (!connected || covering.empty())
       return true;
+    // What moves by less than a fraction of the face has not passed through a body, which saves the
+    // search along its path in most cases.
     const double limit_of_motion = Tolerances::small_motion * centre_size(slave);
     const bool moved = std::any_of(covering.begin(), covering.end(), [&](const FacingFace &facing) {
       return (mean_motion(slave) - mean_motion(*facing.master)).norm() > limit_of_motion;
     });
-    // Where there is but one component on its path it cannot have come to another.
+    // With a single component along its path no other one can have been entered.
     return moved && !is_connected(search.near(path(slave, covering), normal));
   }
 
@@ -226,6 +245,7 @@ namespace Touchstone
   {
     const FaceExchange       &exchange = search.exchange();
     std::vector<const Face *> near;
+    // Known candidates are intersected anew, but not searched for.
     if (const auto known = candidates.find(slave.key); known != candidates.end())
       {
         for (const auto &[key, index] : known->second)
@@ -243,9 +263,13 @@ namespace Touchstone
         const bool    known = std::all_of(in.faces.begin(), in.faces.end(), [&](const Face *face) {
           return std::find(near.begin(), near.end(), face) != near.end();
         });
+        // The entered faces are among those that are near and these are connected: there is only
+        // one component, and no choice.
         if (!known || !connected)
           return resolve(slave, normal, in);
       }
+    // Only unambiguous results are kept. Those of resolve() depend on the motion and are determined
+    // in each iteration.
     Candidates &those = candidates[slave.key];
     for (const Face *face : near)
       if (may_overlap(slave, *face, limit))
@@ -258,12 +282,13 @@ namespace Touchstone
   std::vector<FacingFace>
   FacingFaces::resolve(const Face &slave, const Tensor<1, dim> &normal, const Entries &in) const
   {
-    // What lies around the faces that it has entered is within reach, too.
+    // The faces that it has entered may lie farther away than the reach: search around them, too.
     BoundingBox<dim> around = box(slave);
     for (const Face *face : in.faces)
       around.merge_with(box(*face));
     const std::vector<const Face *> masters = search.near(around, normal);
 
+    // Area and integral of the gap by component.
     const std::map<const Face *, unsigned int> number = components_by_face(masters);
     std::map<unsigned int, Component>          by_number;
     for (FacingFace &facing : cover(slave, masters))
@@ -279,12 +304,14 @@ namespace Touchstone
         if (found == number.end())
           continue;
         const auto component = by_number.find(found->second);
-        // From what it touched it may just have gone away.
+        // From the component that it touched at the start it may just have separated: that counts
+        // only if they overlap.
         const bool only_touched = in.last_touched && i + 1 == in.faces.size();
         if (component != by_number.end() && (!only_touched || component->second.gap < 0.))
           component->second.entered = true;
       }
 
+    // By precedence.
     std::vector<Component> order;
     for (auto &[id, component] : by_number)
       order.push_back(std::move(component));
@@ -308,12 +335,16 @@ namespace Touchstone
             const double covered = area(f.points);
             sum += gap(slave, normal, f);
             whole += covered;
+            // The master face that covers most of it represents the component; areas that are equal
+            // up to round-off must not change the choice, so the first keeps it.
             if (covered > (1. + Tolerances::equal_areas) * largest)
               {
                 largest = covered;
                 master  = f.master;
               }
           }
+        // Touches: the mean gap sum / whole is below a fraction of the size of the covered part, or
+        // negative.
         if (master && sum < Tolerances::touching * std::sqrt(whole) * whole)
           now[slave.key] = master->key;
       }

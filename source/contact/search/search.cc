@@ -6,6 +6,10 @@
 #include <cmath>
 #include <tuple>
 
+// The master point that belongs to a slave node: the closest point over the faces nearby, with
+// rules that make the choice unique and independent of the partition, keep it from alternating
+// between faces from iteration to iteration, and recover nodes that have passed through a face
+// (doc/theory.md 4, "Search" and "Passing through").
 namespace Touchstone
 {
   using namespace dealii;
@@ -20,7 +24,8 @@ namespace Touchstone
 
 
 
-    /** The closest of the faces that a node has been projected on. */
+    /** Collects projections of a node on faces and keeps the closest one, and that on the face with
+     * which the node is in contact. */
     class ClosestFace
     {
     public:
@@ -38,13 +43,14 @@ namespace Touchstone
         const bool   present = point.in_contact && point.present_face == face.key;
         if (present)
           of_present_face = candidate;
+        // The search must not end before the present face has been seen if it may still be kept.
         if (point.in_contact && point.present_face)
           margin = std::max(margin, Tolerances::keeps_face * diagonal(face));
         // Points on a common edge are equally close: the face with the smaller key gets
         // the node, on any number of ranks. Normals jump there a little, and meshes
         // that match or are symmetric put nodes there, where round-off or the jump itself
-        // would choose now this face and now that one. But a node that has just slid over
-        // the edge must not be called back to it.
+        // would choose a different face in each iteration. The tolerance is small, so that a node
+        // that has just slid over the edge is not assigned to the face it came from.
         const double edge = Tolerances::on_edge * diagonal(face);
         const double tie  = Tolerances::equal_squares * square + edge * edge;
         if (square < best_square - tie ||
@@ -66,13 +72,14 @@ namespace Touchstone
       result(const FaceExchange &exchange) const
       {
         // Between two faces that meet in a sharp edge a node in contact stays with the
-        // present one: it would go to and fro otherwise. Within a smooth surface the
+        // present one: it would alternate between both otherwise. Within a smooth surface the
         // closest point is unique.
         if (!best.face || !of_present_face.face || best.face == of_present_face.face)
           return best;
         const double distance = std::sqrt(of_present_face.projection.distance_squared);
         const bool   as_close = distance < std::sqrt(best_square) +
                                            Tolerances::keeps_face * diagonal(*of_present_face.face);
+        // The normals tell whether the two faces meet in a sharp edge.
         const auto normal = [&](const FaceProjection &candidate) {
           return exchange.geometry(*candidate.face).normal(candidate.projection.xi);
         };
@@ -106,6 +113,8 @@ namespace Touchstone
   void
   Search::update(const std::vector<Point<dim>> &positions)
   {
+    // Counts of the old tree go to the total before it is dropped; the new one is built when it is
+    // first needed.
     if (present_tree)
       candidates_before += present_tree->candidates();
     present_tree.reset();
@@ -137,8 +146,8 @@ namespace Touchstone
   FaceProjection
   Search::closest(const SlavePoint &point) const
   {
-    // Boxes are asked for a few at a time: an iterator over all of them, in the order of
-    // their distance, costs more the more there are.
+    // The nearest boxes are requested a few at a time: an incremental query over all of them in
+    // the order of their distance costs more the more boxes there are.
     constexpr unsigned int first_try = 16;
     for (unsigned int n = first_try;; n *= 4)
       {
@@ -150,9 +159,12 @@ namespace Touchstone
             complete = complete || closest.excludes(square);
             if (closest.excludes(square))
               break;
+            // Back faces belong to the far side of a thin body.
             if (!tree().is_back_face(i, point.normal))
               closest.offer(tree().project(point.x, received.faces()[i]));
           }
+        // The nearest boxes were enough: no further box can have a closer point. Otherwise four
+        // times as many are tried.
         if (complete)
           return closest.result(received);
       }
@@ -169,6 +181,8 @@ namespace Touchstone
     partner.xi   = candidate.projection.xi;
     std::tie(partner.x, partner.normal) =
       shape.position_and_normal(partner.xi, FaceShapes(shape.face().degree, partner.xi));
+    // Beyond an edge at which xi was bounded and faces meet at a sharp angle, the normal of either
+    // face is not the direction of the gap.
     Tensor<1, dim> edge;
     if (candidate.projection.beyond_inner > Tolerances::in_wedge && shape.sharp(partner.xi, edge))
       {
@@ -177,6 +191,7 @@ namespace Touchstone
         const Tensor<1, dim> direction = point.x - partner.x;
         if (direction.norm() > Tolerances::on_the_edge_line * reach)
           partner.wedge = (direction * edge < 0. ? -1 : 1);
+        // On the edge itself the direction is undefined: there the pseudonormal is taken.
         partner.normal = partner.wedge != 0 ? partner.wedge * direction : edge;
         partner.normal /= partner.normal.norm();
       }
@@ -190,6 +205,8 @@ namespace Touchstone
   {
     if (received.faces().empty())
       return {};
+    // Beyond the end of the master surface there is no contact, up to a tolerance. It is larger for
+    // nodes in contact (hysteresis), so that a node at the end does not open and close in turn.
     const auto on_surface = [&](const FaceProjection &candidate) {
       return candidate.face != nullptr &&
              candidate.projection.beyond_outer <=
@@ -202,6 +219,9 @@ namespace Touchstone
     if (!received.swept())
       return result;
     const bool penetrates = result && (point.x - result->x) * result->normal < 0.;
+    // A small motion within this step cannot have carried the node through another face: the
+    // penetration is that of the closest face. Saves the search along the path for most nodes in
+    // contact.
     if (penetrates)
       {
         const Face    &face   = *result->face;
@@ -211,7 +231,8 @@ namespace Touchstone
         if (motion.norm() < Tolerances::small_motion * diagonal(face))
           return result;
       }
-    // A node that is about on the surface, up to round-off in or out, has not passed another.
+    // A crossed face counts only if the node is now clearly away from it or has no other partner:
+    // a node that is just at a surface, inside or outside, has not passed through it.
     const auto other = swept().passed(point, penetrates);
     if (other && on_surface(*other) &&
         !(result && std::sqrt(other->projection.distance_squared) <

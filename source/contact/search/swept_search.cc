@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+// Nodes that have passed through a face within a step. The closest face may then be that on the far
+// side of a thin body, or the node may be deeper than the reach of the search; the first face that
+// it entered is the right one (doc/theory.md 4, "Passing through").
 namespace Touchstone
 {
   using namespace dealii;
@@ -14,8 +17,8 @@ namespace Touchstone
   bool
   SweptSearch::may_cross(const SlavePoint &point, const Face &face) const
   {
-    // Seen from the node, which then stands in the origin: the box of the face must go around it
-    // in each direction at the start, at the end, or between.
+    // In a frame that moves with the node, which is then the origin: the range of the box of the
+    // face over the step must contain the origin in each direction.
     const FaceExchange::Box before = tree.exchange.committed_box(face),
                             after  = tree.exchange.box(face);
     bool around                    = true;
@@ -33,7 +36,10 @@ namespace Touchstone
   SweptSearch::follow(const SlavePoint &point, const Face &from) const
   {
     const std::vector<Face> &faces = tree.exchange.faces();
-    FaceProjection           best  = tree.project(point.x, from);
+    // Descend from face to face: as long as the projection is bounded at an inner edge, a neighbour
+    // over a common node may be closer. The distance decreases by more than round-off in each step,
+    // so the walk ends.
+    FaceProjection best = tree.project(point.x, from);
     while (best.projection.beyond_inner > 0.)
       {
         const Face    &face  = *best.face;
@@ -49,7 +55,7 @@ namespace Touchstone
             if (!neighbour || tree.is_back_face(i, point.normal))
               continue;
             const FaceProjection candidate = tree.project(point.x, other);
-            // Round-off must not send it to and fro between neighbours.
+            // Round-off must not make the walk alternate between neighbours.
             const double tie = Tolerances::equal_squares * reach * reach;
             if (candidate.projection.distance_squared < found.projection.distance_squared - tie)
               found = candidate;
@@ -82,12 +88,13 @@ namespace Touchstone
               crossing(point.start, point.x, face, tree.exchange.exact_surface(face)))
           crossings.emplace_back(*found, &face);
       }
+    // In the order of time; equal times by key, which is the same on all ranks.
     std::sort(crossings.begin(), crossings.end(), [](const auto &a, const auto &b) {
       return a.first.time != b.first.time ? a.first.time < b.first.time
                                           : a.second->key < b.second->key;
     });
 
-    // How many bodies the node is in, and where it went into the first of them.
+    // Number of bodies that the node is in, and the face by which it entered the first of them.
     int         depth = 0;
     const Face *entry = nullptr;
     for (std::size_t i = 0; i < crossings.size(); ++i)
@@ -99,8 +106,12 @@ namespace Touchstone
           continue;
         if (c.inward && depth == 0)
           entry = crossings[i].second;
+        // Inward crossings count up, outward ones down. An exit without an entry, of a node that
+        // was within a body at the start, leaves the count at zero.
         depth = std::max(0, depth + (c.inward ? 1 : -1));
       }
+    // As many exits as entries; one body more is accounted for if the closest face already explains
+    // a penetration.
     if (depth <= (penetrates ? 1 : 0))
       return {};
     return follow(point, *entry);

@@ -16,7 +16,8 @@ namespace Touchstone
   {
     dealii::Point<dim> a, b;
     /** Unit outward normals on both sides of the edge. Where the surface ends, the second
-     * points away from it within its tangent plane: the body goes on somewhere between. */
+     * points away from it within its tangent plane: the side of the body beyond the edge is
+     * unknown and may have any normal between both. */
     std::array<dealii::Tensor<1, dim>, 2> normals;
   };
 
@@ -30,7 +31,7 @@ namespace Touchstone
   /** @brief Two edges that can only touch each other. */
   struct EdgeCrossing
   {
-    /** The points that are to touch, on the first and on the second edge. */
+    /** The feet of the common perpendicular, on the first and on the second edge. */
     dealii::Point<dim> first, second;
     /** Distance of these, length; negative if the edges have not passed through each other. */
     double depth;

@@ -17,7 +17,7 @@ namespace Touchstone
    * @brief The surface over a face to which gaps are measured, and its normal.
    *
    * Where the exact surface is known it is used, and `smoothed` is the same as
-   * `averaged`. Refers to the face, which must live as long and stay where it is.
+   * `averaged`. Keeps a reference to the face, which must not be moved or destroyed before.
    */
   class FaceGeometry
   {
@@ -59,7 +59,7 @@ namespace Touchstone
     dealii::Point<dim>
     position(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
 
-    /** @brief Position and normal() for the price of one. @param shapes Those at @p xi. */
+    /** @brief Position and normal() from one evaluation. @param shapes Shape functions at @p xi. */
     std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
     position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
 
@@ -103,7 +103,7 @@ namespace Touchstone
   {
     std::array<double, 2> xi{};
     double                distance_squared = 0.;
-    /** How far the point lies beyond the edges that held the projection back,
+    /** How far the point lies beyond the edges at which xi was bounded,
      * as a fraction of the face, for inner and outer edges. */
     double beyond_inner = 0., beyond_outer = 0.;
   };

@@ -12,7 +12,7 @@ namespace Touchstone
    * averaged normals of its four nodes.
    *
    * Boundary curves are cubics with tangents in the tangent planes of the nodes.
-   * Along each edge the tangent plane is made of what both faces there know, so
+   * Along each edge the tangent plane is computed from data that both adjacent faces have, so
    * neighbours meet with the same plane (G1). Each of the four inner control points
    * is blended from two, one for each adjacent edge.
    *

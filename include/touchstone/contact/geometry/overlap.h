@@ -16,8 +16,8 @@ namespace Touchstone
   {
     /** Coordinates on the slave and on the master face. */
     std::array<double, 2> slave, master;
-    /** Weight: area of the slave face. Zero for corners of the overlap, between which gaps
-     * of plane faces lie. */
+    /** Weight: area of the slave face. Zero for corners of the overlap, at
+     * which the gap between plane faces has its extrema. */
     double weight;
   };
 
@@ -32,7 +32,8 @@ namespace Touchstone
   std::vector<OverlapPoint>
   overlap(const Face &slave, const Face &master);
 
-  /** @brief The same with each of several masters, in their order, for less. */
+  /** @brief The same with each of several masters, in their order; the slave face is projected
+   * only once. */
   std::vector<std::vector<OverlapPoint>>
   overlap(const Face &slave, const std::vector<const Face *> &masters);
 

@@ -49,7 +49,7 @@ namespace Touchstone
     return sum;
   }
 
-  /** @brief Take out corners at which the polygon goes on straight or hardly goes on: those
+  /** @brief Remove corners at which the polygon is straight or whose edges are very short: those
    * whose triangle with their neighbours is smaller than @p smallest. Round-off adds such
    * corners and takes them away again where two quadrilaterals have an edge in common. */
   template <typename Number>

@@ -82,7 +82,7 @@ namespace Touchstone
       return found != traces.end() ? &found->second : nullptr;
     }
 
-    /** @brief Unknowns of the faces that lie beyond the ghost cells. */
+    /** @brief Dofs of the faces that lie beyond the ghost cells. */
     const std::vector<Index> &
     far_unknowns() const
     {
@@ -97,8 +97,8 @@ namespace Touchstone
       return node_of_faces(node).normal;
     }
 
-    /** @brief The faces of the surface around an owned node, each with its number of the node
-     * there. */
+    /** @brief The faces of the surface around an owned node, each with the local index of the
+     * node on that face. */
     std::vector<std::pair<const Face *, unsigned int>>
     faces_around(Index node) const
     {
@@ -169,7 +169,7 @@ namespace Touchstone
       Index node;
       /** Averaged over all faces. */
       dealii::Tensor<1, dim> normal;
-      /** Faces around it, with its local number there, in the order in which their normals
+      /** Faces around it, with its local index there, in the order in which their normals
        * are summed. */
       std::vector<std::pair<Face *, unsigned int>> faces;
     };

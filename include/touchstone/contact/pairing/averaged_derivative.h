@@ -35,7 +35,7 @@ namespace Touchstone
     {
     }
 
-    /** @brief Want the derivative of a row.
+    /** @brief Request the derivative of a row.
      * @param stencil Of the row; must live as long.
      * @param sums The sums over slave faces that the row was made from.
      * @param size Size of the faces, length.
@@ -47,7 +47,7 @@ namespace Touchstone
             double           size,
             bool             with_area);
 
-    /** @brief Whether the face takes part in a row that is wanted.
+    /** @brief Whether the face takes part in a row whose derivative was requested.
      * @param basis Of a face with hanging nodes, or null. */
     bool
     wants(const Face &slave, const TraceBasis *basis) const;

@@ -38,16 +38,16 @@ namespace Touchstone
   };
 
   /**
-   * @brief What is added to the mean gap of a row, with its derivatives (doc/theory.md 3, "Two
-   * corrections go to the mean gap").
+   * @brief What is added to the mean gap of a row, with its derivatives (doc/theory.md
+   * 3.1, equations (6) and (7)).
    *
-   * A weight function that changes its sign can give a mean below all gaps that there are:
+   * A weight function that changes its sign can give a mean below the gap at every point:
    * on a curved face by a part of its sagitta, on a part of a face by extrapolation. While
-   * surfaces are apart a row is no closer than the closest of its points: at once if that is
-   * the node, with which the gap moves, otherwise where it is well open, as the force of the row
-   * hardly moves other points. As the node goes in the mean takes over. And the gap of a node that
-   * gives away its area grows with the part given, so that its row opens before it vanishes and
-   * forces change smoothly.
+   * surfaces are apart the gap of a row is not less than the smallest gap of its points:
+   * immediately if that point is the node itself, which the force of the row moves; for another
+   * point, which the force hardly moves, only where it is clearly open. As the node penetrates, the
+   * mean takes over. Besides, the gap of a node that gives away area grows with the part given, so
+   * that its row opens before its area vanishes and forces change smoothly.
    */
   struct GapCorrection
   {
@@ -59,7 +59,7 @@ namespace Touchstone
 
   /**
    * @brief Normal and gap of an averaged row, from the sums over its slave faces, and their
-   * derivatives (doc/theory.md 3).
+   * derivatives (doc/theory.md 3.1).
    *
    * With the integrals D of psi'_k, G of the gap and N of the normal, and the kept area D_kk:
    *

@@ -58,8 +58,8 @@ namespace Touchstone
       bool         smooth;
     };
 
-    /** The point with the smallest gap of some, and how that depends on positions and, in the last
-     * two, on averaged normals of the nodes of its faces. */
+    /** The point with the smallest gap, and the derivatives of that gap by positions and, in the
+     * last two, by the averaged normals at the nodes of its two faces. */
     struct ClosestPoint
     {
       double                                              gap;

@@ -18,8 +18,8 @@ namespace Touchstone
   plane_normal_derivatives(const Face &face);
 
   /**
-   * @brief By which part the area of a slave face counts where the master surface is inclined to
-   * it: S(c; 0.3, 0.7), doc/theory.md 3, "Surfaces that are inclined to each other".
+   * @brief The factor by which the area of a slave face counts where the master surface is inclined
+   * to it: S(c; 0.3, 0.7), doc/theory.md 3.2.
    *
    * Points of both surfaces are paired along the normal of the slave face. Where the other surface
    * is steep, as towards the equator of a ball over a coarse plane, their distance and its normal

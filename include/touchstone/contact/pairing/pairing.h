@@ -60,7 +60,7 @@ namespace Touchstone
     /**
      * @brief Read the deformed surfaces: set has_partner, stencil, normal, gap_vector and gap
      * of all rows, and area, share, lever and shift where they change. What else the rows
-     * hold is left alone.
+     * hold is not changed.
      * @param u    Displacement with ghosts; the surfaces have been moved to it.
      * @param time For obstacles that move.
      * @param rows Rows of this pair, already there.
@@ -98,8 +98,7 @@ namespace Touchstone
       return {};
     }
 
-    /** @brief Go on with a memory(); comes after commit_positions(). Faces that this rank
-     * does not have may be among it. */
+    /** @brief Restore a memory(), after commit_positions(). It may contain faces of other ranks. */
     virtual void
     remember(const PairingMemory &)
     {
@@ -113,7 +112,7 @@ namespace Touchstone
       return std::numeric_limits<double>::infinity();
     }
 
-    /** @brief What its searches came to so far; nothing where there is none. */
+    /** @brief Amount of work of its searches so far; zero without any. */
     virtual SearchWork
     search_work() const
     {

@@ -11,12 +11,12 @@ namespace Touchstone
 {
   /**
    * @brief How the rows of averaged pairing share a slave face that is covered in part
-   * (doc/theory.md 3, "Faces covered in part").
+   * (doc/theory.md 3.1, equation (4)).
    *
    * With the dual basis of the covered part each node has its own row, however little of its
-   * shape function is covered: the row then holds the node to where the gap extrapolates to,
+   * shape function is covered: the row then requires that the gap extrapolated to the node vanish,
    * with a force that does not vanish with the area, so the pressure grows without bound.
-   * Here nodes with a small share leave the covered part to the others of the face,
+   * Here nodes of which little is covered give their part to the other nodes of the face,
    *
    *   psi'_k = sum_i T_ki psi_i,   T_ki = beta_i delta_ki + (1 - beta_i) w_k,
    *

@@ -10,18 +10,18 @@
 
 namespace Touchstone
 {
-  /** @brief The sums over the slave faces around a node with all that its row is made of. */
+  /** @brief The sums over the slave faces around a node from which its complete row is made. */
   struct RowSums : CoverSums
   {
     /** Integral of the slave position less that of the node, area times length. */
     dealii::Tensor<1, dim> lever;
-    /** W: integrals of master shapes with psi'_k, less what other nodes have left to this one.
-     * A dozen nodes or two; in ascending order after finish(). */
+    /** W: integrals of master shapes with psi'_k, less the areas that other nodes give to this
+     * row. One or two dozen nodes; in ascending order after finish(). */
     Stencil stencil;
-    /** Areas that other slave nodes have left to this one, and it to them. */
+    /** Areas received from other slave nodes, and areas given to them. */
     Stencil taken, left;
 
-    /** @brief Zero, with room for as many nodes. */
+    /** @brief Set to zero; the lists keep their capacity. */
     void
     clear();
 

@@ -56,12 +56,13 @@ namespace Touchstone
     unsigned int
     index_of_master(Index node) const;
 
-    /** @brief The nodes that carry node @p i. A hanging node moves with those that it follows: if
-     * its row referred to it, constraints would depend on each other in a cycle. */
+    /** @brief The nodes that determine the position of node @p i, with weights. A hanging node
+     * moves with those that it follows: if a row referred to it, constraints would depend on each
+     * other in a cycle. */
     Stencil
     carriers(unsigned int i) const;
 
-    /** @brief The change of what row @p k takes of the face with one coordinate. */
+    /** @brief Derivative by one coordinate of the contributions of the face to a row. */
     struct Change
     {
       /** Of S_ki, of a~_k, and of the kept area in the reference state; length. */

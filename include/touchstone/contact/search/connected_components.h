@@ -9,8 +9,8 @@
 
 namespace Touchstone
 {
-  /** @brief For each of some faces a number, which is the same for faces that are connected over
-   * common nodes, directly or over others of these faces. */
+  /** @brief The connected components of some faces, where faces with a common node are connected:
+   * for each face the smallest index of a face of its component. */
   std::vector<unsigned int>
   connected_components(const std::vector<const Face *> &faces);
 

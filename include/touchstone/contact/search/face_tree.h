@@ -68,7 +68,7 @@ namespace Touchstone
       return {&face, closest_point_projection(x, exchange.geometry(face))};
     }
 
-    /** @brief Note that a face has been looked at without project(). */
+    /** @brief Count a candidate that is tested without project(). */
     void
     count_candidate() const
     {
@@ -87,7 +87,7 @@ namespace Touchstone
   private:
     using Tree = dealii::RTree<std::pair<Box, std::size_t>>;
 
-    /** What is asked of many faces to leave most of them out. */
+    /** Quick tests by which most faces are excluded. */
     struct Outline
     {
       dealii::Tensor<1, dim> normal; // in the middle

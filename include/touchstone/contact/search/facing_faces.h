@@ -88,7 +88,7 @@ namespace Touchstone
       return touched;
     }
 
-    /** @brief Let this be what commit() has found. */
+    /** @brief Restore last_touched() of an earlier run. */
     void
     remember(const Touched &found)
     {
@@ -124,7 +124,7 @@ namespace Touchstone
                  const std::vector<FacingFace> &covering,
                  const bool                     connected) const;
 
-    /** What covers @p slave, if one component takes precedence. */
+    /** What covers @p slave if there are several components, by their precedence. */
     std::vector<FacingFace>
     resolve(const Face &slave, const dealii::Tensor<1, dim> &normal, const Entries &entries) const;
   };

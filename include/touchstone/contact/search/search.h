@@ -31,7 +31,8 @@ namespace Touchstone
    * FaceExchange brings the faces near this rank's slave nodes, FaceTree keeps their boxes in an
    * R-tree. Closest-point projection on the faces in the order of the distance of their
    * boxes, until no box is closer than the best point found; SweptSearch finds nodes that would be
-   * lost because they have passed through a face (doc/theory.md 4).
+   * lost because they have passed through a face (doc/theory.md 4, "Search" and "Passing
+   * through").
    */
   class Search
   {
@@ -81,12 +82,12 @@ namespace Touchstone
       return received;
     }
 
-    /** @brief The same in R-trees. Made when first asked for after an update: who knows which
-     * faces are near needs none. */
+    /** @brief The same faces in R-trees, built at the first call after an update: where candidates
+     * are known from before no tree is needed. */
     const FaceTree &
     tree() const;
 
-    /** @brief The search for passed faces in them. */
+    /** @brief The search for faces that nodes have passed through, in tree(). */
     SweptSearch
     swept() const
     {

@@ -7,11 +7,11 @@
 
 namespace Touchstone
 {
-  /** @brief What searches came to so far, on this rank. */
+  /** @brief Amount of work of the searches so far, on this rank. */
   struct SearchWork
   {
-    /** Faces that a point was projected on or a path crossed with, or that stood near a
-     * slave face. */
+    /** Faces on which a point was projected, which were tested for a crossing, or which were
+     * candidates for a slave face. */
     std::uint64_t candidates = 0;
     /** Other ranks that master faces were sent to, and those faces. */
     std::uint64_t messages = 0, faces_sent = 0;

@@ -9,7 +9,7 @@
 
 namespace Touchstone
 {
-  /** @brief A slave node that looks for a partner. */
+  /** @brief A slave node for which a partner is searched. */
   struct SlavePoint
   {
     /** Present position, and at the start of the step. */
@@ -17,8 +17,8 @@ namespace Touchstone
     /** Outward normal of the slave surface there: faces whose normals are about the same
      * are on the far side of a body. */
     dealii::Tensor<1, dim> normal;
-    /** A node in contact slides off an edge only at a multiple of the distance beyond it at which
-     * one that is not comes on. */
+    /** The node carried a contact force before: it leaves the end of the surface only at a multiple
+     * of the distance beyond it up to which other nodes find a partner (hysteresis). */
     bool in_contact = false;
     /** Key of the face that a node in contact had last. */
     std::optional<std::uint64_t> present_face;
@@ -44,7 +44,8 @@ namespace Touchstone
     /** @brief Where a node has passed into a body since the start of the step, unless it
      * came out again: the point closest to its present position around the face that it passed
      * first. Nothing if steps are not committed.
-     * @param penetrates It is known to be in one body, which does not count. */
+     * @param penetrates The closest face already shows that the node is within one body, which is
+     * then not counted. */
     std::optional<FaceProjection>
     passed(const SlavePoint &point, bool penetrates) const;
 
