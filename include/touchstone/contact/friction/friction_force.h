@@ -59,7 +59,7 @@ namespace Touchstone
     Vec constant, d_lambda, d_area, d_spin, d_slip, slip_direction;
     /** Radius of the cone, force. */
     double limit = 0.;
-    /** |t_tr| - L, force: positive asks for slip, negative for stick. */
+    /** |t_tr| - L, force: a positive value violates stick, a negative one slip. */
     double excess = 0.;
     /** @} */
 

@@ -44,8 +44,8 @@ namespace Touchstone
   void
   choose_friction(const ContactRow &row, RowState &state);
 
-  /** @brief Let the springs along unconstrained tangents take the force that the present slip
-   * asks for. */
+  /** @brief Augment the force of the springs along unconstrained tangents by the present slip
+   * times their stiffness. */
   void
   augment_unconstrained(const ContactRow &row, RowState &state);
 
