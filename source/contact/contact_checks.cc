@@ -11,6 +11,9 @@
 #include <cstdio>
 #include <limits>
 
+// Reports and checks that read the state of contact and change nothing: the gaps with which the run
+// starts, and after each converged step the search for contact that no row can describe
+// (doc/theory.md 4.1).
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,6 +35,8 @@ namespace Touchstone
 
 
 
+    /** Description of the first finding in a pair, empty without one. Obstacles have no edges
+     * that could cross those of a body, so that only points within slave faces are looked for. */
     std::string
     unresolved_in_pair(const Contact &contact, const ContactPair &pair, const Solid &solid)
     {
@@ -67,6 +72,7 @@ namespace Touchstone
   std::string
   unresolved_contact(const Contact &contact)
   {
+    // Tied pairs may be in tension and along any direction, so forces prove nothing there.
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
@@ -104,6 +110,7 @@ namespace Touchstone
             size   = std::max(size, row.size);
             overlapping += (gap < -Tolerances::touches_at_start * row.size);
           }
+        // Each node is the row of exactly one rank, so sums over ranks count no node twice.
         const unsigned int total = Utilities::MPI::sum(pair.rows().size(), communicator);
         lowest                   = Utilities::MPI::min(lowest, communicator);
         size                     = Utilities::MPI::max(size, communicator);

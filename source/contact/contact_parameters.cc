@@ -9,6 +9,9 @@
 #include <cmath>
 #include <set>
 
+// Input of contact pairs and of enforcement: the keys with their documentation, and the checks that
+// need no mesh. An error names the section, the key, the value, the reason and a remedy. What needs
+// the mesh or other sections (names of boundaries, bodies) is checked where they are known.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -22,6 +25,8 @@ namespace Touchstone
 
 
 
+  // Order matters: the choice of pairing and friction law is read early (`values`), because their
+  // own keys have to be declared before the file is parsed.
   void
   ContactPairParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
@@ -107,6 +112,7 @@ namespace Touchstone
 
 
 
+  // From missing keys to contradictions, so that the first message is the most basic one.
   void
   ContactPairParameters::check(const std::string &section) const
   {
@@ -156,6 +162,8 @@ namespace Touchstone
                                               : "this boundary is listed twice",
                              "name each boundary once, with commas between them");
       }
+    // By name only; two names of the same boundary are found by ContactPair, which knows their
+    // numbers.
     if (slave_body == master_body)
       for (const std::string &slave : slave_boundaries)
         for (const std::string &master : master_boundaries)
@@ -214,6 +222,7 @@ namespace Touchstone
 
 
 
+  // `!(x > 0)` instead of `x <= 0`: it is true for NaN as well.
   void
   ContactParameters::check(const std::string &section) const
   {
