@@ -41,7 +41,8 @@ namespace Touchstone
     unresolved_in_pair(const Contact &contact, const ContactPair &pair, const Solid &solid)
     {
       const Vector forces = normal_forces(contact, pair, solid);
-      // Overlaps can be meant.
+      // An initial overlap that is adjusted or grows with time is no sign of unresolved contact:
+      // overlaps are looked for only where they count from the start.
       const bool overlaps =
         pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference;
       if (!pair.master())
@@ -61,7 +62,7 @@ namespace Touchstone
                                     pair.master_body(),
                                     contact.ghosted_displacement(),
                                     forces);
-      // Surfaces of small sliding stay where they are.
+      // With small sliding the surfaces are not moved, so that their overlap means nothing.
       const std::string text = overlaps && !pair.small_sliding() ? check.overlap() : "";
       return text.empty() ? check.oblique_force() : text;
     }
@@ -103,7 +104,8 @@ namespace Touchstone
             const ContactRow &row = pair.rows()[k];
             if (!row.has_partner)
               continue;
-            // As the bodies are placed.
+            // The gap as the bodies are placed: before the treatment of initial overlaps, and of
+            // the surfaces themselves, see ContactRow::share.
             const double gap = (row.gap + pair.overlap(k)) / row.share;
             ++partner;
             lowest = std::min(lowest, gap);

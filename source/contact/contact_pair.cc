@@ -171,7 +171,8 @@ namespace Touchstone
                            input.master_body,
                            u,
                            present);
-    // An interference deeper than the distance that the size of the faces suggests.
+    // With an automatic search distance an initial interference can be deeper than the search
+    // reaches, which is a multiple of the face size.
     const double depth = input.parameters.search_distance > 0. ? 0. : check.depth_of_overlap();
     const double face =
       master_surface ? std::max(slave_surface->largest_face(), master_surface->largest_face()) : 0.;
@@ -317,7 +318,7 @@ namespace Touchstone
     if (!small)
       // Sweeps of the next step start from these positions (doc/theory.md 4, "Passing through").
       pairing_method->commit_positions(*displacement);
-    // What belongs to the linearisation is made anew in each iteration.
+    // Derivatives are made anew in each iteration and need not be copied with the history.
     for (ContactRow &row : present)
       row.derivative.reset();
     committed = present;
@@ -335,7 +336,7 @@ namespace Touchstone
 
   namespace
   {
-    /** @brief Rows as the archive wants them. */
+    /** @brief References to the rows, the form in which save_rows() and load_rows() take them. */
     ContactRows
     references(const std::vector<ContactRow> &rows)
     {
@@ -358,7 +359,7 @@ namespace Touchstone
       if (k < memory.of_rows.size() && memory.of_rows[k])
         pack.key(*memory.of_rows[k]);
     });
-    // In an order that does not depend on how the memory came about.
+    // Sorted, so that the checkpoint does not depend on the order in which entries were made.
     KeyPairs faces(memory.of_faces.begin(), memory.of_faces.end());
     std::sort(faces.begin(), faces.end());
     archive.put_keys(input.parameters.section(), faces);

@@ -34,7 +34,7 @@ namespace Touchstone
         for (unsigned int d = 0; d < dim; ++d)
           point.displacement[d] = u(dim * row.slave + d);
         point.normal = row.normal;
-        // What round-off leaves of positions is none.
+        // A gap of the size of round-off is reported as zero, so that results compare.
         point.gap      = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
         point.area     = row.area * row.share;
         point.pressure = (state.lambda + extra * row.normal) / row.area;

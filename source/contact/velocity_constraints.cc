@@ -40,7 +40,8 @@ namespace Touchstone
             offer(Point<dim>::unit_vector(d), along_direction);
         else
           {
-            // Where it slides, less pressure is less friction.
+            // In slip the friction impulse is proportional to the normal impulse: both act along
+            // the present contact force, scaled to a unit normal component.
             const bool slides = state.status == ContactStatus::slip && row.friction;
             offer(row.normal, slides ? state.force / state.lambda : along_direction);
             constraint.normal = false;

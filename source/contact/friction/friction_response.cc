@@ -126,12 +126,12 @@ namespace Touchstone
 
   namespace
   {
-    /** Bound of the stiffness across the slip direction over that along the
-     * normal: it grows like 1 / |s| where slip begins. */
+    /** Bound of the stiffness kappa_T across the slip direction over E A / h: kappa_T grows like
+     * 1 / |s| where slip begins, and would spoil the condition of the system. */
     constexpr double stiffest = 1e2;
 
-    /** A trial force that is smaller, over the scale of contact forces, is what
-     * round-off makes of the slip: it has no direction. */
+    /** A trial force below this fraction of E A is round-off of the slip, and its direction is
+     * arbitrary: no friction acts then. */
     constexpr double nothing = 1e-12;
 
 
@@ -162,8 +162,10 @@ namespace Touchstone
       const double          size      = trial.norm();
       const Tensor<1, dim>  direction = trial / size;
       f.direction                     = direction;
-      // Springs take back part of what changes the limit, see cone_of_springs(). A limit that
-      // falls faster than they unload has no solution nearby, and hence no derivative.
+      // On springs a change of the limit changes the irreversible slip and so the limit again, see
+      // cone_of_springs(): dL is divided by 1 + L_s / alpha_t (doc/theory.md 6.3). If the limit
+      // falls faster with the slip than the springs unload, the denominator is not positive and
+      // no equilibrium is near; it is bounded from below.
       const double by_slip = row.friction->slip_derivative(limit);
       const double part    = f.carried ? 1. / std::max(0.1, 1. + by_slip / f.c) : 1.;
       f.d_lambda           = part * limit.slope * direction;

@@ -107,10 +107,11 @@ namespace Touchstone
   namespace
   {
     /**
-     * The tangential displacement that an open node has yet to go until it touches, if it
-     * goes on as it came in this step: no friction acts on it so far. A node that
-     * comes in flatter than 45 degrees slides rather than lands, and one without a
-     * past is taken to come along the normal.
+     * The tangential displacement that an open node is predicted to make until it touches, if it
+     * continues in the direction of this step, doc/theory.md 6.2, equation (19): without contact
+     * there is no friction, so this displacement is no slip. Zero for a node that approaches at
+     * less than 45 degrees to the surface, which will slide, and for one without a step of
+     * approach, which is taken to come along the normal. In components of the frame.
      */
     std::array<double, 2>
     precontact_offset(const ContactRow &row, const bool is_active, const FrictionHistory &history)
@@ -205,7 +206,7 @@ namespace Touchstone
   {
     if (!active())
       return;
-    // What belongs to the linearisation is made anew in each iteration.
+    // Gradients are made anew in each iteration and need not be copied with the history.
     for (FrictionRow &row : present)
       {
         row.kinematics.slip_gradient.clear();

@@ -78,7 +78,8 @@ namespace Touchstone
       k.tangents.assign(k.frame.begin(), k.frame.end());
       for (const Tensor<1, dim> &mirror : mirrors)
         {
-          // What of the plane's normal is tangential, and not taken out by another plane.
+          // Tangential part of the normal of the symmetry plane, orthogonal to the directions that
+          // earlier planes have removed.
           Tensor<1, dim> out    = k.tangential * mirror;
           const double   length = out.norm();
           if (length < 1e-3)
@@ -146,10 +147,11 @@ namespace Touchstone
              const NodePositions  &positions,
              FrictionHistory      &history)
   {
-    // Slip is the displacement of the node relative to the material point that it faces now,
-    // seen in a frame that turns with the surface: no rotation of both bodies changes
-    // it. Small sliding: the change of the gap vector. Obstacle: the point of its
-    // surface moves with it. What an open node has yet to move is no slip.
+    // From now on slip is the displacement of the node relative to the material point that it faces
+    // now, in components of a frame that turns with the surface, so that a common rotation of both
+    // bodies is no slip (doc/theory.md 6.2). With small sliding it is the change of the gap vector;
+    // on an obstacle the anchor is a point that moves with it. The displacement that an open node
+    // is predicted to make until it touches, equation (19), is added and thereby no slip either.
     history.has_anchor = true;
     history.anchor.clear();
     history.anchor_offset = Tensor<1, dim>();
