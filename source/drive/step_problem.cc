@@ -644,8 +644,6 @@ namespace Touchstone
   void
   StepProblem::check_bodies_without_support()
   {
-    // Prescribed displacements first: they take precedence over contact, and the residual needs
-    // their directions.
     graph.clear();
     boundary_conditions.prescribe(0., u, graph);
     const FreeMotion motion = modes->free_motion(graph.accepted());

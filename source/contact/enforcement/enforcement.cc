@@ -74,11 +74,12 @@ namespace Touchstone
   {
     // Against an obstacle only the slave node can move. Where supports or other active rows
     // determine its tangential displacement, any force within the cone is in equilibrium, and how
-    // it is divided would depend on the enforcement and the path of the iteration. There the
-    // elastic slip determines it, doc/theory.md 6.1.
-    // Rows that may close belong to them: the formulation of friction must not change with the
-    // active set, or each of the two states could ask for the other.
-    // Number of rows at the node, over all pairs, that are closed or closer than a face.
+    // it is divided would depend on the enforcement and on the path of the iteration. There the
+    // elastic slip determines it (doc/theory.md 6, "Stick at the edge of two obstacles").
+    //
+    // Rows of the node are counted over all pairs, with those that are open by less than the size
+    // of a face: the formulation of friction must not change with the active set, or the active
+    // set of each formulation could lead to the other one.
     std::map<Index, unsigned int> n_near;
     for (const ContactRow &row : contact.rows())
       n_near[row.slave] += (row.has_partner && row.gap < row.size);
@@ -115,7 +116,7 @@ namespace Touchstone
   void
   Enforcement::enforce(const Contact &contact, ConstraintGraph &graph, LinearSystem &system)
   {
-    // Before any condition is offered to the graph: of a cycle between pairs the rows of the latest
+    // Before any condition is added to the graph: of a cycle between pairs the rows of the latest
     // pair are left out and carry no force (doc/theory.md 6, "Cyclic constraints").
     const std::vector<bool> redundant =
       contact.cyclic_constraints().redundant_rows(contact, graph, cycle_threshold());

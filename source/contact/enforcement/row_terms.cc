@@ -96,8 +96,9 @@ namespace Touchstone
   friction_springs(const ContactRow &row, const RowState &state)
   {
     std::vector<Condition> conditions = elastic_stick(row, state);
-    // Friction that turns with the slip resists across it like a spring. A soft one is not worth
-    // an unknown that multigrid keeps out of its coarse spaces.
+    // In slip kappa_T of equation (17) resists a change of the slip direction like a spring. Only
+    // stiff springs get their elongation as a dof: multigrid keeps such dofs out of its coarse
+    // spaces, which a soft spring does not need.
     if (row.friction && state.status == ContactStatus::slip && !state.dropped() &&
         state.friction.tangent.norm() > 10. * row.stiffness)
       {

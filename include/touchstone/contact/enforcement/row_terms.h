@@ -42,7 +42,8 @@ namespace Touchstone
 
   /** @brief The directions in which friction resists an increment like a spring: along the surface
    * where the row sticks elastically, across the slip where it slips. As conditions without
-   * value, for a change of basis that takes their elongations for unknowns. */
+   * value, for a change of basis that makes their elongations dofs (doc/theory.md 7, equation
+   * (23)). */
   std::vector<Condition>
   friction_springs(const ContactRow &row, const RowState &state);
 

@@ -40,7 +40,8 @@ namespace Touchstone
   regularise_friction(const ContactRow &row, RowState &state);
 
   /** @brief Take the formulation of an enforcement that constrains what sticks by
-   * conditions: exact, unless the scene asks for regularised stick. */
+   * conditions: exact, unless the input sets regularised stick or the node is shared, see
+   * FrictionForce::shared. */
   void
   choose_friction(const ContactRow &row, RowState &state);
 
