@@ -26,6 +26,8 @@ namespace Touchstone
     {
       Vector owned(solid.owned, solid.communicator);
       for (const ContactRow &row : pair.rows())
+        // Only compression: the cone of normals has no meaning for a small force in tension, which
+        // the tolerance of the active set admits.
         if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
           for (unsigned int d = 0; d < dim; ++d)
             owned(dim * row.slave + d) = state.lambda * row.normal[d];
@@ -128,6 +130,7 @@ namespace Touchstone
              : "taken as interference");
         char text[300];
         if (partner == 0)
+          // Without a partner no row has a gap to report.
           std::snprintf(text,
                         sizeof(text),
                         "no master face within reach of any of %u slave nodes",

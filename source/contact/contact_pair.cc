@@ -184,6 +184,8 @@ namespace Touchstone
         pairing_method->update(u, time, present);
         ++searches;
       }
+    // Input error if all slave nodes face away from the master surface: wrong boundaries or
+    // misplaced bodies would otherwise be contact that never happens.
     check.check_facing();
   }
 
@@ -283,6 +285,7 @@ namespace Touchstone
       }
     for (ContactRow &row : present)
       {
+        // Current positions; the ghosted displacement also holds the owned dofs.
         for (unsigned int d = 0; d < dim; ++d)
           row.position[d] = ghosted(dim * row.slave + d);
         row.position += row.reference;

@@ -65,6 +65,8 @@ namespace Touchstone
                           "face each other; or a friction law, whose own keys stand in the "
                           "subsection 'Friction':",
                           {"frictionless", "tied"});
+    // The law exists from here on, null for the two behaviours without friction; its own keys are
+    // in a subsection, so that they cannot collide with those of the pair.
     friction = behaviour.make();
     if (friction)
       {
@@ -149,6 +151,7 @@ namespace Touchstone
                        "an obstacle has no boundaries",
                        "remove 'Master boundaries' or take a master body");
 
+    // Empty and repeated names are most likely typing errors.
     for (const auto &[key, list] : {std::make_pair("Slave boundaries", &slave_boundaries),
                                     std::make_pair("Master boundaries", &master_boundaries)})
       {
@@ -178,6 +181,8 @@ namespace Touchstone
 
 
 
+  // The factors multiply automatic values that follow from material and mesh (E A / h), so that one
+  // input serves all systems of units and mesh sizes (doc/theory.md 6).
   void
   ContactParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {

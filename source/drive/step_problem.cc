@@ -177,6 +177,8 @@ namespace Touchstone
     time = t;
     contact.enforcement().begin_step();
     integration->begin_step(time, u);
+    // Only the first residual of the step, at the first guess of its end, estimates when the first
+    // gap closes: later iterates already obey contact.
     touch_unknown = integration->dynamic();
     forcing_term.begin_step();
     loose_bodies.clear();
@@ -250,7 +252,8 @@ namespace Touchstone
     // What the supports add is what is missing to the balance of the nodes.
     support *= -1.;
     std::vector<VelocityConstraint> constraints;
-    const bool                      plastic = scene.time_integration.plastic_impacts();
+    // Impacts without rebound change velocities, and need the conditions of the nodes in contact.
+    const bool plastic = scene.time_integration.plastic_impacts();
     if (plastic && time > committed_time)
       constraints = velocity_constraints(contact, graph, time - committed_time);
     use({&external,
@@ -408,13 +411,15 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "search");
       contact.update(u, time);
     }
+    // See begin_step().
     if (touch_unknown)
       touch = contact.part_to_touch();
     touch_unknown = false;
     // Prescribed displacements first: they take precedence over contact, and the residual needs
     // their directions. Contact is added in linearize().
     graph.clear();
-    missed           = boundary_conditions.prescribe(time, u, graph);
+    missed = boundary_conditions.prescribe(time, u, graph);
+    // Exact up to round-off after the first full increment; a shortened increment misses a part.
     state.prescribed = missed <= scene.newton.gap_tolerance * length;
   }
 
@@ -675,6 +680,7 @@ namespace Touchstone
     for (const ContactRow &row : contact.rows())
       {
         const auto springs = elastic_stick(row, contact.state(row));
+        // Springs of stick hold a body against sliding although they impose no condition.
         supports.insert(supports.end(), springs.begin(), springs.end());
       }
     const FreeMotion motion = modes->free_motion(supports);
@@ -747,6 +753,7 @@ namespace Touchstone
     trial += increment;
     for (unsigned int halvings = 0; !solid.admissible(trial); ++halvings)
       {
+        // The load stepping then cuts the step.
         if (halvings == 6)
           throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
                               "increment");
@@ -834,6 +841,7 @@ namespace Touchstone
     if (!stabilised.empty())
       text +=
         std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
+    // Each remark of the solver is reported once.
     for (const std::string &remark : solver->take_remarks())
       text += (text.empty() ? "" : "\n") + remark;
     return text;
