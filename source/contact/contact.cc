@@ -6,12 +6,19 @@
 
 #include <algorithm>
 
+// Contact holds the pairs, their friction and the enforcement and calls them in the order in which
+// they depend on each other: pairs make the geometry of the rows, the enforcement their status and
+// forces, friction their slip. What is derived from this state is in results.cc and
+// contact_checks.cc. All ranks call the same functions in the same order, since most are
+// collective.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
+    /** The force of a row along its present normal, or what is left of it, which is friction (and
+     * shear of tied rows). */
     Tensor<1, dim>
     part_of_force(const ContactRow &row, const RowState &state, const ForcePart part)
     {
@@ -40,6 +47,8 @@ namespace Touchstone
     , impulse_forces("impulse force")
     , ghosted(solid.owned, solid.relevant, solid.communicator)
   {
+    // Rows are numbered over all pairs of this rank, so that the arrays of enforcement and friction
+    // need one index only; friction has an entry for each row, also without a law.
     std::vector<FrictionRow> frictions;
     for (const ContactPairInput &input : inputs)
       {
@@ -49,7 +58,10 @@ namespace Touchstone
           frictions.push_back(std::move(row));
       }
     friction_rows.reinit(std::move(frictions));
+    // Contact faces of other bodies and of other ranks refer to dofs beyond the ghost layer of the
+    // mesh; one import per update serves all surfaces.
     IndexSet seen = solid.relevant;
+    // Only now, for `friction_rows` must not move its elements once rows point to them.
     for (const auto &pair : pairs)
       {
         pair->set_friction([this](const std::size_t index) { return friction_rows.row(index); });
@@ -64,6 +76,8 @@ namespace Touchstone
     method->reinit(all_rows);
     impulse_forces.reinit(all_rows);
     cyclic.reinit(pairs, solid.communicator);
+    // The order of commit, rollback and of checkpoints: first the geometry, to which the rest
+    // refers.
     for (const auto &pair : pairs)
       parts.push_back(pair.get());
     for (Stateful *part : {static_cast<Stateful *>(&friction_rows),
@@ -84,7 +98,9 @@ namespace Touchstone
     (*import_ghosts)(u, ghosted);
     for (const auto &pair : pairs)
       pair->update(u, ghosted, time, [this](const ContactRow &row) { return state(row).active(); });
+    // Impulses belong to the committed step alone.
     impulse_forces.reinit_present();
+    // Before the slip: a row that has lost its partner has none.
     method->update_partners(all_rows, !started);
     started = true;
     friction_rows.update(all_rows, u, time);
@@ -110,6 +126,9 @@ namespace Touchstone
     for (const ContactRow &row : all_rows)
       if (state(row).active())
         {
+          // Nodal forces M^T f: f on the slave node and -w_m f on the master nodes, so that action
+          // equals reaction (doc/theory.md 3). Master nodes may belong to other ranks, hence
+          // compress().
           const Tensor<1, dim> f = part_of_force(row, state(row), part);
           for (unsigned int d = 0; d < dim; ++d)
             if (f[d] != 0.)
@@ -130,6 +149,8 @@ namespace Touchstone
 
 
 
+  // An obstacle is rigid and driven from outside: the work that it does on the slave body enters
+  // the energy balance of dynamics, whereas contact of two bodies does no work from outside.
   double
   Contact::work_of_obstacles(const ForcePart part) const
   {
@@ -142,6 +163,8 @@ namespace Touchstone
 
 
 
+  // Gaps are taken to change linearly over the step. Used to cut a step of dynamics at the first
+  // impact; only rows that were open when it began can have one.
   double
   Contact::part_to_touch() const
   {
@@ -162,6 +185,8 @@ namespace Touchstone
   Contact::add_impulses(const std::vector<VelocityConstraint> &constraints, const double step)
   {
     for (const VelocityConstraint &constraint : constraints)
+      // The impulse is taken from the velocity, see Impact, so the force on the slave node is
+      // opposite; divided by the step it is the mean force of the impact.
       impulse_forces[all_rows[constraint.row]].force -=
         constraint.impulse / step * constraint.condition.force();
   }
@@ -171,6 +196,8 @@ namespace Touchstone
   void
   Contact::commit()
   {
+    // The history needs the forces and the geometry of the step that ends, so it is made before
+    // anything is committed.
     friction_rows.end_step(all_rows, method->states());
     for (Stateful *part : parts)
       part->commit();
@@ -199,6 +226,8 @@ namespace Touchstone
   void
   Contact::load(const ArchiveReader &archive)
   {
+    // The update that made the rows was in the reference state: surfaces have to be moved to the
+    // committed displacement before the parts are loaded.
     present_time = archive.get<double>("committed time");
     (*import_ghosts)(archive.field("displacement"), ghosted);
     for (const auto &pair : pairs)
@@ -215,9 +244,12 @@ namespace Touchstone
     std::vector<Vector> result(n_fields * pairs.size(), Vector(solid.owned, solid.communicator));
     for (const ContactRow &present : all_rows)
       {
-        const ContactRow &row   = of_committed ? committed(present) : present;
-        const RowState   &now   = of_committed ? method->states().of_committed(row) : state(row);
-        Vector *const     field = &result[n_fields * row.pair];
+        const ContactRow &row = of_committed ? committed(present) : present;
+        const RowState   &now = of_committed ? method->states().of_committed(row) : state(row);
+        // Densities over the area: nodal forces cannot be interpolated between meshes
+        // (doc/theory.md 11, "History"). Status flags become numbers between 0 and 1 by
+        // interpolation.
+        Vector *const field = &result[n_fields * row.pair];
         if (now.active() && row.area > 0.)
           for (unsigned int d = 0; d < dim; ++d)
             field[0](dim * row.slave + d) = now.force[d] / row.area;
@@ -247,6 +279,7 @@ namespace Touchstone
         Tensor<1, dim>      force;
         for (unsigned int d = 0; d < dim; ++d)
           force[d] = row.area * field[0](dim * row.slave + d);
+        // More than half of the neighbourhood decides about the status of a new node.
         const ContactStatus status = field[1](dim * row.slave) < 0.5 ? ContactStatus::open
                                      : row.friction && field[1](dim * row.slave + 1) >= 0.5
                                        ? ContactStatus::stick
@@ -258,6 +291,8 @@ namespace Touchstone
                               field[2](dim * row.slave),
                               row.area * field[2](dim * row.slave + 1));
       }
+    // The fields are the committed state: the step on the new mesh begins with it, and a rollback
+    // leads here.
     if (history)
       for (Stateful *part : parts)
         part->commit();

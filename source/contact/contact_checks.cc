@@ -11,6 +11,9 @@
 #include <cstdio>
 #include <limits>
 
+// Reports and checks that read the state of contact and change nothing: the gaps with which the run
+// starts, and after each converged step the search for contact that no row can describe
+// (doc/theory.md 4.1).
 namespace Touchstone
 {
   using namespace dealii;
@@ -23,6 +26,8 @@ namespace Touchstone
     {
       Vector owned(solid.owned, solid.communicator);
       for (const ContactRow &row : pair.rows())
+        // Only compression: the cone of normals has no meaning for a small force in tension, which
+        // the tolerance of the active set admits.
         if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
           for (unsigned int d = 0; d < dim; ++d)
             owned(dim * row.slave + d) = state.lambda * row.normal[d];
@@ -32,11 +37,14 @@ namespace Touchstone
 
 
 
+    /** Description of the first finding in a pair, empty without one. Obstacles have no edges
+     * that could cross those of a body, so that only points within slave faces are looked for. */
     std::string
     unresolved_in_pair(const Contact &contact, const ContactPair &pair, const Solid &solid)
     {
       const Vector forces = normal_forces(contact, pair, solid);
-      // Overlaps can be meant.
+      // An initial overlap that is adjusted or grows with time is no sign of unresolved contact:
+      // overlaps are looked for only where they count from the start.
       const bool overlaps =
         pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference;
       if (!pair.master())
@@ -56,7 +64,7 @@ namespace Touchstone
                                     pair.master_body(),
                                     contact.ghosted_displacement(),
                                     forces);
-      // Surfaces of small sliding stay where they are.
+      // With small sliding the surfaces are not moved, so that their overlap means nothing.
       const std::string text = overlaps && !pair.small_sliding() ? check.overlap() : "";
       return text.empty() ? check.oblique_force() : text;
     }
@@ -67,6 +75,7 @@ namespace Touchstone
   std::string
   unresolved_contact(const Contact &contact)
   {
+    // Tied pairs may be in tension and along any direction, so forces prove nothing there.
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
@@ -97,13 +106,15 @@ namespace Touchstone
             const ContactRow &row = pair.rows()[k];
             if (!row.has_partner)
               continue;
-            // As the bodies are placed.
+            // The gap as the bodies are placed: before the treatment of initial overlaps, and of
+            // the surfaces themselves, see ContactRow::share.
             const double gap = (row.gap + pair.overlap(k)) / row.share;
             ++partner;
             lowest = std::min(lowest, gap);
             size   = std::max(size, row.size);
             overlapping += (gap < -Tolerances::touches_at_start * row.size);
           }
+        // Each node is the row of exactly one rank, so sums over ranks count no node twice.
         const unsigned int total = Utilities::MPI::sum(pair.rows().size(), communicator);
         lowest                   = Utilities::MPI::min(lowest, communicator);
         size                     = Utilities::MPI::max(size, communicator);
@@ -119,6 +130,7 @@ namespace Touchstone
              : "taken as interference");
         char text[300];
         if (partner == 0)
+          // Without a partner no row has a gap to report.
           std::snprintf(text,
                         sizeof(text),
                         "no master face within reach of any of %u slave nodes",

@@ -7,6 +7,10 @@
 
 #include <algorithm>
 
+// A contact pair makes the geometry of its rows in each update: search and pairing in the present
+// state for finite sliding, or the relative displacement at the weights of the reference state for
+// small sliding and tied pairs (doc/theory.md 4), and then the treatment of initial overlaps. It is
+// the only writer of rows beside its pairing.
 namespace Touchstone
 {
   using namespace dealii;
@@ -23,6 +27,8 @@ namespace Touchstone
       {
         master_surface =
           make_surface(input.master_body, input.parameters.master_boundaries, "Master boundaries");
+        // Surfaces of one body can meet, but a node that is master and slave of the same pair would
+        // be constrained to itself.
         for (const types::boundary_id id : master_surface->boundaries())
           if (slave_surface->boundaries().count(id) > 0)
             throw InputError(input.parameters.section(),
@@ -33,6 +39,8 @@ namespace Touchstone
                              "let different boundaries be slave and master");
       }
     pairing_method = make_pairing(input.parameters.search_distance);
+    // One row for each slave node that this rank owns; hanging nodes have none. The stiffness E A /
+    // h is the complementarity constant c of doc/theory.md 5 and the scale of all springs.
     for (const SurfaceNode &node : slave_surface->owned_nodes())
       {
         ContactRow row;
@@ -54,6 +62,7 @@ namespace Touchstone
 
 
 
+  // Collective: all ranks make all surfaces, also those of which they own no face.
   std::unique_ptr<Surface>
   ContactPair::make_surface(const unsigned int              body,
                             const std::vector<std::string> &boundaries,
@@ -120,7 +129,8 @@ namespace Touchstone
         row.material_tangents = tangents[k];
         row.small             = small;
         row.exact             = (contact.friction == ContactParameters::Stick::exact);
-        row.alpha             = 10. * contact.tangential_factor * present[k].stiffness;
+        // alpha_t = 10 E A / h times the factor of the scene, doc/theory.md 6.1.
+        row.alpha = 10. * contact.tangential_factor * present[k].stiffness;
       }
     return result;
   }
@@ -143,6 +153,7 @@ namespace Touchstone
     move_surfaces(u);
     pairing_method->update(u, time, present);
     ++searches;
+    // Only once, with the bodies as they are placed: later on surfaces may well separate.
     if (!started)
       check_start(u);
   }
@@ -160,16 +171,21 @@ namespace Touchstone
                            input.master_body,
                            u,
                            present);
-    // An interference deeper than the distance that the size of the faces suggests.
+    // With an automatic search distance an initial interference can be deeper than the search
+    // reaches, which is a multiple of the face size.
     const double depth = input.parameters.search_distance > 0. ? 0. : check.depth_of_overlap();
     const double face =
       master_surface ? std::max(slave_surface->largest_face(), master_surface->largest_face()) : 0.;
     if (depth > face)
       {
+        // The first search did not reach the surface from within the overlap. The new distance
+        // covers the depth and two faces beyond it.
         pairing_method = make_pairing(std::max(depth + 2. * face, 4. * face));
         pairing_method->update(u, time, present);
         ++searches;
       }
+    // Input error if all slave nodes face away from the master surface: wrong boundaries or
+    // misplaced bodies would otherwise be contact that never happens.
     check.check_facing();
   }
 
@@ -178,6 +194,7 @@ namespace Touchstone
   void
   ContactPair::make_reference()
   {
+    // Small sliding pairs the reference state, whatever the displacement is in which a run starts.
     Vector zero;
     zero.reinit(*displacement);
     search(zero);
@@ -197,6 +214,8 @@ namespace Touchstone
   void
   ContactPair::update_small_sliding(const Vector &u)
   {
+    // Gap vector g_0 + M u with constant weights and normal. A tied pair keeps its initial gap:
+    // only the relative displacement M u is constrained.
     stencil_values = u;
     for (std::size_t k = 0; k < present.size(); ++k)
       {
@@ -219,6 +238,10 @@ namespace Touchstone
   void
   ContactPair::apply_overlap()
   {
+    // "adjust" takes the initial overlap out of the gap for good, "ramp" at time 0 and less and
+    // less until the end of the run, when all of it presses; "interference" leaves gaps alone. The
+    // overlap is that of the first update. The gap vector changes as well, for friction with small
+    // sliding is measured by it.
     const ContactPairParameters::Overlap treatment = input.parameters.initial_overlap;
     for (std::size_t k = 0; k < present.size(); ++k)
       {
@@ -249,6 +272,8 @@ namespace Touchstone
     time         = t;
     displacement = &ghosted;
     for (ContactRow &row : present)
+      // Before the search: a row in contact leaves an edge of the master surface later than an open
+      // one arrives there, or it would alternate (doc/theory.md 5, "Cycles").
       row.was_active = active(row);
     if (!small)
       search(ghosted);
@@ -260,6 +285,7 @@ namespace Touchstone
       }
     for (ContactRow &row : present)
       {
+        // Current positions; the ghosted displacement also holds the owned dofs.
         for (unsigned int d = 0; d < dim; ++d)
           row.position[d] = ghosted(dim * row.slave + d);
         row.position += row.reference;
@@ -275,10 +301,14 @@ namespace Touchstone
   {
     if (small)
       return; // normals and stencils do not change
+    // Only active rows get derivatives, which are expensive for averaged pairings; the active set
+    // has been updated since update() was called.
     for (ContactRow &row : present)
       row.was_active = active(row);
     pairing_method->differentiate(*displacement, time, present);
     for (ContactRow &row : present)
+      // Such a derivative holds over much less than a Newton increment, so that the row is better
+      // frozen in this iteration.
       if (row.derivative && changes_steeply(row))
         row.derivative.reset();
   }
@@ -289,8 +319,9 @@ namespace Touchstone
   ContactPair::commit()
   {
     if (!small)
+      // Sweeps of the next step start from these positions (doc/theory.md 4, "Passing through").
       pairing_method->commit_positions(*displacement);
-    // What belongs to the linearisation is made anew in each iteration.
+    // Derivatives are made anew in each iteration and need not be copied with the history.
     for (ContactRow &row : present)
       row.derivative.reset();
     committed = present;
@@ -308,7 +339,7 @@ namespace Touchstone
 
   namespace
   {
-    /** @brief Rows as the archive wants them. */
+    /** @brief References to the rows, the form in which save_rows() and load_rows() take them. */
     ContactRows
     references(const std::vector<ContactRow> &rows)
     {
@@ -321,6 +352,8 @@ namespace Touchstone
   void
   ContactPair::save(ArchiveWriter &archive) const
   {
+    // The pairing remembers faces by keys that do not depend on the partition; rows find their own
+    // by the number in this pair.
     const PairingMemory memory = pairing_method->memory();
     save_rows(archive, "rows", references(committed), [&](const ContactRow &row, RowPacker &pack) {
       const std::size_t k = &row - committed.data();
@@ -329,7 +362,7 @@ namespace Touchstone
       if (k < memory.of_rows.size() && memory.of_rows[k])
         pack.key(*memory.of_rows[k]);
     });
-    // In an order that does not depend on how the memory came about.
+    // Sorted, so that the checkpoint does not depend on the order in which entries were made.
     KeyPairs faces(memory.of_faces.begin(), memory.of_faces.end());
     std::sort(faces.begin(), faces.end());
     archive.put_keys(input.parameters.section(), faces);
@@ -355,6 +388,7 @@ namespace Touchstone
     const KeyPairs &faces = archive.keys(input.parameters.section());
     memory.of_faces.insert(faces.begin(), faces.end());
     committed = present;
+    // Small sliding: the pairing is that of the reference state, made by the update before.
     if (small)
       return;
     pairing_method->commit_positions(*displacement);

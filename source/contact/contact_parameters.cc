@@ -9,6 +9,9 @@
 #include <cmath>
 #include <set>
 
+// Input of contact pairs and of enforcement: the keys with their documentation, and the checks that
+// need no mesh. An error names the section, the key, the value, the reason and a remedy. What needs
+// the mesh or other sections (names of boundaries, bodies) is checked where they are known.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -22,6 +25,8 @@ namespace Touchstone
 
 
 
+  // Order matters: the choice of pairing and friction law is read early (`values`), because their
+  // own keys have to be declared before the file is parsed.
   void
   ContactPairParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
@@ -60,6 +65,8 @@ namespace Touchstone
                           "face each other; or a friction law, whose own keys stand in the "
                           "subsection 'Friction':",
                           {"frictionless", "tied"});
+    // The law exists from here on, null for the two behaviours without friction; its own keys are
+    // in a subsection, so that they cannot collide with those of the pair.
     friction = behaviour.make();
     if (friction)
       {
@@ -107,6 +114,7 @@ namespace Touchstone
 
 
 
+  // From missing keys to contradictions, so that the first message is the most basic one.
   void
   ContactPairParameters::check(const std::string &section) const
   {
@@ -143,6 +151,7 @@ namespace Touchstone
                        "an obstacle has no boundaries",
                        "remove 'Master boundaries' or take a master body");
 
+    // Empty and repeated names are most likely typing errors.
     for (const auto &[key, list] : {std::make_pair("Slave boundaries", &slave_boundaries),
                                     std::make_pair("Master boundaries", &master_boundaries)})
       {
@@ -156,6 +165,8 @@ namespace Touchstone
                                               : "this boundary is listed twice",
                              "name each boundary once, with commas between them");
       }
+    // By name only; two names of the same boundary are found by ContactPair, which knows their
+    // numbers.
     if (slave_body == master_body)
       for (const std::string &slave : slave_boundaries)
         for (const std::string &master : master_boundaries)
@@ -170,6 +181,8 @@ namespace Touchstone
 
 
 
+  // The factors multiply automatic values that follow from material and mesh (E A / h), so that one
+  // input serves all systems of units and mesh sizes (doc/theory.md 6).
   void
   ContactParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
@@ -214,6 +227,7 @@ namespace Touchstone
 
 
 
+  // `!(x > 0)` instead of `x <= 0`: it is true for NaN as well.
   void
   ContactParameters::check(const std::string &section) const
   {

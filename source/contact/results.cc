@@ -9,10 +9,16 @@
 #include <algorithm>
 #include <cmath>
 
+// Results of contact as plain data for output: per slave node, per slave face and per pair. Rows
+// whose stencil contains other slave nodes (doc/theory.md 3.1) stand for the forces on all of them;
+// `share` and `lever` of the row convert its values to those of the surfaces.
 namespace Touchstone
 {
   using namespace dealii;
 
+  // A row yields force, area and gap of its slave node; with neighbours in its stencil the force on
+  // all slave nodes together is `share` times that, and so is the area. The pressure lambda / A
+  // needs no conversion, for the share cancels.
   std::vector<ContactPoint>
   contact_points(const Contact &contact, const Vector &u)
   {
@@ -28,7 +34,7 @@ namespace Touchstone
         for (unsigned int d = 0; d < dim; ++d)
           point.displacement[d] = u(dim * row.slave + d);
         point.normal = row.normal;
-        // What round-off leaves of positions is none.
+        // A gap of the size of round-off is reported as zero, so that results compare.
         point.gap      = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
         point.area     = row.area * row.share;
         point.pressure = (state.lambda + extra * row.normal) / row.area;
@@ -58,6 +64,8 @@ namespace Touchstone
         for (const Face &face : slave.owned_faces())
           {
             result.push_back({p, face.degree, face.nodes});
+            // A hanging node has no row: its values follow from the nodes of the larger face
+            // (doc/theory.md 11, "Hanging nodes").
             if (const TraceBasis *basis = slave.trace(face))
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
                 {
@@ -79,6 +87,8 @@ namespace Touchstone
     for (const ContactPoint &point : contact_points(contact, u))
       {
         PairResult &result = all[point.pair];
+        // Before the test for contact: work that was done stays, also when the node has opened
+        // since.
         result.friction_work += point.friction_work;
         if (point.status != ContactStatus::no_partner && point.status != ContactStatus::tied)
           result.max_penetration = std::max(result.max_penetration, -point.gap);
@@ -86,6 +96,8 @@ namespace Touchstone
           continue;
         const Tensor<1, dim> force = point.area * point.traction;
         result.force += force;
+        // About the origin, in the deformed state, at the point where the force acts: for rows with
+        // neighbours that is not the node.
         result.moment +=
           cross_product_3d(point.reference_position + point.displacement + point.lever, force);
         result.area += point.area;
@@ -93,6 +105,8 @@ namespace Touchstone
         ++result.active;
         ++(point.status == ContactStatus::slip ? result.slip : result.stick);
       }
+    // One reduction per value: there are few pairs. All ranks have all pairs, even those of which
+    // they own no row.
     const MPI_Comm communicator = contact.communicator();
     for (PairResult &result : all)
       {

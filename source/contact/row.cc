@@ -6,6 +6,9 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  // Bounds over a displacement by one face size: a normal that turns by 30 (radian), or weights
+  // that change by 300, are valid for a thirtieth or less of a face, less than an increment often
+  // is. The comparison is written such that NaN counts as steep.
   bool
   changes_steeply(const ContactRow &row)
   {

@@ -19,6 +19,8 @@ namespace Touchstone
 
 
 
+  // Records are stored by slave node and pair, so that they can be found by any other number of
+  // ranks.
   void
   save_rows(ArchiveWriter                                              &archive,
             const std::string                                          &name,
@@ -54,6 +56,8 @@ namespace Touchstone
           throw ArchiveError("a contact row is missing (" + name + ")");
         RowUnpacker unpacker(found->second);
         unpack(row, unpacker);
+        // Records have no field names: a length that differs is the only sign that a checkpoint is
+        // of another version.
         if (!unpacker.complete())
           throw ArchiveError("the state of a contact row is too long (" + name + ")");
       }

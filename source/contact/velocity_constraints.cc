@@ -7,6 +7,9 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  // At an impact without rebound the relative velocity of active nodes vanishes along the normal,
+  // and along the surface where they stick. The graph starts from the supports and leaves out
+  // conditions that they or earlier rows determine, which would make the impulses non-unique.
   std::vector<VelocityConstraint>
   velocity_constraints(const Contact &contact, const ConstraintGraph &supports, const double step)
   {
@@ -15,11 +18,14 @@ namespace Touchstone
     for (const ContactRow &row : contact.rows())
       {
         const RowState &state = contact.state(row);
+        // A row without compression presses on nothing, so that its velocity is free.
         if (!state.active() || state.redundant || !(state.lambda > 0. || row.tied))
           continue;
         VelocityConstraint constraint{{}, true, row.index};
-        constraint.condition.node     = row.slave;
-        constraint.condition.stencil  = row.stencil;
+        constraint.condition.node    = row.slave;
+        constraint.condition.stencil = row.stencil;
+        // An obstacle imposes its own velocity, taken as constant over the step; zero for a master
+        // body.
         const Tensor<1, dim> velocity = (row.shift - contact.committed(row).shift) / step;
         const auto offer = [&](const Tensor<1, dim> &direction, const Tensor<1, dim> &force) {
           constraint.condition.direction       = direction;
@@ -34,7 +40,8 @@ namespace Touchstone
             offer(Point<dim>::unit_vector(d), along_direction);
         else
           {
-            // Where it slides, less pressure is less friction.
+            // In slip the friction impulse is proportional to the normal impulse: both act along
+            // the present contact force, scaled to a unit normal component.
             const bool slides = state.status == ContactStatus::slip && row.friction;
             offer(row.normal, slides ? state.force / state.lambda : along_direction);
             constraint.normal = false;

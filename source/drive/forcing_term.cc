@@ -15,6 +15,7 @@ namespace Touchstone
 
 
 
+  // Residuals of another step say nothing about this one, and slow convergence may be over.
   void
   ForcingTerm::begin_step()
   {
@@ -27,21 +28,21 @@ namespace Touchstone
   void
   ForcingTerm::update(const NewtonState &state, const bool leaves_out)
   {
-    // A solve that goes far below what Newton needs in the end is wasted. But one
-    // that moves supports has a right-hand side much larger than the forces that
-    // it leads to, and one that leads to wrong signs of contact forces costs
-    // further iterations: these get two digits more, three where stick and slip are
-    // told apart by small differences. One that can be the last should be: it aims well
-    // below the residual that Newton asks for, with two digits more if it takes them.
+    // A linear solve that is much more accurate than Newton's method needs is wasted. Two kinds
+    // of solve need more: if supports move, the right-hand side is much larger than the forces
+    // that result; and if the active set changes, an error in the sign of a contact force costs
+    // further iterations. They get two more digits, and three with friction, where stick and slip
+    // are distinguished by small differences. A solve that may be the last one of the step is made
+    // accurate enough to be it, with up to two more digits than usual.
     const double last = 0.03 * residual_tolerance / state.residual;
     next              = usual;
     if (!state.prescribed || state.changes > 0)
       next *= friction ? 1e-3 : 1e-2;
     else
       {
-        // Symmetric systems leave out how normals change, and Newton converges linearly: to
-        // solve much better than what that left of the last residual is wasted. A tenth of it
-        // and more would cost another solve now and then.
+        // Symmetric systems neglect how normals change, so that Newton's method converges linearly
+        // and accuracy beyond its contraction rate is wasted (Eisenstat and Walker 1996). The
+        // factor 0.03 leaves a margin: with a tenth, an additional solve is needed now and then.
         double left = 0.;
         if (last_residual > 0. && leaves_out)
           left = 0.03 * state.residual / last_residual;
@@ -49,8 +50,9 @@ namespace Touchstone
           next = std::min(last, std::max(usual, 0.1));
         next = std::max(next, std::min(left, 1e-2));
       }
-    // Frozen normals and contact points usually leave a hundredth of the residual. Where they leave
-    // more than this part of it, they would take longer than a system that is not symmetric.
+    // Frozen normals and contact points usually reduce the residual to about a hundredth per
+    // iteration. Where more than this part of it is left, the unsymmetric consistent system is
+    // faster, see slow().
     constexpr double much = 0.3;
     has_been_slow         = has_been_slow || (last_residual > 0. && state.changes == 0 &&
                                       state.residual > much * last_residual);

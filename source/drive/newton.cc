@@ -10,14 +10,17 @@
 #include <sstream>
 #include <vector>
 
+// Semismooth Newton method with active set, line search and detection of cycles (doc/theory.md 5).
+// It knows the problem only through NonlinearProblem, and reports failure by exceptions of the kind
+// NonConvergence, on which the load stepping cuts the step.
 namespace Touchstone
 {
   namespace
   {
     /**
-     * Judges increments by the out-of-balance force that they lead to. It may rise
-     * for one iteration, as it often does with finite strains before it falls for
-     * good, but not much above the highest of the last two.
+     * Nonmonotone line search on the norm of the out-of-balance force. At finite strain this norm
+     * often rises for one iteration before it decreases quadratically, so an increment is rejected
+     * only if it exceeds twice the larger of the last two values (doc/theory.md 5, "Line search").
      * Grippo, Lampariello and Lucidi (1986), SIAM J. Numer. Anal. 23.
      */
     class LineSearch
@@ -29,8 +32,8 @@ namespace Touchstone
       {
       }
 
-      /** A state from which the next increment starts. Forces compare while the
-       * active set and the prescribed displacements stay what they are. */
+      /** Record a state from which the next increment starts. Forces are comparable only as long
+       * as the active set does not change and prescribed displacements are met. */
       void
       start_from(const NewtonState &state)
       {
@@ -41,9 +44,9 @@ namespace Touchstone
         last = state;
       }
 
-      /** Whether the increment to @p state has made things much worse. What was in
-       * balance can only get out of it; gaps that close may take forces along; and
-       * near the tolerance it is round-off that rises. */
+      /** Whether the increment to @p state has increased the force too much. Never if the state
+       * before was in equilibrium, since then its force is no measure; if gaps have decreased,
+       * since closing them changes the forces; or near the tolerance, where round-off dominates. */
       bool
       failed(const NewtonState &state, const double factor = much_worse) const
       {
@@ -52,7 +55,7 @@ namespace Touchstone
             state.residual <= 100. * parameters.residual_tolerance ||
             (last.gap > parameters.gap_tolerance && state.gap < last.gap))
           return false;
-        // A force that is no number has failed as well.
+        // Negated, so that NaN has failed as well.
         const double highest = *std::max_element(forces.end() - memory, forces.end());
         return !(state.force <= factor * highest);
       }
@@ -99,8 +102,9 @@ namespace Touchstone
     double                  best  = std::numeric_limits<double>::max();
     unsigned int            stuck = 0, n_iterations = 0;
     LineSearch              line_search(parameters);
-    // Where stick gives way to slip node by node, as under a belt, each iteration brings the
-    // front one node further: that is progress and may take twice as long.
+    // A front between stick and slip that moves over nodes on the cone, as under a belt, advances
+    // by one node in each iteration: while the active set changes, a step may take twice as many
+    // iterations (doc/theory.md 5, "Convergence").
     const unsigned int longest = 2 * parameters.maximum_iterations;
     for (unsigned int iteration = 0; iteration <= longest; ++iteration)
       {
@@ -110,14 +114,15 @@ namespace Touchstone
           state = line_search.shorten(problem, damping);
         if (iteration > 0)
           observer(iteration, state, linear);
+        // NaN compares as false and would pass for convergence or iterate to the limit.
         if (!std::isfinite(state.residual) || !std::isfinite(state.gap))
           throw NewtonFailure("the residual is not finite");
         if (state.changes == 0 && state.prescribed && balanced(state, parameters) &&
             state.gap <= parameters.gap_tolerance)
           return iteration;
-        // Round-off can hold the residual a little above the tolerance (large
-        // penalties, slivers of overlap): if all else is met and three iterations
-        // gain nothing, more of them will not.
+        // Round-off can keep the residual a little above the tolerance (large penalties, slivers
+        // of overlap): a residual within 100 times its tolerance is accepted if everything else is
+        // met and three iterations in turn have not halved the best value.
         const bool all_else = iteration > 0 && state.changes == 0 && state.prescribed &&
                               state.gap <= parameters.gap_tolerance;
         stuck = (all_else && state.residual > 0.5 * best) ? stuck + 1 : 0;
@@ -128,8 +133,9 @@ namespace Touchstone
             (iteration >= parameters.maximum_iterations && state.changes == 0))
           break;
 
-        // A set that was left and comes back would come back for ever. Changing
-        // only the rows that ask most strongly leads elsewhere.
+        // An active set that recurs would recur for ever. Each recurrence raises the damping level:
+        // then only the rows with the largest violation change, or only one row, see
+        // Enforcement::update_active_set() and doc/theory.md 5, "Cycles".
         if (state.changes > 0 && !seen.insert(state.signature).second &&
             ++damping > 2 + parameters.maximum_iterations / 4)
           throw ActiveSetCycle("the active set goes in circles: " + std::to_string(state.changes) +

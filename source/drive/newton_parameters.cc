@@ -40,12 +40,13 @@ namespace Touchstone
   NewtonParameters::check(const std::string &section) const
   {
     const std::string remedy = "round-off ends at about 1e-12, 1e-9 is usual";
-    // What is no better than this is no solution.
+    // With coarser tolerances states far from equilibrium would be accepted.
     constexpr double coarsest = 1e-2;
     for (const auto &[key, tolerance] : {std::make_pair("Residual tolerance", residual_tolerance),
                                          std::make_pair("Gap tolerance", gap_tolerance)})
       {
         check_positive(section, key, tolerance, remedy);
+        // Written such that NaN is refused, too.
         if (!(tolerance < coarsest))
           throw InputError(section,
                            key,

@@ -14,16 +14,23 @@
 #include <cmath>
 #include <set>
 
+// One implicit step as Newton's method sees it (doc/theory.md 5). In each iteration residual()
+// updates the contact geometry, the forces and the active set, linearize() makes the linear system
+// with all conditions, solve() solves it and update() applies the increment. A converged step is
+// kept by try_commit() or taken back by rollback(). Checks of its outcome are in step_checks.cc,
+// checkpoints in restart.cc. All functions are collective.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** Slip makes the system unsymmetric anyway, and a factorisation costs the same then. Without
-     * friction a symmetric one wins more than the iterations that it takes longer cost, and where
-     * @p iterates solves large systems, the derivatives of averaged rows cost as much as the rest
-     * (doc/benchmarks.md, "Frozen or consistent"). */
+    /** Whether contact is linearised consistently from the first iteration of a step on. With
+     * friction slip makes the system unsymmetric anyway, so that the derivatives cost no other
+     * factorisation. Without friction a symmetric factorisation saves more than the additional
+     * iterations cost; and with an iterative solver (@p iterates) the derivatives of averaged rows
+     * cost as much as all the rest (doc/theory.md 5, "Linearisation"; doc/benchmarks.md, "Frozen
+     * or consistent"). */
     bool
     consistent(const Scene &scene, const bool iterates)
     {
@@ -67,6 +74,8 @@ namespace Touchstone
       ++assemblies;
     }
     modes = std::make_unique<RigidBodyModes>(solid);
+    // Slave nodes whose contact may open and close: some schemes move their mass to neighbours, so
+    // that no momentum is concentrated in the contact surface. Tied nodes never do.
     std::set<Index> slaves;
     for (const ContactRow &row : contact.rows())
       if (!row.tied)
@@ -76,8 +85,11 @@ namespace Touchstone
                                         solid,
                                         slaves,
                                         committed_u);
-    length      = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
-    length      = Utilities::MPI::min(length, solid.communicator);
+    // Three lengths: of the smallest cell, against which missed prescribed displacements are
+    // judged; of the largest coordinate, which sets the round-off of positions; and of the box
+    // around all bodies, beyond which no increment makes sense.
+    length = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
+    length = Utilities::MPI::min(length, solid.communicator);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
@@ -95,15 +107,18 @@ namespace Touchstone
   StepProblem::start()
   {
     u = committed_u = integration->initial_displacement();
-    // What has no value at time 0 is an error before the run, not within it.
+    // Formulas without a finite value at time 0 are input errors and reported before the run.
     boundary_conditions.external_force(0., u, external);
     boundary_conditions.displacements(0.);
     {
       TimerOutput::Scope scope(timer, "search");
+      // Contact starts in the initial displacement and is committed at once: the first step may
+      // fail and has to be able to return here.
       contact.update(u, 0.);
       contact.commit();
       remember_contact();
     }
+    // In statics a rigid motion without support has no equilibrium; in dynamics inertia resists it.
     if (!integration->dynamic())
       check_bodies_without_support();
     else
@@ -111,6 +126,9 @@ namespace Touchstone
         solid.internal_force(u, internal);
         graph.clear();
         boundary_conditions.prescribe(0., u, graph);
+        // The velocity that a support prescribes is the difference quotient of its displacement
+        // over a time that is short compared with a step. Components across the prescribed
+        // direction keep their initial velocity.
         const double instant  = 1e-6 * scene.load_stepping.end_time / scene.load_stepping.steps;
         const auto   set_rate = [&](Vector &velocity) {
           const auto now  = boundary_conditions.displacements(0.),
@@ -134,6 +152,8 @@ namespace Touchstone
 
 
 
+  // Supports can act along any direction of a node, so their part is projected out node by node and
+  // not by components (doc/theory.md 5, "Convergence").
   void
   StepProblem::remove_supported(Vector &forces) const
   {
@@ -157,12 +177,14 @@ namespace Touchstone
     time = t;
     contact.enforcement().begin_step();
     integration->begin_step(time, u);
+    // Only the first residual of the step, at the first guess of its end, estimates when the first
+    // gap closes: later iterates already obey contact.
     touch_unknown = integration->dynamic();
     forcing_term.begin_step();
     loose_bodies.clear();
     boundary_conditions.external_force(time, u, external);
     stabilised.clear();
-    // Last: what came before looked at the committed state.
+    // Last: the functions above use the committed state of the material.
     solid.begin_step(time - committed_time);
   }
 
@@ -184,6 +206,9 @@ namespace Touchstone
   {
     double part = 1.;
     with_forces([&](const StepForces &forces) {
+      // The energies are known only with the forces at the end; in dynamics they decide whether the
+      // step is short enough. A part below the smallest one is not worth a repetition: the step is
+      // then kept as it is.
       const Energies end = integration->end_step(u, forces);
       if (smallest_part <= 1.)
         part = acceptable_part(end);
@@ -200,6 +225,8 @@ namespace Touchstone
   void
   StepProblem::keep(const StepForces &forces, const Energies &end)
   {
+    // First, because the time integration refers to committed_u and keeps no copy: it must still
+    // be the displacement with which the step began.
     integration->commit(u, forces, end);
     if (forces.velocity_constraints != nullptr)
       contact.add_impulses(*forces.velocity_constraints, time - committed_time);
@@ -216,15 +243,17 @@ namespace Touchstone
   void
   StepProblem::with_forces(const std::function<void(const StepForces &)> &use)
   {
-    // In statics nobody asks.
+    // Statics has no energy balance and needs none of these forces.
     if (!integration->dynamic())
       return use(StepForces());
     Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
     contact.add_forces(normal, ForcePart::normal);
     contact.add_forces(tangential, ForcePart::tangential);
+    // What the supports add is what is missing to the balance of the nodes.
     support *= -1.;
     std::vector<VelocityConstraint> constraints;
-    const bool                      plastic = scene.time_integration.plastic_impacts();
+    // Impacts without rebound change velocities, and need the conditions of the nodes in contact.
+    const bool plastic = scene.time_integration.plastic_impacts();
     if (plastic && time > committed_time)
       constraints = velocity_constraints(contact, graph, time - committed_time);
     use({&external,
@@ -246,10 +275,14 @@ namespace Touchstone
     if (!integration->dynamic())
       return 1.;
     const TimeIntegrationParameters &parameters = scene.time_integration;
+    // Energy that nothing has supplied comes from the discretisation in time; a shorter step
+    // reduces it, hence the exception.
     if (end.gain() > parameters.gain_tolerance * end.largest)
       throw EnergyGain("energy " + std::to_string(end.gain() / end.largest) +
                        " times the largest so far came from nowhere ('Time integration/Gain "
                        "tolerance')");
+    // An impact in the middle of a step: repeat it such that it ends where the first gap closes, as
+    // estimated from the first guess.
     const double change = end.contact - integration->committed_energies().contact;
     const bool   impact = parameters.adapts_to_impacts() && touch < 1. - 1e-6 &&
                         std::abs(change) > parameters.impact_tolerance * end.largest;
@@ -273,6 +306,8 @@ namespace Touchstone
   StepProblem::transfer() const
   {
     StepTransfer result;
+    // Both states: the committed one as history, the present one as initial guess on the new mesh
+    // (doc/theory.md 11, "History"). The order of the fields is the interface to adopt().
     for (const bool of_committed : {true, false})
       {
         result.fields.push_back(of_committed ? committed_u : u);
@@ -305,12 +340,16 @@ namespace Touchstone
 
     const std::vector<Vector> &fields  = before.fields;
     const std::size_t          n_rates = integration->rates().size();
-    const auto                 middle  = fields.begin() + (fields.size() - n_rates) / 2;
-    const auto                 rates   = fields.end() - n_rates;
+    // Fields: committed displacement and contact, the same of the present state, and the rates at
+    // the end; see transfer().
+    const auto middle = fields.begin() + (fields.size() - n_rates) / 2;
+    const auto rates  = fields.end() - n_rates;
     // Before the first step there is no history but what start() makes.
     if (committed_time > 0.)
       {
         committed_u = u = fields.front();
+        // Twice: first the committed state becomes the history, then the present one the initial
+        // guess.
         contact.update(u, committed_time);
         contact.adopt({fields.begin() + 1, middle}, true);
         if (integration->dynamic())
@@ -344,6 +383,8 @@ namespace Touchstone
 
 
 
+  // The order is fixed: geometry at u, forces of the bodies, forces of contact from these, the
+  // residual with both, and last the active set, which is judged by the contact forces.
   NewtonState
   StepProblem::residual(const unsigned int damping)
   {
@@ -354,6 +395,7 @@ namespace Touchstone
     contact.enforcement().recover(contact, without_contact, graph);
     judge_balance(without_contact, state);
     update_active_set(damping, state);
+    // Uzawa's outer iteration augments forces once they are in balance.
     if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
       contact.enforcement().balanced(contact);
     forcing_term.update(state, solver->symmetric_only() && solid.linear());
@@ -369,11 +411,15 @@ namespace Touchstone
       TimerOutput::Scope scope(timer, "search");
       contact.update(u, time);
     }
+    // See begin_step().
     if (touch_unknown)
       touch = contact.part_to_touch();
     touch_unknown = false;
+    // Prescribed displacements first: they take precedence over contact, and the residual needs
+    // their directions. Contact is added in linearize().
     graph.clear();
-    missed           = boundary_conditions.prescribe(time, u, graph);
+    missed = boundary_conditions.prescribe(time, u, graph);
+    // Exact up to round-off after the first full increment; a shortened increment misses a part.
     state.prescribed = missed <= scene.newton.gap_tolerance * length;
   }
 
@@ -388,6 +434,8 @@ namespace Touchstone
       if (!boundary_conditions.follower_pressure().empty())
         boundary_conditions.external_force(time, u, external);
     }
+    // Time integration weighs the forces at both ends of the step and adds inertia. Forces on
+    // hanging nodes count for the nodes that these follow.
     integration->balance(u, external, internal, applied);
     without_contact = applied;
     solid.condense(without_contact);
@@ -398,12 +446,14 @@ namespace Touchstone
   void
   StepProblem::judge_balance(const Vector &without_contact, NewtonState &state)
   {
+    // Relative residual, equation (13): the scale is the largest of internal, external, contact and
+    // inertial forces.
     Vector contact_force(solid.owned, solid.communicator);
     contact.add_forces(contact_force);
     unbalanced = without_contact;
     unbalanced += contact_force;
 
-    // Only what supports do not carry is out of balance.
+    // Forces along prescribed directions are reactions of the supports and no residual.
     Vector free(unbalanced);
     remove_supported(free);
     const double present = std::max(
@@ -412,16 +462,18 @@ namespace Touchstone
       solid.round_off(u) + integration->round_off(u) +
       std::sqrt(Utilities::MPI::sum(contact.enforcement().round_off_squared(contact.rows(), extent),
                                     solid.communicator));
-    // Where forces vanish, at the end of contact for example, what is left of them is
-    // round-off, and no scale: then a small part of the forces that have acted before is.
-    // Those of a body in free flight are round-off from the start, and no such forces.
+    // Where forces vanish, at the end of contact for example, the present forces are round-off and
+    // no scale for the residual; then a thousandth of the largest forces of earlier steps is used.
+    // The forces of a body in free flight are round-off from the start: force_scale excludes them
+    // from these.
     constexpr double small_force = 1e-3, largest_round_off = 1e-6;
     force_scale        = largest_round_off * present > round_off ? present : 0.;
     const double scale = std::max(present, small_force * largest_force_scale);
     state.force        = free.l2_norm();
     state.residual     = scale > 0. ? state.force / scale : 0.;
     state.round_off    = scale > 0. ? round_off / scale : 0.;
-    // Only before the first forces act round-off can be as large as they are.
+    // A large round-off is plausible only before the first forces act. Later on it must not hide a
+    // residual, so that the allowance is bounded.
     if (largest_force_scale > 0.)
       state.round_off = std::min(state.round_off, largest_round_off);
   }
@@ -451,20 +503,27 @@ namespace Touchstone
     TimerOutput::Scope scope(timer, "assembly");
     if (!solid.linear())
       {
+        // Linear bodies have a constant stiffness, which was assembled in the constructor
+        // (doc/theory.md 2.1).
         solid.assemble(u, solver->symmetric_only());
         ++assemblies;
       }
     begin_system();
+    // Consistent linearisation of contact by choice or default, or because a frozen iteration of
+    // this step has gained too little (doc/theory.md 5, "Linearisation").
     if (!system->keep_symmetric &&
         (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
          (forcing_term.slow() &&
           scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
       contact.differentiate();
+    // Conditions of contact follow the prescribed displacements in the graph, in the order of
+    // pairs; friction needs to know which of them were accepted.
     contact.enforcement().enforce(contact, graph, *system);
     add_follower_pressure();
     contact.enforcement().add_friction(contact, *system);
     if (!integration->dynamic())
       check_supports();
+    // Only now are all terms known, and hence the dofs of other ranks that they refer to.
     const IndexSet needed = dofs_of_system();
     constrain_system(needed);
     if (solver->wants_basis_change(static_cast<int>(u.size())))
@@ -504,7 +563,11 @@ namespace Touchstone
                                                           system->terms);
     for (std::size_t k = before; k < system->terms.size(); ++k)
       for (auto &entry : system->terms[k].left)
+        // Loads at the end of the step enter the balance with this weight, and so does their
+        // stiffness.
         entry.second *= integration->weight();
+    // The load stiffness is unsymmetric in general (doc/theory.md 2.3); systems that have to be
+    // symmetric get its symmetric part.
     system->symmetric = system->symmetric && system->keep_symmetric;
   }
 
@@ -528,6 +591,8 @@ namespace Touchstone
 
 
 
+  // Decisions about the kind of system must be the same on all ranks: an unsymmetric row on one
+  // makes the whole system unsymmetric.
   bool
   StepProblem::everywhere(const bool here) const
   {
@@ -540,6 +605,8 @@ namespace Touchstone
   StepProblem::constrain_system(const IndexSet &needed)
   {
     system->constraints = graph.constraints(solid.hanging, solid.owned, needed, solid.communicator);
+    // Friction in slip and consistent linearisation: test functions that do no work against the
+    // forces of the conditions, doc/theory.md 6.3, equation (22).
     if (!everywhere(graph.symmetric()))
       {
         system->test_constraints =
@@ -551,10 +618,13 @@ namespace Touchstone
 
 
 
+  // Stiff springs spoil multigrid; with their elongations as dofs each becomes a diagonal entry
+  // (doc/theory.md 7, "Stiff springs", equation (23)).
   void
   StepProblem::change_basis(const IndexSet &needed)
   {
-    // After all conditions, for these determine nothing.
+    // After all conditions: springs determine no displacement and must not take a component that
+    // a condition needs.
     for (const ContactRow &row : contact.rows())
       for (const Condition &spring : friction_springs(row, contact.state(row)))
         graph.accept(spring, ConstraintGraph::Treatment::spring);
@@ -574,6 +644,8 @@ namespace Touchstone
 
 
 
+  // Only supports count here. A body that they leave free and that takes part in no contact pair
+  // can never be held: an input error (doc/theory.md 9).
   void
   StepProblem::check_bodies_without_support()
   {
@@ -598,6 +670,9 @@ namespace Touchstone
 
 
 
+  // Bodies held by contact alone (doc/theory.md 9): where the accepted conditions leave rigid
+  // motions free, a diagonal shift on these bodies keeps the increment finite. It is not in the
+  // residual, so the equilibrium does not depend on it.
   void
   StepProblem::check_supports()
   {
@@ -605,16 +680,18 @@ namespace Touchstone
     for (const ContactRow &row : contact.rows())
       {
         const auto springs = elastic_stick(row, contact.state(row));
+        // Springs of stick hold a body against sliding although they impose no condition.
         supports.insert(supports.end(), springs.begin(), springs.end());
       }
     const FreeMotion motion = modes->free_motion(supports);
     if (motion.n_modes == 0)
       return;
-    // Before contact, not farther than the nearest gap, so that contact can catch
-    // the body. In contact the body is left to slide: there, the springs must
-    // outweigh the geometric stiffness of the contact forces, which is about the
-    // pressure over Young's modulus and missing from the tangent, or the iteration
-    // would leap from one side of its place to the other.
+    // The shift is chosen by the distance that a body may move in one iteration. Before contact:
+    // about the smallest open gap, so that the body does not pass through the surface that will
+    // hold it. In contact the body can still slide: there the shift must outweigh the geometric
+    // stiffness of the contact forces, relative to the stiffness about pressure over Young's
+    // modulus, which the tangent lacks; otherwise the iterates would oscillate about the
+    // equilibrium.
     double       distance = std::numeric_limits<double>::max();
     double       size     = 0.;
     unsigned int active   = 0;
@@ -630,6 +707,7 @@ namespace Touchstone
     distance = Utilities::MPI::min(distance, solid.communicator);
     size     = Utilities::MPI::max(size, solid.communicator);
     active   = Utilities::MPI::sum(active, solid.communicator);
+    // No row has a partner yet.
     if (size == 0.)
       size = length;
     distance = active > 0 ? 1e-3 * size : std::clamp(1.01 * distance, 1e-3 * size, size);
@@ -649,9 +727,11 @@ namespace Touchstone
     Epetra_Vector      solution(condensed->rows());
     solver->solve(*condensed, modes->motions(), solution);
     const Index n = solid.owned.n_elements();
+    // Eliminated dofs follow from the constraints.
     condensed->expand(solution, solved_increment);
     check_increment();
     extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
+    // Frees its memory before the forces are recovered, which need the full system only.
     condensed.reset();
     contact.enforcement().take(
       {*system, graph, solved_increment, extra, [this](Vector &force) { solid.condense(force); }});
@@ -664,14 +744,16 @@ namespace Touchstone
   void
   StepProblem::update()
   {
-    // What turns a cell inside out has no energy. The multipliers are those of the
-    // end of the increment and stay.
+    // The strain energy is not defined for det F <= 0, so the increment is halved until all cells
+    // are admissible (doc/theory.md 2.2). The multipliers belong to the end of the full increment
+    // and are not scaled.
     admissible_part = 1.;
     increment       = solved_increment;
     Vector trial(u);
     trial += increment;
     for (unsigned int halvings = 0; !solid.admissible(trial); ++halvings)
       {
+        // The load stepping then cuts the step.
         if (halvings == 6)
           throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
                               "increment");
@@ -695,7 +777,7 @@ namespace Touchstone
     u.add(fraction, increment);
     contact.enforcement().shorten(contact,
                                   fraction < 1. ? fraction * admissible_part
-                                                : 1.); // all of it: as update() had it
+                                                : 1.); // the full increment, as in update()
   }
 
 
@@ -753,11 +835,13 @@ namespace Touchstone
       dropped += (contact.state(row).active() && contact.state(row).dropped());
     dropped = Utilities::MPI::sum(dropped, solid.communicator);
     if (dropped > 0)
+      // A remark and no error: what the dropped conditions would determine is determined already.
       text = std::to_string(dropped) +
              " contact row(s) dropped: prescribed displacements or other pairs decide there";
     if (!stabilised.empty())
       text +=
         std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
+    // Each remark of the solver is reported once.
     for (const std::string &remark : solver->take_remarks())
       text += (text.empty() ? "" : "\n") + remark;
     return text;

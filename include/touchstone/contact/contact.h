@@ -26,15 +26,15 @@ namespace Touchstone
 
   /**
    * @brief All contact pairs of a scene, their friction and their enforcement: each owns its
-   * piece of the state, and this calls them in order. What is derived from the state are
-   * functions of it: contact_results.h, contact_checks.h, velocity_constraints.h.
+   * part of the state, and this class calls them in order. Quantities that are derived from the
+   * state are free functions: results.h, contact_checks.h, velocity_constraints.h.
    */
   class Contact : public Stateful
   {
   public:
     using Mirrors = ContactPair::Mirrors;
 
-    /** @param inputs     What the pairs are made from, in their order.
+    /** @param inputs     Input of the pairs, in their order.
      * @param parameters How they are enforced; must live as long as this.
      * @param mirrors    Of owned nodes, by node.
      * @throws InputError for boundaries that do not exist, and surfaces without faces. */
@@ -120,7 +120,8 @@ namespace Touchstone
       return solid.communicator;
     }
 
-    /** @brief Make the rows describe the displacement @p u (owned dofs). Collective. */
+    /** @brief Update the geometry of the rows, and the slip, to the displacement @p u (owned dofs)
+     * at time @p time. Collective. */
     void
     update(const Vector &u, double time);
 
@@ -140,8 +141,8 @@ namespace Touchstone
     double
     work_of_obstacles(ForcePart part) const;
 
-    /** @brief The part of the displacement since the committed state after which the first
-     * open row closes; 1 if none does. Collective. */
+    /** @brief The fraction of the displacement since the committed state after which the first
+     * open row closes, with gaps that change linearly; 1 if none does. Collective. */
     double
     part_to_touch() const;
 
@@ -175,8 +176,8 @@ namespace Touchstone
      * per pair the contact traction; whether a node is active, sticks, and nothing;
      * slip length and work against friction per area, and nothing.
      *
-     * Densities, and not forces of nodes, so that they can be interpolated: a new
-     * node takes its share by its own area.
+     * Densities, and not nodal forces, because only they can be interpolated; a new node
+     * multiplies them by its own area.
      * @param of_committed Of the last committed state instead of the present one.
      */
     std::vector<Vector>
@@ -238,7 +239,7 @@ namespace Touchstone
     bool                               started      = false;
     double                             present_time = 0.;
 
-    /** All that has history, in the order in which it is committed and loaded. */
+    /** All objects with history, in the order in which they are committed and loaded. */
     std::vector<Stateful *> parts;
   };
 } // namespace Touchstone

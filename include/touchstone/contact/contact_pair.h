@@ -19,7 +19,7 @@
 
 namespace Touchstone
 {
-  /** @brief What a contact pair is made from. */
+  /** @brief Input of a contact pair. */
   struct ContactPairInput
   {
     const ContactPairParameters &parameters;
@@ -31,17 +31,17 @@ namespace Touchstone
     unsigned int number = 0;
     /** Numbers of the bodies; no master body with an obstacle. */
     unsigned int slave_body = 0, master_body = dealii::numbers::invalid_unsigned_int;
-    /** Young's modulus of the softer body: a force is small or large by what this makes of
-     * it. */
+    /** Young's modulus E of the softer body, for the scale E A / h of contact forces per gap. */
     double modulus = 1.;
-    /** End of the time in which an initial overlap grows ("ramp"). */
+    /** Time at which an initial overlap that grows ("ramp") has reached its full size. */
     double end_time = 1.;
   };
 
   /**
-   * @brief A contact pair: its surfaces, its pairing, and the rows that this makes.
+   * @brief A contact pair: its surfaces, its pairing, and its rows.
    *
-   * It applies small sliding and the treatment of initial overlaps; nobody else writes rows.
+   * It applies small sliding and the treatment of initial overlaps. Only the pair and its pairing
+   * write the rows.
    */
   class ContactPair : public Stateful
   {
@@ -112,7 +112,8 @@ namespace Touchstone
       return small;
     }
 
-    /** @brief Initial overlap of a row that does not count, or not yet, <= 0; length. */
+    /** @brief Initial overlap of row @p k that does not enter the gap, or not yet ("adjust",
+     * "ramp"), <= 0; length. */
     double
     overlap(const std::size_t k) const
     {
@@ -136,7 +137,7 @@ namespace Touchstone
     friction_rows(const Mirrors &mirrors, const ContactParameters &contact) const;
 
     /**
-     * @brief Make the rows describe a displacement. Collective.
+     * @brief Update the rows to a displacement. Collective.
      *
      * @param u       Displacement of owned dofs.
      * @param ghosted The same with the ghosts of the surfaces; must live until commit() or the

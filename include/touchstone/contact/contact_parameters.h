@@ -31,14 +31,14 @@ namespace Touchstone
     std::string              master_body;
     std::vector<std::string> master_boundaries;
     std::string              obstacle;
-    /** How rows are made; keys of its own stand beside the key. */
+    /** How rows are made; its own keys are in the same section. */
     Choice<Registry<Pairing, const PairingInput &>> pairing{"averaged"};
     /** "frictionless", "tied", or the name of a friction law. */
     Choice<Registry<FrictionLaw>> behaviour{"frictionless"};
     /** The friction law with its own parameters read, subsection "Friction"; null
      * without friction. */
     std::shared_ptr<FrictionLaw> friction;
-    /** What becomes of an overlap of the bodies as they are placed. */
+    /** Treatment of an overlap of the bodies as they are placed. */
     enum class Overlap
     {
       /** It presses the bodies apart. */
@@ -77,8 +77,8 @@ namespace Touchstone
     /** Farthest distance at which a slave node looks for a master face,
      * length; 0 chooses it from the size of the faces. */
     double search_distance = 0.;
-    /** How far beyond the edge of the master surface a slave node is still
-     * held, as a fraction of the face. */
+    /** How far beyond the edge of the master surface a slave node still has a row, as a fraction
+     * of the face. */
     double edge_tolerance = 0.01;
 
     /** @brief "Contact pair NAME". */
@@ -102,7 +102,7 @@ namespace Touchstone
   /** @brief Section "Contact": how all pairs of the scene are enforced. */
   struct ContactParameters
   {
-    /** "elimination", "lagrange multipliers", ...; keys of its own stand beside the key. */
+    /** "elimination", "lagrange multipliers", ...; its own keys are in the same section. */
     Choice<Registry<Enforcement, const ContactParameters &>> enforcement{"elimination"};
     /** Multiplies the automatic penalty (Young's modulus times tributary area over
      * face size, times 100 for penalty and 20 for augmented Lagrange); no unit. */

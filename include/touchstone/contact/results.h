@@ -26,14 +26,14 @@ namespace Touchstone
     dealii::Tensor<1, dim> displacement;
     dealii::Tensor<1, dim> normal;
     double                 gap;
-    /** Tributary area in the reference state, as far as it is covered, with what other
-     * nodes have left to this one. */
+    /** Tributary area in the reference state, as far as it is covered, with the areas that
+     * aggregation has added to this node (doc/theory.md 3.1). */
     double area;
     /** Normal force divided by this area. */
     double pressure;
     /** Contact force divided by this area. */
     dealii::Tensor<1, dim> traction;
-    /** Where the force acts, seen from the node; length. */
+    /** Point of action of the force, relative to the node; length. */
     dealii::Tensor<1, dim> lever;
     /** Tangential slip of the last step, length. */
     dealii::Tensor<1, dim> slip;
@@ -110,7 +110,7 @@ namespace Touchstone
   std::vector<PairResult>
   pair_results(const Contact &contact, const Vector &u);
 
-  /** @brief Of each pair. */
+  /** @brief Boundaries of each pair, in the order of the pairs. */
   std::vector<PairBoundaries>
   pair_boundaries(const Contact &contact);
 } // namespace Touchstone

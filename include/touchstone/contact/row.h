@@ -40,15 +40,15 @@ namespace Touchstone
 
   /**
    * @brief One slave node must not move through a weighted combination of
-   * master nodes: the only thing that enforcement knows of contact.
+   * master nodes (doc/theory.md 3): the only form in which enforcement sees contact.
    *
    * With M = [I, -w_1 I, ...] the gap is g = n . (M x + offset) and the contact
    * force f = lambda_n n + t_T acts as M^T f. An obstacle is a row with an empty
    * stencil.
    *
    * A row is geometry. It is written by the pairing, and by ContactPair, which applies
-   * small sliding and initial overlaps; for everybody else it is const. The state of a row
-   * (status and forces) belongs to the enforcement, see RowState, what friction remembers
+   * small sliding and initial overlaps; for all other classes it is const. The state of a row
+   * (status and forces) belongs to the enforcement, see RowState, the history of friction
    * to Friction, see FrictionRow.
    */
   struct ContactRow
@@ -79,8 +79,9 @@ namespace Touchstone
 
     /** @name Input of the pairing */
     /** @{ */
-    /** The row was active when the pairing was called: a search lets go of a node in contact
-     * reluctantly, and only such rows are differentiated. */
+    /** The row was active when the pairing was called: a node in contact keeps its partner beyond
+     * the edge of the master surface farther than an open one finds it (hysteresis), and only such
+     * rows are differentiated. */
     bool was_active = false;
     /** @} */
 
@@ -88,8 +89,9 @@ namespace Touchstone
     /** @{ */
     /** A master face is within reach. Where there is none, the rest has no meaning. */
     bool has_partner = false;
-    /** Master nodes and their weights; may be owned by any rank. Slave nodes that have
-     * left their share to this row are among them, with negative weights. The sum is one. */
+    /** Master nodes and their weights; may be owned by any rank. Slave nodes of partly covered
+     * faces whose basis functions are aggregated with that of this row are among them, with
+     * negative weights (doc/theory.md 3.1, equation (5)). The sum is one. */
     std::vector<StencilEntry> stencil;
     /** Set by Pairing::differentiate(), null while normal and stencil are taken
      * as constant. */
@@ -133,8 +135,8 @@ namespace Touchstone
     }
   };
 
-  /** @brief Whether a row with a derivative changes so fast that this says nothing of a Newton
-   * increment: the normal over a sharp edge with hardly a gap, averages over a
+  /** @brief Whether a row with a derivative changes so fast that the derivative is not valid over
+   * a Newton increment: the normal over a sharp edge at a very small gap, averages over a
    * sliver of coverage. Such a row is better frozen. */
   bool
   changes_steeply(const ContactRow &row);

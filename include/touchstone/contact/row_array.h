@@ -14,7 +14,7 @@
 
 namespace Touchstone
 {
-  /** @brief What all arrays that are parallel to the contact rows of a rank have in common. */
+  /** @brief Common base of all arrays that are parallel to the contact rows of a rank. */
   class RowArrayBase : public Stateful
   {
   public:

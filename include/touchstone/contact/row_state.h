@@ -8,7 +8,7 @@
 
 namespace Touchstone
 {
-  /** @brief What a contact row does at present. */
+  /** @brief The present contact status of a row. */
   enum class ContactStatus : int
   {
     /** No master face within reach, or beyond the edge of the master surface. */
@@ -17,7 +17,7 @@ namespace Touchstone
     open = 0,
     /** In contact, free to slide. */
     slip = 1,
-    /** In contact, held in the tangential directions. */
+    /** In contact, constrained in the tangential directions. */
     stick = 2,
     /** All components constrained, compression and tension. */
     tied = 3
@@ -34,8 +34,8 @@ namespace Touchstone
     double lambda = 0.;
     /** Gap admitted when convergence is judged: the penetration of a penalty, length. */
     double admissible_gap = 0.;
-    /** Conditions of the row that the constraint graph accepted and refused: what a
-     * refused one asks for is determined by others. */
+    /** Numbers of conditions of the row that the constraint graph accepted and refused; supports
+     * or other rows determine the displacement that a refused one is about. */
     unsigned int accepted = 0, refused = 0;
     /** The condition along the normal was accepted. */
     bool normal_accepted = true;
@@ -50,8 +50,8 @@ namespace Touchstone
       return status >= ContactStatus::slip;
     }
 
-    /** @brief All components of the relative displacement are constrained: tied, or stick that
-     * is not left to springs. */
+    /** @brief All components of the relative displacement are constrained by conditions: tied,
+     * or stick that is not enforced by springs. */
     bool
     fully_constrained() const
     {
@@ -59,7 +59,8 @@ namespace Touchstone
              (status == ContactStatus::stick && friction.constrained);
     }
 
-    /** @brief Active, but all that it asks for is determined by others. */
+    /** @brief Active, but supports or other rows determine all of its relative displacement: the
+     * row carries no force. */
     bool
     dropped() const
     {

@@ -9,10 +9,10 @@ namespace Touchstone
   class ArchiveWriter;
 
   /**
-   * @brief Something with history: a step that has converged is committed, one that is
-   * repeated is rolled back, and the committed state goes into checkpoints.
+   * @brief An object with history: a step that has converged is committed, one that is
+   * repeated is rolled back, and the committed state is written to checkpoints.
    *
-   * Whoever holds such objects calls them in a list, so that none is forgotten.
+   * An owner of several such objects keeps them in one list, so that no call omits one.
    */
   class Stateful
   {

@@ -33,9 +33,10 @@ namespace Touchstone
      * faces there, below which faces beyond a sharp edge have been left out of the former. */
     constexpr double same_normal_cosine = 0.999;
 
-    /** Cosine of the angle between slave and master normal above which a master face is on the far
-     * side of its body: a node that looks for a partner must not find it. Clearly above zero,
-     * so that faces around an edge of the slave body find their partners on both sides. */
+    /** Cosine of the angle between slave and master normal above which a master face is a back
+     * face, on the side of its body that is turned away: it must not become the partner of the
+     * node. Clearly above zero, so that faces around an edge of the slave body find their partners
+     * on both sides. */
     constexpr double back_face_cosine = 0.3;
 
     /** Normals that differ from perpendicular by less than this (cosine) neither face each other
@@ -101,28 +102,30 @@ namespace Touchstone
     /** A node in contact keeps its face across a sharp edge unless another is closer by this. */
     constexpr double keeps_face = 1e-3;
 
-    /** What moves less than this against a face within a step does not pass through a body. */
+    /** Relative displacements within a step that are smaller than this, by the size of a face,
+     * cannot pass through a body. */
     constexpr double small_motion = 0.1;
 
     /** By the shortest edge: nodes that move by less do not change which faces may cover each
      * other, if those beside them are kept as well. */
     constexpr double negligible_motion = 0.02;
 
-    /** A node in contact leaves the master surface this times as far beyond its edge as one that is
-     * not comes onto it: with the same distance it would come and go for ever. */
+    /** A node in contact leaves the master surface this many times as far beyond its edge as an
+     * open node arrives (hysteresis): with equal distances it would alternate for ever. */
     constexpr double edge_hysteresis = 5.;
 
     // ---------------------------------------------------------------- partial cover
 
-    /** By the mean cover of a face: a node with less than the first leaves its row to others, one
-     * with more than the second keeps it. With two thirds of a face covered nodes beyond the edge
-     * of the cover have 0.6. Where it is decided at once, the mean of both decides. */
+    /** By the mean cover of a face, limits of the step S in doc/theory.md 3.1: below the first the
+     * basis function of a node is aggregated entirely with others, above the second the node keeps
+     * all of its row. With two thirds of a face covered nodes beyond the edge of the cover have
+     * 0.6. For tied rows, which are kept or aggregated as a whole, the mean of both decides. */
     constexpr double gives_all = 0.2, keeps_all = 0.6, keeps_if_at_once = 0.5 * (0.2 + 0.6);
 
-    /** What a node may give away per area that it keeps until it has no row, and by which part of
-     * a face its gap grows where it gives as much as it keeps. It grows with the fourth power
-     * of the ratio of both: gaps of 1e-5 and 0.1 of a face alike then open the row while the
-     * edge goes a good part of a face. */
+    /** Largest ratio r of the area that a node has given away to that which it keeps, beyond which
+     * it has no row; and the growth of the gap, by the size of the face, at r = 1 (doc/theory.md
+     * 3.1, equation (6)). It grows with the fourth power of r, so that for gaps from 1e-5 to 0.1 of
+     * a face the row opens while the edge moves by a good part of a face. */
     constexpr double most_given = 3., gap_growth = 0.01;
 
     /** Kept area by the tributary area below which a node has no row. */

@@ -18,11 +18,12 @@ namespace Touchstone
     /** Of the node and what it touches, with the velocity that they should have,
      * length per time. */
     Condition condition;
-    /** Along the normal, not across it. */
+    /** Along the normal; otherwise along a tangent. */
     bool normal;
     /** ContactRow::index. */
     std::size_t row;
-    /** What was taken to make it so, force times time. */
+    /** The impulse that enforces it, force times time; subtracted from the momentum of the node
+     * along Condition::force(). */
     double impulse = 0.;
   };
 

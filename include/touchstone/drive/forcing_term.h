@@ -8,24 +8,25 @@
 namespace Touchstone
 {
   /**
-   * @brief How well the linear system of a Newton iteration is to be solved: well enough, and not
-   * better than the next iteration makes use of.
+   * @brief The relative residual to which the linear system of a Newton iteration is solved
+   * (inexact Newton): accurate enough, but no more than the next iteration can make use of.
    *
    * Eisenstat and Walker (1996), SIAM J. Sci. Comput. 17, the first of their choices.
    */
   class ForcingTerm
   {
   public:
-    /** @param usual              Relative residual that iterative solutions reach.
+    /** @param usual              Relative residual of a linear solve that nothing else requires.
      * @param residual_tolerance Of Newton's method.
-     * @param friction           Stick and slip have to be told apart. */
+     * @param friction           Stick and slip have to be distinguished, which needs more
+     *                           accuracy. */
     ForcingTerm(double usual, double residual_tolerance, bool friction);
 
     void
     begin_step();
 
     /** @brief A state has been evaluated.
-     * @param leaves_out The linear system leaves out part of the tangent, as symmetric ones do. */
+     * @param leaves_out The linear system neglects part of the tangent, as symmetric ones do. */
     void
     update(const NewtonState &state, bool leaves_out);
 
@@ -36,8 +37,8 @@ namespace Touchstone
       return next;
     }
 
-    /** @brief In this step an increment with an unchanged active set has gained little: frozen
-     * normals and contact points leave too much. */
+    /** @brief In this step an increment with an unchanged active set has reduced the residual too
+     * little: frozen normals and contact points neglect too much. */
     bool
     slow() const
     {

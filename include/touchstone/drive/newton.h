@@ -11,14 +11,16 @@
 
 namespace Touchstone
 {
-  /** @brief How far a state is from a solution. */
+  /** @brief Measures by which the convergence of a state is judged, doc/theory.md 5, equation
+   * (13). */
   struct NewtonState
   {
     /** Out-of-balance force relative to the forces that act; no unit. */
     double residual = 0.;
-    /** The same as a force: far from a solution the forces that act grow with it. */
+    /** Norm of the out-of-balance force; the line search compares it, because far from a solution
+     * the scale of the relative residual grows with it. */
     double force = 0.;
-    /** Residual that round-off alone can make; no unit. */
+    /** Residual that round-off alone can cause: a smaller one cannot be expected; no unit. */
     double round_off = 0.;
     /** Largest violation of a gap relative to the faces, and whether prescribed
      * displacements are met; no unit. */
@@ -40,7 +42,7 @@ namespace Touchstone
     return state.residual <= std::max(parameters.residual_tolerance, state.round_off);
   }
 
-  /** @brief All that the Newton method needs to know of a problem. */
+  /** @brief Interface of a problem to Newton's method. */
   class NonlinearProblem
   {
   public:
@@ -48,8 +50,8 @@ namespace Touchstone
 
     /**
      * @brief Evaluate the present state and update the active set.
-     * @param damping Damping level of the active set: 0 to begin with, more each time that a
-     *                set comes back.
+     * @param damping Damping level of the active set: 0 at first, increased each time that a
+     *                set recurs, see Enforcement::update_active_set().
      */
     virtual NewtonState
     residual(unsigned int damping) = 0;
@@ -63,12 +65,12 @@ namespace Touchstone
     virtual int
     solve() = 0;
 
-    /** @brief Go to the next state. */
+    /** @brief Apply the increment: displacements and contact forces of the next state. */
     virtual void
     update() = 0;
 
-    /** @brief Take the part @p fraction of the last increment, of displacements and
-     * of contact forces, instead of what has been taken of it: 1 all of it. The
+    /** @brief Apply the fraction @p fraction of the last increment, of displacements and of contact
+     * forces, instead of the fraction that is applied at present; 1 is the full increment. The
      * active set is again that of the last linear system. */
     virtual void
     shorten(double fraction) = 0;
@@ -84,9 +86,8 @@ namespace Touchstone
    * Line search: the next residual tells whether an increment was good, so that none
    * is evaluated for that purpose alone. If the out-of-balance force is more than twice the
    * highest of the two before, and no row or support has moved it, the increment is
-   * halved, up to four times. Should none of the parts help, the increment
-   * is not too long but wrong in its direction; then all of it is taken, and for the rest of
-   * the step.
+   * halved, up to four times. If none of the fractions helps, not the length of the increment is
+   * wrong but its direction; then full increments are taken for the rest of the step.
    * Grippo, Lampariello and Lucidi (1986), SIAM J. Numer. Anal. 23.
    * Hueeber and Wohlmuth (2005), Comput. Methods Appl. Mech. Engng 194.
    */

@@ -58,7 +58,7 @@ namespace Touchstone
     begin_step(double t);
 
   private:
-    /** @name What Newton's method asks for */
+    /** @name Interface to Newton's method */
     /** @{ */
     NewtonState
     residual(unsigned int damping) override;
@@ -103,17 +103,20 @@ namespace Touchstone
     std::unique_ptr<RigidBodyModes> modes;
 
     double time = 0., committed_time = 0.;
-    /** Displacements, and forces on the nodes; applied are all but those of contact, as
-     * the time integration weighs them. */
+    /** Displacements, and forces on the nodes: of loads (external) and of stresses (internal);
+     * applied: all but those of contact, as the time integration weighs them; unbalanced: their
+     * sum with contact, before the reactions of supports are removed. */
     Vector u, committed_u, external, internal, applied, unbalanced;
-    /** Of the last linear solve: what was taken of it, and all. */
+    /** Of the last linear solve: the increment after halving for admissible cells, and the full
+     * one. */
     Vector                           increment, solved_increment;
     std::unique_ptr<TimeIntegration> integration;
-    /** Part of the step after which the first guess of its end has bodies meet. */
+    /** Fraction of the step after which the first gap closes, by the first guess of its end; 1 if
+     * none does. */
     double touch         = 1.;
     bool   touch_unknown = false;
-    /** @name What shorten() goes back to: the displacement before the last
-     * update(), and the part of the increment that left all cells admissible */
+    /** @name State to which shorten() returns: the displacement before the last
+     * update(), and the fraction of the increment that left all cells admissible */
     /** @{ */
     Vector before_increment;
     double admissible_part = 1.;
@@ -123,20 +126,20 @@ namespace Touchstone
     std::unique_ptr<CondensedSystem> condensed;
     std::vector<double>              extra;
     unsigned int                     assemblies = 0;
-    /** Of problems before a change of the mesh. */
+    /** Counts of the problems before changes of the mesh. */
     LinearSolverCounts earlier;
     unsigned int       earlier_searches = 0;
     std::string        stabilised;
     /** Reference positions and pairs of this rank's rows that changed in the last residual(), as
      * (x, y, z, pair). */
     std::vector<std::array<double, dim + 1>> changed_rows;
-    /** Bodies that only contact holds, and how they can move. */
+    /** Bodies that were stabilised in this step because only contact holds them. */
     std::set<unsigned int> loose_bodies;
     /** Of the committed state: active rows and the obstacle's motion, by pair. */
     std::vector<unsigned int>           committed_active;
     std::vector<dealii::Tensor<1, dim>> committed_shift;
-    /** Forces that act, at present and the largest of all committed states; zero where they
-     * are no more than round-off. */
+    /** Scale of the forces that act, at present and the largest of all committed states; zero
+     * where the forces are no more than round-off. */
     double force_scale = 0., largest_force_scale = 0.;
     /** Diagonal of the box around all bodies, and the largest prescribed displacement that
      * the present state misses; length. */
@@ -169,7 +172,7 @@ namespace Touchstone
     begin_system();
     void
     add_follower_pressure();
-    /** All dofs of the system that this rank refers to. */
+    /** All dofs that this rank refers to: those of its ghost layer, and those of contact terms. */
     dealii::IndexSet
     dofs_of_system() const;
     void
@@ -201,10 +204,10 @@ namespace Touchstone
     /** Motion of the obstacle of each pair since time 0; zero without one. Collective. */
     std::vector<dealii::Tensor<1, dim>>
     obstacle_shifts() const;
-    /** Take from the forces on nodes what their supports carry. */
+    /** Remove from nodal forces their part along prescribed directions, which supports carry. */
     void
     remove_supported(Vector &force) const;
-    /** Keep the present state, whose forces and energies these are. */
+    /** Commit the present state, which has these forces and energies. */
     void
     keep(const StepForces &forces, const Energies &end);
     /** See try_commit(). */

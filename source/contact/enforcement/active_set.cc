@@ -28,9 +28,10 @@ namespace Touchstone
     constexpr double on_the_cone = 1e-8;
 
     /**
-     * How a row that closes begins. What closes the gap and what takes back the
-     * slip are estimated with the same stiffness: does friction bear the latter?
-     * To begin with sticking would tear nodes open again that have come a long way.
+     * The status with which a row closes. The normal force that closes the gap and the tangential
+     * force that takes back the slip are estimated with the same stiffness E A / h: the row sticks
+     * if its friction cone can bear the latter. If all rows stuck at first, nodes with a large slip
+     * would be pulled back so strongly that they open again.
      * Alart and Curnier (1991), Comput. Methods Appl. Mech. Engng 92.
      */
     ContactStatus
@@ -47,8 +48,9 @@ namespace Touchstone
 
 
 
-    /** Slip that friction should not have let happen: all of it while sticking, else what is
-     * across the force, or what the error of the force would move an elastic body by. */
+    /** Slip that violates the friction law (length): all of it while sticking. While slipping, its
+     * part across the force, but no more than the displacement L / (E A / h) that a force of the
+     * size of the limit causes: where the limit is small, its direction matters little. */
     double
     slip_off_direction(const ContactRow &row, const RowState &state)
     {
@@ -84,8 +86,8 @@ namespace Touchstone
       const double tolerance = on_the_cone * f.limit + 1e-4 * gap_tolerance * scale;
       if (state.status == ContactStatus::stick)
         return {f.excess > tolerance ? f.excess / scale : 0., ContactStatus::slip};
-      // Slip that turns round within an iteration has come to rest on the way: left
-      // to slip, the node would go back and forth for ever.
+      // A slip whose direction reverses within an iteration has come to rest in between: if the row
+      // kept slipping, its direction would alternate for ever (doc/theory.md 6.4).
       const bool turned = f.direction * f.last_direction < 0.;
       return {turned                  ? f.limit / scale
               : f.excess < -tolerance ? -f.excess / scale
@@ -95,8 +97,8 @@ namespace Touchstone
 
 
 
-    /** What the state of a row misses of the conditions that it should meet, relative to the size
-     * of the faces. */
+    /** By how much the conditions of a row are violated, relative to the size of the faces: gap,
+     * and slip that friction does not permit. Newton's method judges it by the gap tolerance. */
     double
     violated_gap(const ContactRow &row, const RowState &state)
     {
@@ -108,13 +110,13 @@ namespace Touchstone
               row.size;
       if (!row.friction)
         return gap;
-      // What is left of a gap is elastic slip of the other rows of a shared node, and so
-      // friction.
+      // A gap that is left in this row is elastic slip of the other rows of a shared node, where it
+      // causes friction of c times the gap; so it is judged c / (E A / h) times as strictly.
       if (state.friction.shared && state.active() && state.normal_accepted)
         gap = std::max(gap,
                        std::abs(row.gap - state.admissible_gap) / row.size * state.friction.c /
                          row.stiffness);
-      // What sticks without elastic slip must not have moved.
+      // Stick without elastic slip admits no slip at all.
       if (!state.friction.carried && !state.dropped())
         gap = std::max(gap, slip_off_direction(row, state) / row.size);
       return gap;
@@ -187,7 +189,7 @@ namespace Touchstone
       }
     if (state.status == ContactStatus::stick && !state.friction.carried)
       {
-        // The force stays what it is until the next solution.
+        // From slip to stick: the force remains the same until the next linear solution.
         state.friction.base           = state.force - state.lambda * row.normal;
         state.friction.last_direction = Tensor<1, dim>();
       }
@@ -207,10 +209,10 @@ namespace Touchstone
       return status_violation(row, row_states[row], gap_tolerance).size;
     };
 
-    // With damping only the rows whose status is violated more than half as much as the
-    // worst change, then only the first row that is violated at all: that rule ends
-    // for every linear problem with a unique solution.
-    // Murty (1974), Math. Programming 7.
+    // Damping level 1: only rows change whose violation is at least half of the largest one.
+    // Level 2 and more: only the first violated row, in an order that is fixed by geometry. That
+    // rule (Murty 1974, Math. Programming 7) ends for every linear problem with a unique solution;
+    // see doc/theory.md 5, "Cycles".
     double              threshold = 0.;
     std::vector<double> only;
     if (damping == 1)

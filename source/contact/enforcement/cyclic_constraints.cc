@@ -14,20 +14,25 @@
 #include <map>
 #include <set>
 
+// Cyclic dependencies of contact conditions over several pairs (doc/theory.md 6, "Cyclic
+// constraints"): a directed graph has the dofs as vertices and an edge from each dof that a row
+// determines to each dof that it determines it by; dofs in a strongly connected component of two or
+// more vertices depend on themselves.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** The dofs of the slave node that a row determines, and those that it
-     * determines them by. */
+    /** The dofs of the slave node that the conditions of a row determine (`dofs`), and the dofs
+     * that their values depend on (`on`). */
     struct Dependence
     {
       Index              slave;
       std::vector<Index> dofs, on;
     };
 
+    /** The dofs of a node with coefficients above the threshold. */
     void
     add_components(const Index           node,
                    const Tensor<1, dim> &coefficients,
@@ -49,10 +54,14 @@ namespace Touchstone
     {
       Dependence           result{row.slave, {}, {}};
       const Tensor<1, dim> all({1., 1., 1.});
-      const bool           fully = state.fully_constrained();
+      // A row that sticks or is tied determines all components of its node by all components of the
+      // stencil. Otherwise the direction that counts is that part of the normal which supports
+      // leave free, of unit length so that the threshold has the same meaning for all rows.
+      const bool fully = state.fully_constrained();
       add_components(row.slave, fully ? all : free / free.norm(), threshold, result.dofs);
       for (const StencilEntry &entry : row.stencil)
         add_components(entry.node, fully ? all : row.normal, threshold, result.on);
+      // With consistent linearisation the gap depends on further nodes, over averaged normals.
       if (row.derivative)
         for (const auto &[node, coefficients] : gap_gradient(row))
           add_components(node, coefficients, threshold, result.on);
@@ -70,6 +79,7 @@ namespace Touchstone
     on_cycles(const unsigned int n_vertices, const Edges &edges)
     {
       std::vector<bool> result(n_vertices, false);
+      // boost::strong_components() needs no call for the common case of no pairs that share nodes.
       if (edges.empty())
         return result;
       const boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph(edges.begin(),
@@ -91,7 +101,8 @@ namespace Touchstone
     in_cycles(const std::vector<Dependence> &rows)
     {
       std::map<Index, unsigned int> numbers;
-      const auto                    number = [&](const Index dof) {
+      // Consecutive numbers for the few dofs that take part.
+      const auto number = [&](const Index dof) {
         return numbers.emplace(dof, numbers.size()).first->second;
       };
       Edges edges;
@@ -120,6 +131,8 @@ namespace Touchstone
     for (unsigned int p = 0; p < pairs.size(); ++p)
       for (unsigned int q = 0; q < pairs.size(); ++q)
         {
+          // Both surfaces are distributed: each rank compares its own faces and nodes, and one
+          // match on any rank connects the pairs.
           int shared = 0;
           if (p != q && pairs[p]->master())
             {
@@ -148,6 +161,7 @@ namespace Touchstone
     std::vector<Dependence>
     gather(const std::vector<Dependence> &mine, const MPI_Comm communicator)
     {
+      // One array of integers per rank, so that a single collective call suffices.
       std::vector<Index> packed; // slave, numbers of dofs and of others, both lists
       for (const Dependence &d : mine)
         {
@@ -172,9 +186,9 @@ namespace Touchstone
                                     const ConstraintGraph &graph,
                                     const double           threshold) const
   {
-    // Pair by pair: with the rows of earlier pairs, all of this pair that lie on a
-    // cycle go. So the order of nodes, which depends on the partition, does not
-    // matter.
+    // Pair by pair: all rows of this pair that lie on a cycle together with the rows kept of
+    // earlier pairs are dropped, and not only as many as would break the cycles. So the result
+    // does not depend on the order of the nodes, which depends on the partition.
     std::vector<bool>       redundant(contact.rows().size(), false);
     std::vector<Dependence> kept;
     for (const unsigned int p : cyclic)
@@ -184,6 +198,8 @@ namespace Touchstone
           {
             const RowState      &state = contact.state(row);
             const Tensor<1, dim> free  = graph.free_part(row.slave, row.normal);
+            // A normal that supports determine is refused by the graph in any case (bound 1e-3,
+            // doc/theory.md 6).
             if (state.active() && !(free.norm() < 1e-3))
               mine.push_back(dependence(row, state, free, threshold));
           }
@@ -191,7 +207,8 @@ namespace Touchstone
         std::set<Index>         slaves;
         for (const Dependence &d : of_pair)
           slaves.insert(d.slave);
-        // How slave nodes depend on their neighbours is for the enforcement to see to.
+        // Dependencies between slave nodes of the same pair, which averaged normals and weights
+        // make, are handled by the enforcement, see Elimination::adjust().
         for (Dependence &d : of_pair)
           d.on.erase(std::remove_if(d.on.begin(),
                                     d.on.end(),

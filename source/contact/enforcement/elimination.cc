@@ -10,6 +10,9 @@
 #include <boost/serialization/utility.hpp>
 #include <set>
 
+// Enforcement by elimination (doc/theory.md 6 and 6.3): conditions are condensed out of the system,
+// which stays positive definite without friction and fits any solver. Only rows whose condition
+// depends too much on other slave nodes keep multipliers, where the system is factorised anyway.
 namespace Touchstone
 {
   using namespace dealii;
@@ -26,7 +29,8 @@ namespace Touchstone
       }
 
     protected:
-      /** Whatever is not round-off must not lead back. */
+      /** Conditions are substituted into each other, which never ends on a cycle, however small
+       * its coefficients are: all that exceed round-off count. */
       double
       cycle_threshold() const override
       {
@@ -44,6 +48,8 @@ namespace Touchstone
       prepare(const Contact &contact, LinearSystem &system) override
       {
         const MPI_Comm communicator = system.rhs.get_mpi_communicator();
+        // Stencils cross partitions, so all ranks must know all eliminated slave nodes, hence the
+        // collective exchange; both sets are made anew for each system as rows open and close.
         kept.clear();
         eliminated = active_slaves(contact, communicator);
         if (system.takes_multipliers && !system.keep_symmetric)
@@ -58,18 +64,22 @@ namespace Touchstone
               for (const auto &slave : of_rank)
                 eliminated.erase(slave);
           }
+        // Solvers for symmetric systems cannot take the direction n + L' tau of equation (22).
         if (system.keep_symmetric)
           for (const ContactRow &row : contact.rows())
             lag_friction(row, row_states[row], row_states[row].lambda);
       }
 
-      /** Slave nodes whose conditions refer to each other cannot all be eliminated: each
-       * takes its neighbours to move like itself. */
+      /** Slave nodes whose conditions refer to each other cannot all be eliminated: in the
+       * condition of each node its neighbours are assumed to have the same displacement increment
+       * as the node itself (doc/theory.md 6.3, "Elimination"). */
       void
       adjust(const ContactRow &row, Condition &condition) const override
       {
         if (kept.count({row.pair, row.slave}) > 0)
           return;
+        // The coefficients of other eliminated slave nodes are moved to the row's own node, so that
+        // the sum over all nodes stays what it was and a common translation violates nothing.
         Tensor<1, dim> lagged;
         for (auto &[node, coefficients] : condition.gradient)
           if (node != row.slave && eliminated.count({row.pair, node}) > 0)
@@ -85,7 +95,9 @@ namespace Touchstone
       multipliers(const std::vector<Accepted> &accepted,
                   const LinearSolution        &solution) const override
       {
-        // What is an unknown can take part of the force of a condition at the same node.
+        // A condition with a multiplier is zero in `all` unless eliminated conditions at the same
+        // node are combined with it; so both parts are added. The latter follow from the residual
+        // of the linear system, doc/theory.md 6, equation (14).
         std::vector<double>       result = ExactEnforcement::multipliers(accepted, solution);
         const std::vector<double> all =
           solution.graph.forces(solution.system.residual(solution.increment, solution.extra),
@@ -97,16 +109,16 @@ namespace Touchstone
 
     private:
       using Slaves = std::set<std::pair<unsigned int, Index>>;
-      /** Pairs and slave nodes of rows whose conditions are eliminated, of all ranks, and those
-       * whose forces are unknowns, of this rank. */
+      /** Pairs and slave nodes of rows whose conditions are eliminated, of all ranks, and of those
+       * whose forces are multipliers in the linear system, of this rank. */
       Slaves eliminated, kept;
 
       /**
-       * Whether taking other slave nodes to move like itself leaves too much of a condition of the
-       * row. What it leaves comes back in each iteration, so Newton's method would converge
-       * linearly, by about this factor: over one or two nodes in contact, at the edge of what is
-       * covered, hardly at all. Without friction the iterations with frozen normals that precede
-       * have seen to most of it, and where gaps have kinks multipliers go to and fro between them.
+       * Whether the assumption of adjust() would neglect too large a part of a condition of the
+       * row. The error returns in each iteration, so that Newton's method converges linearly, with
+       * about this part as its factor: hardly at all if only one or two nodes touch or a face is
+       * covered in part. Used with friction only: without it, the frozen iterations before have
+       * reduced the error, and multipliers would alternate where the gaps have kinks.
        */
       bool
       refers_to_others(const ContactRow &row) const

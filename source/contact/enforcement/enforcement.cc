@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <map>
 
+// What all enforcements share: they own status and force of each row and lead these through the
+// Newton iteration (recover, enforce, add_friction, update), its line search (shorten), and the
+// commit or rollback of the step. The strategy of the active set is in active_set.cc.
 namespace Touchstone
 {
   using namespace dealii;
@@ -30,6 +33,8 @@ namespace Touchstone
 
 
 
+  // The memory of a derived class, for example the augmented force of a spring, goes with the
+  // force: a row that closes again must not begin with it.
   void
   Enforcement::clear(const ContactRow &row)
   {
@@ -69,10 +74,12 @@ namespace Touchstone
   {
     // Against an obstacle only the slave node can move. Where supports or other active rows
     // determine its tangential displacement, any force within the cone is in equilibrium, and how
-    // it is divided would depend on the enforcement and the path of the iteration. There the
-    // elastic slip determines it, doc/theory.md 6.1.
-    // Rows that may close belong to them: the formulation of friction must not change with the
-    // active set, or each of the two states could ask for the other.
+    // it is divided would depend on the enforcement and on the path of the iteration. There the
+    // elastic slip determines it (doc/theory.md 6, "Stick at the edge of two obstacles").
+    //
+    // Rows of the node are counted over all pairs, with those that are open by less than the size
+    // of a face: the formulation of friction must not change with the active set, or the active
+    // set of each formulation could lead to the other one.
     std::map<Index, unsigned int> n_near;
     for (const ContactRow &row : contact.rows())
       n_near[row.slave] += (row.has_partner && row.gap < row.size);
@@ -109,6 +116,8 @@ namespace Touchstone
   void
   Enforcement::enforce(const Contact &contact, ConstraintGraph &graph, LinearSystem &system)
   {
+    // Before any condition is added to the graph: of a cycle between pairs the rows of the latest
+    // pair are left out and carry no force (doc/theory.md 6, "Cyclic constraints").
     const std::vector<bool> redundant =
       contact.cyclic_constraints().redundant_rows(contact, graph, cycle_threshold());
     for (const ContactRow &row : contact.rows())
@@ -131,11 +140,15 @@ namespace Touchstone
         RowState &state = row_states[row];
         if (!state.active())
           continue;
+        // All conditions of the row were refused: supports or other rows determine its relative
+        // motion, and it carries no force.
         if (state.dropped())
           {
             clear(row);
             continue;
           }
+        // The direction and stiffness of this linear system are the base of the next trial force in
+        // slip, doc/theory.md 6.1, equation (17).
         state.friction.last_direction = state.friction.direction;
         state.friction.last_tangent   = state.friction.tangent;
         terms.add_row(row, state);
@@ -159,8 +172,9 @@ namespace Touchstone
   void
   Enforcement::shorten(const Contact &contact, const double fraction)
   {
-    // Forces that are unknowns go the same part of their way as displacements. Springs and
-    // elimination make forces from the displacement, from the states as they were.
+    // Forces that are dofs of the linear system take the same fraction of their change as the
+    // displacements. Those of springs and elimination are evaluated from the displacement and from
+    // the states before the update.
     for (RowArrayBase *array : arrays)
       array->restore();
     set_forces(contact);
@@ -168,8 +182,10 @@ namespace Touchstone
       {
         RowState       &state  = row_states[row];
         const RowState &before = row_states.of_kept(row);
-        state.force            = before.force + fraction * (state.force - before.force);
-        state.lambda           = before.lambda + fraction * (state.lambda - before.lambda);
+        // The whole update is repeated from the kept states, because a derived class may set more
+        // than the force; then the change is scaled.
+        state.force  = before.force + fraction * (state.force - before.force);
+        state.lambda = before.lambda + fraction * (state.lambda - before.lambda);
         if (row.friction)
           state.friction.base =
             before.friction.base + fraction * (state.friction.base - before.friction.base);
@@ -189,6 +205,8 @@ namespace Touchstone
       state.status = status;
     if (state.active())
       {
+        // The interpolated traction is an initial guess or a history of the new mesh. Its direction
+        // is that of the slip: a row that slips has no other state (doc/theory.md 6.1).
         state.force                     = force;
         state.lambda                    = force * row.normal;
         const Tensor<1, dim> tangential = force - state.lambda * row.normal;

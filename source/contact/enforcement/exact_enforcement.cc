@@ -10,6 +10,10 @@
 #include <algorithm>
 #include <set>
 
+// What elimination and Lagrange multipliers share (doc/theory.md 6): active rows become conditions
+// of the constraint graph, and their forces are the multipliers of these conditions, taken from
+// each linear solution. Order in an iteration: evaluate() before the rows are judged, constrain()
+// for the linear system, take() and set_forces() after its solution.
 namespace Touchstone
 {
   using namespace dealii;
@@ -25,6 +29,8 @@ namespace Touchstone
           choose_friction(row, state);
         if (!state.active() || row.tied)
           continue;
+        // Once per linear solve: evaluations without one in between, as at the start of a step,
+        // must not augment again.
         if (solved && state.fully_constrained())
           augment_unconstrained(row, state);
         evaluate_force(row, state);
@@ -42,16 +48,21 @@ namespace Touchstone
     const auto offer = [&](const ContactRow &row, Condition &condition) {
       const ConstraintGraph::Treatment way = treatment(row);
       adjust(row, condition);
+      // The graph refuses a condition whose direction supports or other rows determine already; it
+      // would make the system singular.
       if (row_states[row].record(condition, graph.accept(condition, way)))
         accepted.push_back({&row, condition, graph.accepted().size() - 1, way, row.normal});
     };
-    // Nothing may penetrate: what closes gaps precedes what constrains nodes along surfaces.
+    // Non-penetration takes precedence: of two dependent conditions the graph keeps the earlier
+    // one, so the normal conditions of all rows are added before those of stick.
     std::vector<std::pair<const ContactRow *, std::vector<Condition>>> stick;
     for (const ContactRow &row : contact.rows())
       {
         start_row(row_states[row]);
         std::vector<Condition> conditions =
           row_conditions(row, row_states[row], system.keep_symmetric);
+        // A tied row has one condition per direction, none of which is friction; other rows have
+        // their normal first.
         const std::size_t n = row.tied ? conditions.size() : 1;
         for (std::size_t k = 0; k < std::min(n, conditions.size()); ++k)
           offer(row, conditions[k]);
@@ -77,8 +88,10 @@ namespace Touchstone
     const MPI_Comm communicator = system.rhs.get_mpi_communicator();
     system.n_extra              = std::count_if(accepted.begin(), accepted.end(), is_unknown);
     const auto counts           = Utilities::MPI::all_gather(communicator, system.n_extra);
+    // No multipliers on any rank: the system stays positive definite.
     if (std::all_of(counts.begin(), counts.end(), [](const Index n) { return n == 0; }))
       return;
+    // Extra dofs are numbered after all displacements, by rank.
     system.first_extra = system.rhs.size();
     for (unsigned int r = 0; r < Utilities::MPI::this_mpi_process(communicator); ++r)
       system.first_extra += counts[r];
@@ -91,6 +104,8 @@ namespace Touchstone
         // Scaled to the size of the stiffness, so that neither block is lost
         // in the other's round-off.
         const double scale = entry.row->stiffness;
+        // The blocks B and B^T of the saddle-point system. With friction in slip the column acts
+        // along n + L' tau and the row along n, equation (22): the system is then unsymmetric.
         system.terms.push_back({{{extra, scale}}, by_unknowns(entry.condition.motion_form())});
         system.terms.push_back({by_unknowns(entry.condition.force_form()), {{extra, scale}}});
         if (!entry.condition.symmetric())
@@ -106,6 +121,7 @@ namespace Touchstone
   ExactEnforcement::multipliers(const std::vector<Accepted> &accepted,
                                 const LinearSolution        &solution) const
   {
+    // The dof is -lambda / c, see the scale in add_multipliers().
     std::vector<double> result;
     std::size_t         extra = 0;
     for (const Accepted &entry : accepted)
@@ -123,6 +139,8 @@ namespace Touchstone
     for (const Accepted &entry : accepted)
       row_states[*entry.row].force = Tensor<1, dim>();
     for (std::size_t k = 0; k < accepted.size(); ++k)
+      // A row can have up to three conditions, so its force is summed up over them. Friction in
+      // slip is not among them: it follows from lambda in evaluate_force().
       row_states[*accepted[k].row].force += forces[k] * accepted[k].condition.direction;
     std::set<const ContactRow *> found;
     for (const Accepted &entry : accepted)
@@ -134,6 +152,8 @@ namespace Touchstone
         state.lambda    = state.force * entry.normal;
         if (!row.friction || !state.fully_constrained())
           continue;
+        // Tangents without a condition: their springs carry the augmented force. Together it is the
+        // base t_b of the next trial force, (16).
         for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
           state.force += (state.friction.base * tangent) * tangent;
         state.friction.base = state.force - state.lambda * entry.normal;

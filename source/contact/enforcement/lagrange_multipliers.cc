@@ -8,8 +8,9 @@ namespace Touchstone
 
   namespace
   {
-    /** Contact forces are unknowns of the saddle-point system
-     * [K B^T; B 0] [du; -lambda] = [f; -g]. */
+    /** Contact forces are dofs of the saddle-point system
+     * [K B^T; B 0] [du; -lambda] = [f; -g], doc/theory.md 6, which is indefinite: it needs a direct
+     * solver with pivoting. */
     class LagrangeMultipliers : public ExactEnforcement
     {
     public:
@@ -33,7 +34,8 @@ namespace Touchstone
       void
       prepare(const Contact &, LinearSystem &system) override
       {
-        // Whatever the solver is.
+        // The multipliers are dofs of the system even if its solver does not factorise; the input
+        // check refuses such solvers, see uses_multipliers().
         system.takes_multipliers = true;
       }
     };

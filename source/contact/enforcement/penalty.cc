@@ -8,6 +8,10 @@
 #include <cmath>
 #include <limits>
 
+// Penalty method and augmented Lagrangian (doc/theory.md 6): each accepted condition of an active
+// row is a spring of stiffness epsilon = factor E A / h; the system stays definite and needs no
+// multipliers. The two differ in whether the force is augmented and which gap is admitted when
+// convergence is judged.
 namespace Touchstone
 {
   using namespace dealii;
@@ -41,6 +45,8 @@ namespace Touchstone
       void
       take(const LinearSolution &solution) override
       {
+        // Force after the solve: lambda_k - epsilon (g + dg), with dg from the increment. It
+        // differs from -epsilon g of the next state by what the linearisation leaves out.
         std::vector<LinearForm> forms;
         for (const Spring &spring : springs)
           forms.push_back(by_unknowns(spring.condition.motion_form()));
@@ -52,6 +58,8 @@ namespace Touchstone
       double
       round_off_squared(const ContactRows &rows, const double length) const override
       {
+        // Positions of magnitude `length` are known up to machine precision; a gap is the
+        // difference of a few of them, and the spring turns its error into a force.
         double sum = 0.;
         for (const ContactRow &row : rows)
           if (row_states[row].active() && by_gap(row))
@@ -98,8 +106,8 @@ namespace Touchstone
       void
       constrain(const Contact &contact, ConstraintGraph &graph, LinearSystem &system) override
       {
-        // The system starts from the forces after augmentation, the residual has
-        // been judged with those before.
+        // The residual was judged with the forces before the augmentation; the linear system
+        // starts from those after it, so its residual is computed again.
         Vector residual;
         if (system.keep_symmetric)
           {
@@ -109,6 +117,8 @@ namespace Touchstone
         for (const ContactRow &row : contact.rows())
           if (RowState &state = row_states[row]; state.active() && row.friction)
             {
+              // The forces may have been augmented since they were evaluated, so that the friction
+              // response has to be made anew for the linear system.
               choose_formulation(row, state, factor * row.stiffness);
               friction_response(row, state.status, normal_force(row), state.friction);
               if (system.keep_symmetric)
@@ -135,6 +145,7 @@ namespace Touchstone
         for (const Spring &spring : springs)
           row_states[*spring.row].force += spring.force * spring.condition.direction;
         for (const Spring &spring : springs)
+          // After the sum over all springs of a row, which are three for a tied one.
           row_states[*spring.row].lambda = row_states[*spring.row].force * spring.normal;
         solved = true;
       }
@@ -145,7 +156,7 @@ namespace Touchstone
         augment(row);
       }
 
-      /** The next force of the spring is added to the present one. */
+      /** Augmentation: the present force becomes lambda_k, to which the spring adds. */
       void
       augment(const ContactRow &row)
       {
@@ -189,11 +200,11 @@ namespace Touchstone
       bool                solved = false;
 
       /**
-       * The normal force that would balance the slave node: what the last linear
-       * solution meant it to be. The spring itself turns the error of a gap that
-       * normals and weights have changed under the linearisation into a force, and
-       * friction lagged with that force would push the nodes along by it, to the next
-       * such error: with stiff springs on warped faces for ever.
+       * The normal force that would balance the slave node, as the last linear solution intended.
+       * Normals and weights change during an increment, and the linearised gap misses that; times
+       * epsilon this error is a large force. Friction lagged with it would move the nodes along the
+       * surface, which causes the next error of this kind: with stiff springs on warped faces the
+       * iteration would not converge (doc/theory.md 6.3, "Lagged friction").
        */
       double
       balancing_force(const ContactRow      &row,
@@ -206,7 +217,8 @@ namespace Touchstone
         return row_states[row].lambda - graph.free_part(row.slave, rest) * row.normal;
       }
 
-      /** With friction the force of a linear solve stays until the next one. */
+      /** Normal force of a row: of its spring at the present gap, or, with friction and not
+       * by_gap(), that of the last linear solve. */
       double
       normal_force(const ContactRow &row) const
       {
@@ -270,7 +282,8 @@ namespace Touchstone
       {
       }
 
-      /** Each row has a spring of its own. */
+      /** No component of a unit normal exceeds this: cyclic rows are kept, for each has a spring
+       * of its own and no system becomes singular. */
       double
       cycle_threshold() const override
       {
@@ -287,17 +300,20 @@ namespace Touchstone
         if (by_gap(row))
           state.admissible_gap = row.tied ? row.gap_vector.norm() : row.gap;
         else
-          // After a change of the mesh springs begin with the force from before.
+          // lambda / epsilon is the penetration that belongs to the force of the linear solve; what
+          // the gap differs from it is judged. After a change of the mesh the springs begin with
+          // the transferred force as augmentation.
           state.admissible_gap =
             (augmentation[row].lambda - state.lambda) / (factor * row.stiffness);
       }
 
-      /** Friction and stick go by the normal force. Before balance that of the gap is as wrong as
-       * the gap times the stiffness of the spring: stiff springs would stick all rows at first,
-       * and turn them by geometric stiffness, whatever the solution. */
+      /** Friction depends on the normal force. Before equilibrium -epsilon g is wrong by the error
+       * of the gap times epsilon: with stiff springs all rows would stick at first, and their
+       * geometric stiffness would be too large (doc/theory.md 6.3, "Penalty with friction"). */
       bool
       by_gap(const ContactRow &row) const override
       {
+        // Tied rows and those without friction: the present gap, others: the last linear solve.
         return row.tied || !row.friction;
       }
 
@@ -330,6 +346,8 @@ namespace Touchstone
       void
       admit_gap(const ContactRow &row, const bool solved) override
       {
+        // The augmentation closes gaps, so none is admitted. Merged augmentation follows each
+        // linear solve; the overlap with which a step begins must not become a force.
         row_states[row].admissible_gap = 0.;
         if (merged && solved)
           augment(row);
@@ -355,6 +373,8 @@ namespace Touchstone
             regularise_friction(row, state);
             return;
           }
+        // Augmented friction: no condition and no elastic slip, the base is the force of the last
+        // augmentation (table in doc/theory.md 6.1).
         f.constrained = f.carried = false;
         f.c                       = epsilon;
         f.base                    = augmentation[row].rest;

@@ -5,6 +5,10 @@
 
 #include <map>
 
+// What a row contributes to the linear system, whatever the enforcement: its conditions on the
+// displacement increment, and the terms of friction and of changing normals and stencils
+// (doc/theory.md 5 and 6.3). Terms are products of rank one, l r^T, with l the forces on the nodes
+// and r the motion.
 namespace Touchstone
 {
   using namespace dealii;
@@ -23,6 +27,8 @@ namespace Touchstone
 
 
 
+  // Equation (11): dg = n.d(x_s - x_c) + (x_s - x_c).dn. The second term vanishes only where the
+  // gap vector is parallel to n, which it is not if normals are averaged over nodes or faces.
   NodalForm
   gap_gradient(const ContactRow &row)
   {
@@ -54,10 +60,12 @@ namespace Touchstone
     blank_condition(const ContactRow &row)
     {
       Condition condition;
-      condition.node            = row.slave;
-      condition.stencil         = row.stencil;
-      condition.body            = row.body;
-      condition.master_body     = row.master_body;
+      condition.node        = row.slave;
+      condition.stencil     = row.stencil;
+      condition.body        = row.body;
+      condition.master_body = row.master_body;
+      // Where the force acts and the point of the master that it faces; needed for the moments of
+      // rigid-body modes. The gap vector of a row is `share` times that of the surfaces.
       condition.position        = row.position + row.lever;
       condition.master_position = condition.position - row.gap_vector / row.share;
       return condition;
@@ -66,6 +74,8 @@ namespace Touchstone
 
 
 
+  // Stick on springs imposes no condition and yet holds its body: the check for free rigid motions
+  // has to know of it.
   std::vector<Condition>
   elastic_stick(const ContactRow &row, const RowState &state)
   {
@@ -86,8 +96,9 @@ namespace Touchstone
   friction_springs(const ContactRow &row, const RowState &state)
   {
     std::vector<Condition> conditions = elastic_stick(row, state);
-    // Friction that turns with the slip resists across it like a spring. A soft one is not worth
-    // an unknown that multigrid keeps out of its coarse spaces.
+    // In slip kappa_T of equation (17) resists a change of the slip direction like a spring. Only
+    // stiff springs get their elongation as a dof: multigrid keeps such dofs out of its coarse
+    // spaces, which a soft spring does not need.
     if (row.friction && state.status == ContactStatus::slip && !state.dropped() &&
         state.friction.tangent.norm() > 10. * row.stiffness)
       {
@@ -105,6 +116,8 @@ namespace Touchstone
   void
   start_row(RowState &state)
   {
+    // A redundant row has no condition that could be refused; counting one refusal makes it
+    // `dropped()`.
     state.accepted = state.refused = 0;
     state.normal_accepted          = true;
     state.friction.unconstrained.clear();
@@ -126,6 +139,8 @@ namespace Touchstone
     std::vector<Condition> conditions;
     if (row.tied)
       {
+        // Constrained in fixed directions, and not along a normal that may turn: a tied row bears
+        // tension and shear alike.
         for (unsigned int d = 0; d < dim; ++d)
           {
             condition.direction    = Tensor<1, dim>();
@@ -138,11 +153,16 @@ namespace Touchstone
 
     condition.direction = row.normal;
     condition.value     = -row.gap;
+    // With changing normals the force still acts along M^T n, the condition reads dg = -g: an
+    // unsymmetric system.
     if (row.derivative && !keep_symmetric)
       condition.gradient = gap_gradient(row);
+    // In slip the friction force follows the normal force: both act with lambda along n + L' tau,
+    // equation (22).
     if (row.friction && state.friction.d_lambda.norm_square() > 0.)
       condition.force_direction = row.normal + state.friction.d_lambda;
     conditions.push_back(condition);
+    // Stick: e_a.ds = -e_a.s takes back the slip that is left (doc/theory.md 6.1).
     if (state.fully_constrained())
       for (const Tensor<1, dim> &tangent : row.friction->kinematics.tangents)
         {
@@ -197,6 +217,8 @@ namespace Touchstone
 
 
 
+  // Equation (12): the change of the nodal forces M^T f at constant lambda and constant tangential
+  // components. It is unsymmetric, so only systems that may be unsymmetric have it.
   void
   RowTerms::add_geometric(const ContactRow &row, const RowState &state)
   {
@@ -246,6 +268,8 @@ namespace Touchstone
     if (state.fully_constrained())
       for (const Tensor<1, dim> &direction : f.unconstrained)
         {
+          // Refused conditions of stick are replaced by springs of 100 c along their tangents, with
+          // the augmented force as load; see augment_unconstrained().
           const double spring = FrictionForce::unconstrained_stiffness(row.stiffness);
           constant += (f.base * direction - spring * (k.slip * direction)) * direction;
           tangent += spring * outer_product(direction, direction);
@@ -260,6 +284,7 @@ namespace Touchstone
     if (tangent.norm_square() > 0.)
       {
         NodalMatrices change;
+        // Frozen: the slip changes by T_n M du, with the weights of the present contact point.
         if (k.slip_gradient.empty() || system.keep_symmetric)
           {
             change.emplace_back(row.slave, tangent);
@@ -271,6 +296,7 @@ namespace Touchstone
             change.emplace_back(node, tangent * matrix);
         add_stiffness(row, change);
       }
+    // dL/dA: a Tresca limit grows as the node gets covered.
     if (row.derivative && !row.derivative->area.empty() && !system.keep_symmetric &&
         f.d_area.norm_square() > 0.)
       {

@@ -49,8 +49,11 @@ namespace Touchstone
       FrictionLimit
       limit(const FrictionInput &input) const override
       {
+        // The higher coefficient holds while the node sticks, that of slip from then on,
+        // doc/theory.md 6.1, equation (15); the key 0 stands for no distinction.
         const double mu =
           input.sliding || static_coefficient == 0. ? coefficient : static_coefficient;
+        // Limit and its derivative with respect to the normal force.
         return {mu * input.normal_force, mu};
       }
 

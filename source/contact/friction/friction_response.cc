@@ -8,6 +8,11 @@
 #include <algorithm>
 #include <cmath>
 
+// The friction force of one row, and its derivatives, from the normal force and the slip: the trial
+// force of doc/theory.md 6.1, equation (16), the slip direction (17), and the coefficients of the
+// linearised force (21). Each enforcement first chooses the formulation (the base t_b and the
+// constant c of FrictionForce), then calls friction_response() or evaluate_force(); RowTerms puts
+// the response into the linear system.
 namespace Touchstone
 {
   using namespace dealii;
@@ -20,6 +25,9 @@ namespace Touchstone
 
 
 
+  // An iterate can be in tension; a cone of negative radius has no meaning, and the law may assume
+  // a pressure. Slip path and slip rate are those at the end of the step (backward Euler,
+  // doc/theory.md 6.3), so that the result does not depend on the size of the steps.
   FrictionLimit
   FrictionRow::cone(const double normal_force, const bool sliding, const double slip) const
   {
@@ -35,6 +43,9 @@ namespace Touchstone
 
 
 
+  // The irreversible slip of springs is s_p = (|t_tr| - L) / c, and the limit L may depend on it
+  // (doc/theory.md 6.3, "Limits that change with the slip"). The scalar equation is solved at the
+  // node, for a limit that lags by an iteration would leave the force off its cone.
   FrictionLimit
   FrictionRow::cone_of_springs(const double normal_force, const double trial, const double c) const
   {
@@ -58,6 +69,9 @@ namespace Touchstone
 
 
 
+  // The springs of regularised friction were stretched by t_b / alpha_t when the step began and are
+  // by t / alpha_t now: this difference is stored and not dissipated (doc/theory.md 6.2). Other
+  // formulations have no elastic slip.
   Tensor<1, dim>
   irreversible_slip(const FrictionRow    &friction,
                     const FrictionForce  &f,
@@ -80,6 +94,9 @@ namespace Touchstone
 
 
 
+  // Conditions can hold a node only where its tangential force follows from equilibrium. At shared
+  // nodes it does not, and the elastic slip of the springs has to divide the force (doc/theory.md
+  // 6, "Stick at the edge of two obstacles").
   void
   choose_friction(const ContactRow &row, RowState &state)
   {
@@ -95,6 +112,8 @@ namespace Touchstone
 
 
 
+  // Uzawa's update t_k <- t_k - 100 c s_T, only along those tangents for which the graph refused a
+  // condition (doc/theory.md 6, "Stick where the slave node is not free").
   void
   augment_unconstrained(const ContactRow &row, RowState &state)
   {
@@ -107,12 +126,12 @@ namespace Touchstone
 
   namespace
   {
-    /** Bound of the stiffness across the slip direction over that along the
-     * normal: it grows like 1 / |s| where slip begins. */
+    /** Bound of the stiffness kappa_T across the slip direction over E A / h: kappa_T grows like
+     * 1 / |s| where slip begins, and would spoil the condition of the system. */
     constexpr double stiffest = 1e2;
 
-    /** A trial force that is smaller, over the scale of contact forces, is what
-     * round-off makes of the slip: it has no direction. */
+    /** A trial force below this fraction of E A is round-off of the slip, and its direction is
+     * arbitrary: no friction acts then. */
     constexpr double nothing = 1e-12;
 
 
@@ -121,6 +140,8 @@ namespace Touchstone
     void
     linearise_springs(const ContactRow &row, const Tensor<1, dim> &trial, FrictionForce &f)
     {
+      // The trial force holds at the present slip; with the increment it changes by -c T_n ds. A
+      // base that is carried along turns with the frame as well: omega n x t_b = -omega (t_b x n).
       f.constant = trial;
       f.tangent  = f.c * row.friction->kinematics.tangential;
       if (f.carried)
@@ -141,13 +162,20 @@ namespace Touchstone
       const double          size      = trial.norm();
       const Tensor<1, dim>  direction = trial / size;
       f.direction                     = direction;
-      // Springs take back part of what changes the limit, see cone_of_springs(). A limit that
-      // falls faster than they unload has no solution nearby, and hence no derivative.
+      // On springs a change of the limit changes the irreversible slip and so the limit again, see
+      // cone_of_springs(): dL is divided by 1 + L_s / alpha_t (doc/theory.md 6.3). If the limit
+      // falls faster with the slip than the springs unload, the denominator is not positive and
+      // no equilibrium is near; it is bounded from below.
       const double by_slip = row.friction->slip_derivative(limit);
       const double part    = f.carried ? 1. / std::max(0.1, 1. + by_slip / f.c) : 1.;
       f.d_lambda           = part * limit.slope * direction;
       f.d_area             = part * limit.area_slope * direction;
-      f.constant           = (limit.force - part * limit.slope * std::max(lambda, 0.)) * direction;
+      // The constant t_0 is such that t_0 + d_lambda lambda is the present force at the present
+      // lambda; the part with lambda follows lambda within the linear solve.
+      f.constant = (limit.force - part * limit.slope * std::max(lambda, 0.)) * direction;
+      // Stiffness across the slip direction: kappa = L c / (|t_tr| - L), equation (17), for exact
+      // and augmented friction; L alpha_t / |t_tr|, the tangent of radial return, for springs. The
+      // comparison is written as a product, so that a vanishing denominator gives the bound.
       const double         distance = f.carried ? size : std::max(f.excess, 0.);
       const double         kappa    = limit.force < stiffest * row.stiffness / f.c * distance
                                         ? limit.force * f.c / distance
@@ -155,8 +183,11 @@ namespace Touchstone
       const Tensor<2, dim> across   = k.tangential - outer_product(direction, direction);
       const bool           has_slip = f.c * k.slip.norm() > nothing * row.stiffness * row.size;
       f.tangent                     = kappa * across;
+      // At the start of a step the slip is zero, and kappa would resist any change of the direction
+      // that was taken over from the last step (doc/theory.md 6.4).
       if (!f.carried && f.last_direction.norm() > 0. && !has_slip)
         f.tangent = Tensor<2, dim>();
+      // Equation (17) sets the force by the total slip across it, that of springs by its change.
       if (!f.carried)
         f.constant -= f.tangent * k.slip;
       else
@@ -194,6 +225,8 @@ namespace Touchstone
     // last linearisation, corrected by the slip across it.
     Tensor<1, dim> base = k.tangential * f.base;
     if (!f.carried && slipped && f.last_direction.norm() > 0.)
+      // The force that (17) gave in the iteration before, with its direction and kappa, at the
+      // present slip.
       base = k.tangential * (limit.force * f.last_direction - f.last_tangent * k.slip);
     const Tensor<1, dim> trial = base - f.c * k.slip;
     const double         size  = trial.norm();
@@ -206,6 +239,8 @@ namespace Touchstone
     f.tangent                   = Tensor<2, dim>();
     if (!slipped)
       {
+        // Conditions hold the node: the base is the force of the last linear solve, and the next
+        // solve finds a new one.
         if (f.constrained)
           return base;
         linearise_springs(row, trial, f);
@@ -231,6 +266,9 @@ namespace Touchstone
 
 
 
+  // The part d_lambda lambda of equation (21) makes the system unsymmetric, for it acts along the
+  // tangent while the condition acts along the normal. At a given lambda it is a load: a fixed
+  // point over Tresca problems (doc/theory.md 6.3, "Lagged friction").
   void
   lag_friction(const ContactRow &row, RowState &state, const double lambda)
   {

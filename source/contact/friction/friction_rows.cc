@@ -7,6 +7,10 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/numerics/vector_tools_interpolate.h>
 
+// The history of friction and the slip of all rows of this rank (doc/theory.md 6.2).
+// Friction::update() makes the slip of each Newton iterate from the history and the positions
+// alone; only end_step(), called once when a step has converged, writes the history, so that a step
+// that is cut leaves no trace.
 namespace Touchstone
 {
   using namespace dealii;
@@ -23,7 +27,8 @@ namespace Touchstone
   {
     present   = std::move(all_rows);
     committed = present;
-    int some  = 0;
+    // The decision must be the same on all ranks, because the import of positions is collective.
+    int some = 0;
     for (const FrictionRow &row : present)
       some |= (row.law != nullptr);
     if (Utilities::MPI::max(some, solid.communicator) == 0)
@@ -42,6 +47,9 @@ namespace Touchstone
   void
   Friction::import_positions(const Vector &u)
   {
+    // Stencils and anchors can refer to any node of the master surface, also far beyond the ghost
+    // layer of the mesh. They change while bodies slide, so the set is made anew in each iteration;
+    // the vectors are only if it has changed on some rank.
     IndexSet needed = solid.relevant;
     for (const ContactRow &row : rows)
       for (const Stencil *stencil : {&row.stencil,
@@ -99,18 +107,22 @@ namespace Touchstone
   namespace
   {
     /**
-     * The tangential displacement that an open node has yet to go until it touches, if it
-     * goes on as it came in this step: no friction acts on it so far. A node that
-     * comes in flatter than 45 degrees slides rather than lands, and one without a
-     * past is taken to come along the normal.
+     * The tangential displacement that an open node is predicted to make until it touches, if it
+     * continues in the direction of this step, doc/theory.md 6.2, equation (19): without contact
+     * there is no friction, so this displacement is no slip. Zero for a node that approaches at
+     * less than 45 degrees to the surface, which will slide, and for one without a step of
+     * approach, which is taken to come along the normal. In components of the frame.
      */
     std::array<double, 2>
     precontact_offset(const ContactRow &row, const bool is_active, const FrictionHistory &history)
     {
       const SlipKinematics &k       = row.friction->kinematics;
       const double          closing = history.anchor_gap - row.gap;
+      // Nothing to predict without a committed gap, in contact, or while moving apart.
       if (!history.has_anchor || is_active || row.gap <= 0. || closing <= 0.)
         return {};
+      // The slip does not contain the offset that the last step predicted; the displacement along
+      // the surface does. With dg = closing, equation (19) extrapolates it by the factor g / dg.
       const Tensor<1, dim> moved = k.slip + k.carry(history.precontact_offset);
       if (moved.norm() > closing)
         return {};
@@ -133,14 +145,18 @@ namespace Touchstone
         history.anchor_displacement = {};
         return;
       }
-    const SlipKinematics &k   = row.friction->kinematics;
+    const SlipKinematics &k = row.friction->kinematics;
+    // Uses the anchor of the step that ends, and hence has to precede set_anchor().
     history.precontact_offset = precontact_offset(row, state.active(), history);
     if (state.active())
       {
         const Tensor<1, dim> force = state.force - state.lambda * row.normal;
-        history.traction           = k.components(force);
+        // Kept in components of the frame, so that the force turns with the surface.
+        history.traction = k.components(force);
         if (state.status == ContactStatus::slip)
           {
+            // Friction opposes the slip, so the dissipated work -t.s_p is positive. An open node or
+            // one that sticks dissipates nothing.
             const Tensor<1, dim> slip = irreversible_slip(*row.friction, state.friction, force);
             history.work -= force * slip;
             history.slip_length += slip.norm();
@@ -173,6 +189,8 @@ namespace Touchstone
         f.history.has_anchor = false;
         return;
       }
+    // The new mesh has other slave nodes: each begins with the interpolated traction and counts its
+    // slip from where it is now (doc/theory.md 11, "History").
     f.history.traction    = f.kinematics.components(force);
     f.history.slip_length = slip_length;
     f.history.work        = work;
@@ -188,7 +206,7 @@ namespace Touchstone
   {
     if (!active())
       return;
-    // What belongs to the linearisation is made anew in each iteration.
+    // Gradients are made anew in each iteration and need not be copied with the history.
     for (FrictionRow &row : present)
       {
         row.kinematics.slip_gradient.clear();
@@ -205,6 +223,7 @@ namespace Touchstone
   void
   Friction::rollback()
   {
+    // Element by element: the contact rows hold pointers to the elements of this vector.
     std::copy(committed.begin(), committed.end(), present.begin());
   }
 
@@ -229,6 +248,8 @@ namespace Touchstone
       FrictionRow::visit_state(present[row.index], unpack);
     });
     time = committed_time = archive.get<double>("committed time");
+    // The slip of the next step counts from the committed displacement of the checkpoint, whereas
+    // the update that made the rows was in the reference state.
     owned_start_positions = reference_positions;
     owned_start_positions += archive.field("displacement");
     positions_known.clear(); // ghosts are imported by the next update

@@ -4,6 +4,9 @@
 
 #include <map>
 
+// Slip of a row since the step began and the frame that moves with the slave surface (doc/theory.md
+// 6.2, equations (18) to (20)), with their derivatives for the consistent linearisation. All of it
+// is a function of the history and of the present positions, and of no earlier Newton iterate.
 namespace Touchstone
 {
   using namespace dealii;
@@ -30,6 +33,8 @@ namespace Touchstone
 
 
 
+  // v of equation (18). With small sliding the stencil never changes, so the change of the gap
+  // vector is the same displacement; an obstacle moves by the shift, which is taken out.
   Tensor<1, dim>
   displacement_since_anchor(const ContactRow      &row,
                             const FrictionHistory &history,
@@ -66,11 +71,15 @@ namespace Touchstone
                   const Tensor<1, dim>              &normal,
                   SlipKinematics                    &k)
     {
+      // On a plane of symmetry the mirrored half of the body cancels the friction across the plane
+      // (doc/theory.md 6). The direction across it is taken from the projector and from the
+      // tangents; at a corner of two planes none is left.
       k.tangential = tangential_projector(normal);
       k.tangents.assign(k.frame.begin(), k.frame.end());
       for (const Tensor<1, dim> &mirror : mirrors)
         {
-          // What of the plane's normal is tangential, and not taken out by another plane.
+          // Tangential part of the normal of the symmetry plane, orthogonal to the directions that
+          // earlier planes have removed.
           Tensor<1, dim> out    = k.tangential * mirror;
           const double   length = out.norm();
           if (length < 1e-3)
@@ -117,10 +126,12 @@ namespace Touchstone
     k.frame[0]                       = direction / direction.norm();
     k.frame[1]                       = cross_product_3d(row.normal, k.frame[0]);
     find_tangents(row.friction->mirrors, row.normal, k);
+    // t_b of regularised friction: the force at the end of the last step, turned with the surface.
     k.start = k.tangential * k.carry(history.traction);
     k.area  = row.area;
     k.time  = time;
     k.step  = step;
+    // Equation (18) with an anchor, and (20) where the node had no partner when the step began.
     k.slip =
       k.tangential * (history.has_anchor ? displacement_since_anchor(row, history, positions) -
                                              k.carry(history.anchor_displacement)
@@ -136,10 +147,11 @@ namespace Touchstone
              const NodePositions  &positions,
              FrictionHistory      &history)
   {
-    // Slip is the displacement of the node relative to the material point that it faces now,
-    // seen in a frame that turns with the surface: no rotation of both bodies changes
-    // it. Small sliding: the change of the gap vector. Obstacle: the point of its
-    // surface moves with it. What an open node has yet to move is no slip.
+    // From now on slip is the displacement of the node relative to the material point that it faces
+    // now, in components of a frame that turns with the surface, so that a common rotation of both
+    // bodies is no slip (doc/theory.md 6.2). With small sliding it is the change of the gap vector;
+    // on an obstacle the anchor is a point that moves with it. The displacement that an open node
+    // is predicted to make until it touches, equation (19), is added and thereby no slip either.
     history.has_anchor = true;
     history.anchor.clear();
     history.anchor_offset = Tensor<1, dim>();
@@ -178,6 +190,8 @@ namespace Touchstone
           spin[entry.node] += (a == 0 ? entry.weight * k.frame[1] : -entry.weight * k.frame[0]);
         }
     for (std::size_t a = 0; a < d.nodes.size(); ++a)
+      // The normal changes too: -(n.q_1) e_2.dn from the projector, and e_2.(q_2 x dn) = (n.q_2)
+      // e_1.dn since dn is perpendicular to n.
       spin[d.nodes[a]] += (row.normal * q[1]) * (k.frame[0] * d.normal[a]) -
                           (row.normal * q[0]) * (k.frame[1] * d.normal[a]);
     const double length = in_plane_rotation(row, positions).norm();
@@ -193,6 +207,8 @@ namespace Touchstone
     for (const StencilEntry &entry : history.has_anchor ? history.anchor : row.stencil)
       slip[entry.node] -= entry.weight * tangential;
     if (!history.has_anchor)
+      // Without an anchor the stencil is the present one, whose weights change with the contact
+      // point.
       for (std::size_t m = 0; m < row.stencil.size(); ++m)
         {
           const Vec moved = tangential * positions.displacement(row.stencil[m].node);
@@ -200,7 +216,10 @@ namespace Touchstone
             slip[d.nodes[a]] -= outer_product(moved, d.weights[m][a]);
         }
     for (std::size_t a = 0; a < d.nodes.size(); ++a)
+      // dT v = -dn (n.v) - n (dn.v); the second is along n and no slip.
       slip[d.nodes[a]] -= (row.normal * v) * (tangential * d.normal[a]);
+    // The displacement at the anchor is carried by the frame and changes by omega n x (...). Below
+    // the bound it is round-off and would only widen the stencil.
     if (history.has_anchor && turned.norm() > 1e-12 * row.size)
       for (const auto &[node, rate] : spin)
         slip[node] -= outer_product(tangential * turned, rate);

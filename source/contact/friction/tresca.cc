@@ -38,6 +38,9 @@ namespace Touchstone
       FrictionLimit
       limit(const FrictionInput &input) const override
       {
+        // No dependence on the normal force, so that the system without consistent linearisation is
+        // symmetric; the area is that covered at present, which changes as edges pass
+        // (doc/theory.md 6.1).
         return {strength * input.area, 0., strength};
       }
 

@@ -32,7 +32,7 @@ namespace Touchstone
 
     /**
      * @brief Whether the rows of this rank, by their index, are redundant. Collective.
-     * @param graph     The prescribed displacements: rows that these determine lead nowhere.
+     * @param graph     The prescribed displacements: rows that these determine are in no cycle.
      * @param threshold Smaller components of unit normals do not count.
      */
     std::vector<bool>

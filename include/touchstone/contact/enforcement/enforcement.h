@@ -19,26 +19,26 @@ namespace Touchstone
 {
   class Contact;
 
-  /** @brief What a linear solve has found. */
+  /** @brief Solution of a linear system, and the system that it belongs to. */
   struct LinearSolution
   {
     /** The system, and the graph with its conditions. */
     const LinearSystem    &system;
     const ConstraintGraph &graph;
-    /** Displacement increment of this rank's dofs, all of it. */
+    /** Displacement increment of this rank's dofs, before it is shortened. */
     const Vector &increment;
-    /** Extra unknowns of this rank. */
+    /** Extra dofs of this rank: multipliers. */
     const std::vector<double> &extra;
     /** Adds the forces on hanging nodes to the nodes that these follow. */
     std::function<void(Vector &)> condense;
   };
 
-  /** @brief What an update of the active set did, over all ranks. */
+  /** @brief Outcome of an update of the active set, over all ranks. */
   struct ActiveSetUpdate
   {
     unsigned int active  = 0;
     unsigned int changes = 0;
-    /** Identifies the set, to notice that it comes back. */
+    /** Identifies the set, to detect that it recurs. */
     std::uint64_t signature = 0;
     /** Largest |gap| of active and penetration of open rows, relative to the
      * size of the faces. */
@@ -48,10 +48,10 @@ namespace Touchstone
   };
 
   /**
-   * @brief Turns active rows into parts of the linear system, and its solution
-   * into contact forces. Never asks where a row came from. Registered by name.
+   * @brief Turns active rows into conditions and terms of the linear system, and its solution
+   * into contact forces. Independent of the pairing that made a row. Registered by name.
    *
-   * It owns the state of the rows, status and forces, and whatever it remembers of them
+   * It owns the state of the rows, status and forces, and further history of each row
    * (Memory), and decides by the active set strategy which rows are active.
    *
    * In each Newton iteration: recover() with the prescribed displacements in the
@@ -87,8 +87,8 @@ namespace Touchstone
     void
     update_partners(const ContactRows &rows, bool first);
 
-    /** @brief Whether contact forces are unknowns of the linear system, which then is not
-     * definite. */
+    /** @brief Whether contact forces are dofs of the linear system (multipliers), which then is
+     * not definite. */
     virtual bool
     uses_multipliers() const
     {
@@ -119,14 +119,14 @@ namespace Touchstone
     ActiveSetUpdate
     update_active_set(const Contact &contact, double gap_tolerance, unsigned int damping);
 
-    /** @brief Offer the active rows to the graph and add terms and extra unknowns
-     * to the system, whose right-hand side holds no contact forces. Rows that are part of a
-     * cyclic dependency between pairs are left out. Collective. */
+    /** @brief Add the conditions of active rows to the graph, and terms and multipliers to the
+     * system, whose right-hand side holds no contact forces. Rows that are part of a cyclic
+     * dependency between pairs are left out. Collective. */
     void
     enforce(const Contact &contact, ConstraintGraph &graph, LinearSystem &system);
 
-    /** @brief Add what friction and the change of normals and stencils contribute to the
-     * system. Collective. */
+    /** @brief Add the terms of friction and of changing normals and stencils to the system
+     * (doc/theory.md 5 and 6.3). Collective. */
     void
     add_friction(const Contact &contact, LinearSystem &system);
 
@@ -137,7 +137,8 @@ namespace Touchstone
     {
     }
 
-    /** @brief Take from a solution what contact forces are made of. Collective. */
+    /** @brief Store the quantities of a solution from which set_forces() makes the contact forces:
+     * multipliers, or forces of springs. Collective. */
     virtual void
     take(const LinearSolution & /*solution*/)
     {
@@ -175,7 +176,7 @@ namespace Touchstone
     load(const ArchiveReader &archive) override;
 
   protected:
-    /** @brief What a kind of enforcement remembers of each row, as a member of its class:
+    /** @brief History of each row that a kind of enforcement needs, as a member of its class:
      * committed and rolled back, saved in checkpoints, and set to default values where a row has
      * no contact force. T as for RowArray. */
     template <class T>

@@ -8,14 +8,14 @@
 namespace Touchstone
 {
   /**
-   * @brief What enforcements have in common that meet the conditions of active rows exactly
-   * and find the contact forces as the multipliers of these conditions.
+   * @brief Common part of enforcements that satisfy the conditions of active rows exactly and
+   * determine the contact forces as the multipliers of these conditions (doc/theory.md 6).
    *
    * The forces are those of the last linear solve. The normal force follows the present
    * normal, friction in slip the present slip. Where a support or another pair determines
-   * the tangential displacement of a slave node, a condition on it would be refused: stick
+   * the tangential displacement of a slave node, the graph refuses a condition on it: stick
    * is then enforced on the master surface, by a spring whose force is augmented in each
-   * iteration until it leaves no slip.
+   * iteration until no slip is left.
    * Alart and Curnier (1991), Comput. Methods Appl. Mech. Engng 92.
    */
   class ExactEnforcement : public Enforcement
@@ -60,30 +60,30 @@ namespace Touchstone
     virtual ConstraintGraph::Treatment
     treatment(const ContactRow &row) const = 0;
 
-    /** @brief Make the forces of conditions that are met by multipliers unknowns of the system.
-     * Collective. */
+    /** @brief Add a dof to the system for the force of each condition that is enforced by a
+     * multiplier. Collective. */
     static void
     add_multipliers(const std::vector<Accepted> &accepted, LinearSystem &system);
 
-    /** @brief A last change of a condition before it is offered to the graph. */
+    /** @brief A last change of a condition before it is added to the graph. */
     virtual void
     adjust(const ContactRow & /*row*/, Condition & /*condition*/) const
     {
     }
 
-    /** @brief Conditions are about to be offered. Collective. */
+    /** @brief Called before conditions are added to the graph. Collective. */
     virtual void
     prepare(const Contact & /*contact*/, LinearSystem & /*system*/)
     {
     }
 
-    /** @brief The forces of the accepted conditions, along their directions: those that are
-     * unknowns, and zero. Collective. */
+    /** @brief The forces of the accepted conditions, along their directions: here those that are
+     * multipliers in the system, and zero for others. Collective. */
     virtual std::vector<double>
     multipliers(const std::vector<Accepted> &accepted, const LinearSolution &solution) const;
 
   private:
-    /** Of the last system, and what its solution has made of them. */
+    /** Accepted conditions of the last system, and their forces by its solution. */
     std::vector<Accepted> accepted;
     std::vector<double>   forces;
     /** A linear solve has come after the last evaluate(). */

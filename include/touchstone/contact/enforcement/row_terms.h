@@ -11,7 +11,7 @@
 
 namespace Touchstone
 {
-  /** @brief The form by unknowns instead of nodes, zeros left out. */
+  /** @brief The linear form by dofs instead of nodes, zeros left out. */
   LinearForm
   by_unknowns(const NodalForm &form);
 
@@ -19,7 +19,7 @@ namespace Touchstone
   NodalForm
   gap_gradient(const ContactRow &row);
 
-  /** @brief A new linear system begins: no condition of the row has been offered to the graph. A
+  /** @brief A new linear system begins: no condition of the row has been added to the graph. A
    * redundant row counts as refused. */
   void
   start_row(RowState &state);
@@ -29,8 +29,8 @@ namespace Touchstone
    * along the normal if it is free to slide, in all directions if it is fully constrained; none
    * if it is open or redundant.
    *
-   * @param keep_symmetric Leave the force along the normal when it drags friction
-   *                       along with it.
+   * @param keep_symmetric Leave out how normals and stencils change; friction has been lagged
+   *                       before, see lag_friction().
    */
   std::vector<Condition>
   row_conditions(const ContactRow &row, const RowState &state, bool keep_symmetric);
@@ -42,7 +42,8 @@ namespace Touchstone
 
   /** @brief The directions in which friction resists an increment like a spring: along the surface
    * where the row sticks elastically, across the slip where it slips. As conditions without
-   * value, for a change of basis that takes their elongations for unknowns. */
+   * value, for a change of basis that makes their elongations dofs (doc/theory.md 7, equation
+   * (23)). */
   std::vector<Condition>
   friction_springs(const ContactRow &row, const RowState &state);
 

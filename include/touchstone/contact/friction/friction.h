@@ -15,11 +15,11 @@
 
 namespace Touchstone
 {
-  /** @brief I - n n, what is left of a vector in the plane of the unit normal n. */
+  /** @brief T_n = I - n n, the projector onto the plane of the unit normal n. */
   dealii::Tensor<2, dim>
   tangential_projector(const dealii::Tensor<1, dim> &normal);
 
-  /** @brief What friction remembers of a row from one step to the next. Vectors are kept by their
+  /** @brief History of the friction of a row from one step to the next. Vectors are stored by their
    * components in the frame that moves with the slave surface. */
   struct FrictionHistory
   {
@@ -30,14 +30,15 @@ namespace Touchstone
     Stencil                anchor;
     dealii::Tensor<1, dim> anchor_offset;
     std::array<double, 2>  anchor_displacement{};
-    /** The gap then, and the pre-contact tangential offset: what an open node had yet to move
-     * until it touches, which is no slip; part of anchor_displacement. */
+    /** The gap at that time, and the pre-contact tangential offset: the displacement that an open
+     * node is predicted to make until it touches, which is no slip (doc/theory.md 6.2, equation
+     * (19)); part of anchor_displacement. */
     double                anchor_gap = 0.;
     std::array<double, 2> precontact_offset{};
     /** Tangential force. */
     std::array<double, 2> traction{};
-    /** Slip path, length, and work done against friction: of the slip that is
-     * not elastic. */
+    /** Slip path, length, and work done against friction, force times length: both of the
+     * irreversible slip only. */
     double slip_length = 0., work = 0.;
 
     /** @brief The one list of what checkpoints hold. */
@@ -75,7 +76,8 @@ namespace Touchstone
      * lie in the planes of symmetry, and an orthonormal basis of them. */
     Mat              tangential;
     std::vector<Vec> tangents;
-    /** The force of the history in the present frame. */
+    /** The tangential force at the start of the step, carried along with the frame: t_b of
+     * regularised friction. */
     Vec start;
     /** d slip / d x_a, and the rate at which the frame turns about the normal,
      * d omega / d x_a: set for the consistent linearisation only. */
@@ -113,14 +115,14 @@ namespace Touchstone
     /** @name Constant on a mesh */
     /** @{ */
     const FrictionLaw *law = nullptr;
-    /** Normals of the planes of symmetry that the node lies on: the other half of the body
-     * cancels what friction there is along them. */
+    /** Normals of the planes of symmetry that the node lies on: the mirrored half of the body
+     * cancels the friction along them. */
     std::vector<dealii::Tensor<1, dim>> mirrors;
     /** Two material vectors of the slave surface at the node, see Surface::material_tangents(). */
     std::array<Stencil, 2> material_tangents;
     /** Small sliding: slip is measured by the gap vector. */
     bool small = false;
-    /** No elastic slip, where the enforcement can do without. */
+    /** Stick without elastic slip, where the enforcement permits it. */
     bool exact = true;
     /** Stiffness of regularised stick alpha_t, force per length. */
     double alpha = 1.;

@@ -12,12 +12,12 @@
 namespace Touchstone
 {
   /**
-   * @brief The tangential force of a row as an enforcement makes it: the formulation that it
-   * chooses, and the response that enters the linear system.
+   * @brief The tangential force of a row: the formulation, which the enforcement chooses, and the
+   * response (direction, stiffness, derivatives), which enters the linear system.
    *
    * The tangential force follows a trial force, t_tr = base - c s, with the slip s
    * of the step: inside the cone of radius L(lambda) the node sticks, outside it
-   * slips with t = L t_tr / |t_tr|. What base and c are makes the formulation:
+   * slips with t = L t_tr / |t_tr|. Formulations differ in base and c:
    * - regularised (elastic-plastic slip): the force at the start of the step,
    *   carried along with the slave surface, and alpha_t;
    * - augmented Lagrangian: the force at the last augmentation, and its penalty;
@@ -37,14 +37,14 @@ namespace Touchstone
     /** @{ */
     /** The relative displacement of a node that sticks is constrained by conditions. */
     bool constrained = false;
-    /** Tangents along which no condition constrains it, because a support or another pair
-     * determines its displacement there: springs with an augmented force do. */
+    /** Tangents along which its condition was refused, because a support or another pair
+     * determines its displacement: there springs with an augmented force enforce stick. */
     std::vector<Vec> unconstrained;
     double           c = 1.;
     Vec              base;
     /** The base is the force that is carried along with the slave surface. */
     bool carried = false;
-    /** The force of stick is not unique: see find_shared_nodes(). */
+    /** Equilibrium does not determine the force of stick: see Enforcement::find_shared_nodes(). */
     bool shared = false;
     /** @} */
 
@@ -59,7 +59,7 @@ namespace Touchstone
     Vec constant, d_lambda, d_area, d_spin, d_slip, slip_direction;
     /** Radius of the cone, force. */
     double limit = 0.;
-    /** |t_tr| - L, force: positive asks for slip, negative for stick. */
+    /** |t_tr| - L, force: a positive value violates stick, a negative one slip. */
     double excess = 0.;
     /** @} */
 

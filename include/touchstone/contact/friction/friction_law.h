@@ -11,15 +11,15 @@
 
 namespace Touchstone
 {
-  /** @brief What a friction law may depend on, at one slave node. */
+  /** @brief Arguments of a friction law, at one slave node. */
   struct FrictionInput
   {
     /** Normal contact force, >= 0, force. */
     double normal_force = 0.;
     /** Tributary area in the reference state, as far as it is covered at present. */
     double area = 0.;
-    /** Length of the path that the node has slipped since the start, that of the present
-     * step included; elastic slip does not count. */
+    /** Length of the slip path since the start, irreversible slip only, including that of the
+     * present step; length. */
     double slip_length = 0.;
     /** Slip of the step divided by its length in time: length per time, >= 0; zero while the
      * node sticks. In statics time is that of the loads. */
@@ -48,8 +48,8 @@ namespace Touchstone
   /**
    * @brief The radius of the friction cone: the tangential force of a slave node
    * stays below it while the node sticks, and is equal to it, against the
-   * motion, when it slips. Registered by the name that the key "Behaviour" of a
-   * contact pair takes; its parameters stand in the subsection "Friction".
+   * motion, when it slips (doc/theory.md 6.1, equation (15)). Registered by its value of the key
+   * "Behaviour" of a contact pair; its parameters are in the subsection "Friction".
    *
    * The law is evaluated at the end of the step (backward Euler): the result of a law that
    * depends on the slip path does not depend on the number of steps that the path is made in.

@@ -40,12 +40,13 @@ namespace Touchstone
   regularise_friction(const ContactRow &row, RowState &state);
 
   /** @brief Take the formulation of an enforcement that constrains what sticks by
-   * conditions: exact, unless the scene asks for regularised stick. */
+   * conditions: exact, unless the input sets regularised stick or the node is shared, see
+   * FrictionForce::shared. */
   void
   choose_friction(const ContactRow &row, RowState &state);
 
-  /** @brief Let the springs along unconstrained tangents take the force that the present slip
-   * asks for. */
+  /** @brief Augment the force of the springs along unconstrained tangents by the present slip
+   * times their stiffness. */
   void
   augment_unconstrained(const ContactRow &row, RowState &state);
 

@@ -23,8 +23,8 @@ namespace Touchstone
     displacement(Index node) const;
   };
 
-  /** @brief Displacement of the slave node relative to its convected contact point, with what of
-   * it lies across the surface, length. */
+  /** @brief Displacement v of the slave node relative to its convected contact point, with its
+   * normal component, length; doc/theory.md 6.2, equation (18). */
   dealii::Tensor<1, dim>
   displacement_since_anchor(const ContactRow      &row,
                             const FrictionHistory &history,
