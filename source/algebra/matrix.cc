@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+// The stiffness and the mass: pattern and operations on entries of a BlockMatrix in double
+// precision that is filled cell by cell (doc/theory.md, section 7). All indices are local ones:
+// nodes of this rank first, then those of others in ascending order.
 namespace Touchstone
 {
   using namespace dealii;
@@ -18,6 +21,9 @@ namespace Touchstone
 
 
 
+  // The pattern from the couplings of nodes, a third of the rows and columns of a pattern of
+  // dofs. Maps of Epetra in the same numbering are for the condensed matrix, whose first columns
+  // are these.
   void
   Matrix::reinit(const IndexSet               &owned,
                  const DynamicSparsityPattern &couplings,
@@ -67,6 +73,8 @@ namespace Touchstone
                                 (std::lower_bound(far.begin(), far.end(), other) - far.begin()));
           else if (made->has(node - first, other - first))
             of_row.push_back(other - first);
+        // In ascending order, as add_row() wants it: own columns, then those of others, whose
+        // local indices are higher.
         of_row.insert(of_row.end(), of_others.begin(), of_others.end());
         made->add_row(of_row);
       }
@@ -118,6 +126,9 @@ namespace Touchstone
 
 
 
+  // Factors differ from body to body only, and the continuum does not couple bodies: a factor of
+  // the row is also that of the column, so rows of a symmetric matrix stored by halves can be
+  // scaled.
   void
   Matrix::add(const Vector &factors, const Matrix &added)
   {
@@ -153,6 +164,8 @@ namespace Touchstone
 
 
 
+  // A bound of the largest eigenvalue (Gershgorin). A block above the diagonal is also,
+  // transposed, in the row of its column.
   std::vector<double>
   Matrix::absolute_row_sums() const
   {
@@ -172,6 +185,7 @@ namespace Touchstone
 
 
 
+  // Blocks that stand for their transposes count twice.
   double
   Matrix::frobenius_norm() const
   {

@@ -7,6 +7,9 @@
 
 #include <sstream>
 
+// Section 'Linear solver' of the input file. Keys of single solvers and preconditioners are
+// declared by these (LinearSolverOptionsRegistry), and keys that have no effect with the chosen
+// 'Type' are errors: a user who sets them expects something.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -14,7 +17,10 @@ namespace Touchstone
 
   namespace
   {
-    /** The lines "set KEY = VALUE" of the present values of options. */
+    /**
+     * The lines "KEY = VALUE" of the present values of options: printing them is the one way to
+     * compare keys of any type without knowing them.
+     */
     std::vector<std::string>
     lines(PluginParameters &options)
     {
@@ -117,6 +123,8 @@ namespace Touchstone
                       "one matrix only where multigrid is set up; 'assembled' does so in each "
                       "Newton iteration.",
                       Patterns::Selection("applied|assembled"));
+    // All are declared whatever the type is, since the parser must know each key before it reads
+    // 'Type'.
     for (const auto &of_one : options)
       of_one.second->declare(prm);
   }

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 
+// The substitution x = T y + g with T = C B D (doc/theory.md, section 7) in two forms: row by row
+// for Condensation, which assembles, and as a small distributed matrix of the rows that are not
+// those of the identity, for AppliedOperator and the expansion of solutions.
 namespace Touchstone
 {
   using namespace dealii;
 
+  // Column indices are given beforehand and are local, so Epetra neither searches nor
+  // communicates until FillComplete(), which plans the exchange of ghosts.
   std::unique_ptr<Epetra_CrsMatrix>
   make_matrix(const std::vector<SparseRow> &rows,
               const LocalIndices           &indices,
@@ -67,6 +72,9 @@ namespace Touchstone
 
 
 
+  // C B of one dof: the line of the constraint, in which dofs of changed basis are replaced.
+  // Constraint lines come without chains, so one level is enough; multipliers are never
+  // transformed.
   std::optional<Transformation::Row>
   Transformation::row(const Index dof) const
   {
@@ -88,6 +96,7 @@ namespace Touchstone
 
 
 
+  // Collective where it is made: all ranks reach it in the same product.
   const Transformation::OwnRows &
   Transformation::own_rows() const
   {
@@ -108,6 +117,7 @@ namespace Touchstone
         }
     result->entries = make_matrix(rows, indices, dofs);
     result->values  = std::make_unique<Epetra_Vector>(result->entries->RangeMap());
+    // D scales columns: the substitution of elongations is x = .. + s w (equation (23)).
     if (units)
       result->entries->RightScale(*units);
     made = std::move(result);
@@ -124,6 +134,8 @@ namespace Touchstone
 
 
 
+  // All rows are copied as those of the identity, then the others are overwritten. The identity
+  // needs no D, for dofs with units other than one have rows of their own.
   void
   Transformation::apply(const Epetra_Vector &y, Epetra_Vector &result) const
   {
@@ -136,6 +148,8 @@ namespace Touchstone
 
 
 
+  // Scatter: entries of rows that are not those of the identity go to the dofs that these refer
+  // to; what is left goes to its own dof. Contributions to dofs of other ranks are added there.
   void
   Transformation::apply_transposed(Epetra_Vector &x, Epetra_Vector &result) const
   {
