@@ -9,7 +9,7 @@
 #include <string>
 
 // The multigrid of Trilinos (ML) as a preconditioner to compare with the program's own. It reads
-// the assembled matrix of doubles and knows neither bodies nor blocks.
+// the assembled matrix of doubles, and its aggregates do not know bodies.
 namespace Touchstone
 {
   namespace

@@ -9,25 +9,39 @@
 #include <cstdlib>
 #include <string>
 
+// Set-up of the levels and the V-cycle of smoothed aggregation (doc/theory.md, section 8). A
+// level is a matrix in single precision, its Chebyshev smoother, and the prolongation from the
+// next level; on the coarsest one KLU factorises in double precision. As a preconditioner a
+// V-cycle has to be accurate to a few digits only.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** Degree of the polynomials, and largest over smallest eigenvalue that they smooth. */
+    /**
+     * Degree of the polynomials, and the part of the spectrum that they smooth: from the largest
+     * eigenvalue to a twentieth of it. Lower modes are smooth and left to the coarse level.
+     * Unlike Gauss-Seidel, a polynomial needs products alone, is the same on any number of ranks
+     * and symmetric, as conjugate gradients require.
+     */
     constexpr int    degree = 3;
     constexpr double range  = 20.;
 
-    /** Conjugate gradients that estimate the largest eigenvalue, and what deal.II adds to
-     * the estimate. */
+    /**
+     * Conjugate gradients that estimate the largest eigenvalue, and the factor by which deal.II
+     * enlarges the estimate, which bounds it from below; largest_eigenvalue() divides by it.
+     */
     constexpr unsigned int estimate_iterations = 10;
     constexpr double       margin              = 1.2;
 
-    /** Dofs of a system that is solved directly. */
+    /** Size at and below which a level is solved directly: too small for several ranks to gain. */
     constexpr Index few = 1000;
 
-    /** Whatever one rank meets, all leave. */
+    /**
+     * Throw on all ranks if a call of Amesos failed on any, or the others would wait for ever in
+     * their next collective call.
+     */
     void
     check(int error, const Epetra_Comm &communicator)
     {
@@ -42,6 +56,8 @@ namespace Touchstone
 
 
 
+  // The diagonal is the inner preconditioner of the polynomial, so eigenvalues are those of D^-1
+  // A.
   Multigrid::Level::Level(BlockRows &rows, const bool symmetric)
     : matrix(rows, symmetric)
   {
@@ -66,6 +82,9 @@ namespace Touchstone
     for (unsigned int node = 0; node < bodies.size(); ++node)
       bodies[node] = body[dim * node];
     unsigned int group = 1;
+    // From fine to coarse until few dofs are left. The rows of a level are made by the Galerkin
+    // product of the one above and are read twice, for the copy in single precision and for the
+    // next product in double.
     while (rows->numbers()->size() > few)
       {
         levels.push_back(std::make_unique<Level>(*rows, symmetric));
@@ -120,6 +139,8 @@ namespace Touchstone
 
 
 
+  // The coarsest matrix is regular: motions without stiffness got a one on their diagonal
+  // (AggregateRows), or else KLU reports it. Its rows stay distributed; Amesos gathers them.
   void
   Multigrid::make_coarsest(BlockRows &rows)
   {
@@ -170,6 +191,9 @@ namespace Touchstone
 
 
 
+  // V-cycle from zero: smooth, correct by the coarser level, smooth again by the same polynomial,
+  // so that the operator is symmetric. The outer level has double and the others single
+  // precision, hence the template; without a prolongation the level is smoothed only.
   template <typename Number>
   void
   Multigrid::cycle(const unsigned int k, const Number *rhs, Number *solution) const
