@@ -10,6 +10,11 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+// Writing the state of a run as pieces that do not depend on the partition, and reading it on any
+// number of ranks. The writer needs no communication. The reader makes the same mesh, finds the
+// cells of all pieces in it by their CellId, thereby learns which node of the file is which of
+// its own, and takes what belongs to its nodes and cells. Values go through unchanged, bit by
+// bit, so that a resumed run can repeat the one that was interrupted.
 namespace Touchstone
 {
   using namespace dealii;
@@ -18,6 +23,8 @@ namespace Touchstone
   {
     const char *const cells_block = "cells";
 
+    // deal.II's pack() would compress by default; the size of the state is in doubles that hardly
+    // compress, so it is switched off here and where it is packed.
     template <class T>
     T
     unpack(const std::vector<char> &bytes)
@@ -25,7 +32,10 @@ namespace Touchstone
       return Utilities::unpack<T>(bytes, /*allow_compression=*/false);
     }
 
-    /** The active cells of a rank: their ids, and the numbers of their nodes. */
+    /**
+     * The active cells of a rank: their ids, and the numbers of their nodes. All are in two flat
+     * lists, since boost would serialise one object per cell with an overhead each.
+     */
     struct CellList
     {
       static constexpr std::size_t id_size = std::tuple_size<CellId::binary_type>::value;
@@ -114,6 +124,7 @@ namespace Touchstone
 
 
 
+  // Only the first number and the values: owned dofs are contiguous.
   void
   ArchiveWriter::put_field(const std::string &name, const Vector &field)
   {
@@ -173,6 +184,8 @@ namespace Touchstone
 
 
 
+  // One piece is kept at a time: together they may be larger than the memory of one rank, and
+  // callers read them one after the other.
   const ArchiveReader::Blocks &
   ArchiveReader::piece(const unsigned int number) const
   {
@@ -197,6 +210,8 @@ namespace Touchstone
 
 
 
+  // The parents, up to @p level, of all active cells. They determine the adaptive mesh: refining
+  // just these cells makes the active cells of the archive.
   std::set<CellId::binary_type>
   ArchiveReader::refined_cells(const unsigned int level) const
   {
@@ -221,6 +236,8 @@ namespace Touchstone
 
 
 
+  // Two passes over the pieces: the first finds cells and nodes, and compares the meshes before
+  // anything is used; the second takes fields, data of cells and records.
   void
   ArchiveReader::connect(const Solid &solid)
   {
@@ -228,6 +245,7 @@ namespace Touchstone
 
     std::map<CellId::binary_type, typename DoFHandler<dim>::active_cell_iterator> cells;
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      // Ghost cells, too: an owned node can lie in cells of which this rank owns none.
       if (!cell->is_artificial())
         cells.emplace(cell->id().template to_binary<dim>(), cell);
 
@@ -258,6 +276,8 @@ namespace Touchstone
           }
       }
     const auto &mesh = solid.dof_handler.get_triangulation();
+    // Each cell of the archive must be owned by just one rank, and the mesh must have no others.
+    // Decided by a sum, so that all ranks throw.
     if (Utilities::MPI::sum(found_cells, solid.communicator) != all_cells ||
         all_cells != mesh.n_global_active_cells())
       throw ArchiveError("it has another mesh, of " + std::to_string(all_cells) + " cells");
@@ -318,7 +338,10 @@ namespace Touchstone
   ArchiveReader::translate_references(const std::unordered_map<Index, Index> &present_nodes,
                                       const Solid                            &solid)
   {
-    // A dictionary that is spread over the ranks: that of a node's old number is asked.
+    // Records refer to nodes that may be far away, such as the master nodes of a contact row, so
+    // no rank knows all of them. The translation of old number k is therefore held by rank k
+    // modulo the number of ranks: owners publish theirs there, all others ask there. No rank
+    // needs a table of all nodes.
     using Translations         = std::vector<std::pair<Index, Index>>;
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(solid.communicator);
     std::map<unsigned int, Translations> published;
@@ -329,6 +352,8 @@ namespace Touchstone
     for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, published))
       dictionary.insert(list.begin(), list.end());
 
+    // Each rank knows whom to ask, and answers come back in the same pattern; both exchanges are
+    // sparse.
     std::map<unsigned int, std::vector<Index>> questions;
     for (const auto &[name, list] : records)
       for (const auto &[node, record] : list)
