@@ -55,9 +55,9 @@ namespace Touchstone
         return true;
       }
 
+      // A stiff spring is a large term of rank one, which no smoother of single nodes resolves; as
+      // an elongation dof it is one diagonal entry (doc/theory.md, section 7, equation (23)).
       bool
-      // A stiff spring is a large term of rank one, which no smoother of single nodes resolves;
-      // as an elongation dof it is one diagonal entry (doc/theory.md, section 7, equation (23)).
       wants_basis_change(int) const override
       {
         return true;
@@ -154,10 +154,9 @@ namespace Touchstone
              const Epetra_Operator                      &preconditioner,
              ConvergenceWatch                           &watch) const override
       {
-        // The watch sees the residual in the preconditioner, which conjugate gradients apply to it
-        // once in each iteration.
-        // In this order, or setProblem() would apply the preconditioner to the first residual for
-        // nothing.
+        // First setProblem(), or it would apply the preconditioner to the first residual for
+        // nothing. The watch sees the residual in the preconditioner, which conjugate gradients
+        // apply to it once in each iteration.
         problem->setProblem();
         const auto watched = Teuchos::rcp(new WatchedPreconditioner(preconditioner, watch));
         problem->setLeftPrec(Teuchos::rcp(new Belos::EpetraPrecOp(watched)));

@@ -368,8 +368,7 @@ namespace Touchstone
     std::stable_sort(away.begin(), away.end(), [](const Part &a, const Part &b) {
       return a.target < b.target;
     });
-    // sum() works on the member: give it the parts of others for a while.
-    // From here on the own parts again, to which those received are appended.
+    // sum() works on the member: give it the parts for other ranks for a while.
     parts.swap(away);
 
     std::vector<Index> targets;
@@ -390,6 +389,7 @@ namespace Touchstone
         for (const auto &[column, entry] : row)
           entries.push_back({static_cast<Index>(columns.global()[column]), entry});
       }
+    // From here on the own parts again, to which those received are appended.
     parts.swap(away);
     auto received_entries = exchange_records(sent_entries, communicator);
     for (const auto &[rank, received_rows] : exchange_records(sent_rows, communicator))

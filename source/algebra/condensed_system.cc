@@ -80,9 +80,8 @@ namespace Touchstone
 
   // The scales s = K_pp / A_pp of elongation dofs (doc/theory.md, section 7, equation (23)).
   // A_pp, the diagonal of the condensed matrix, is the stiffness of the continuum and that of the
-  // springs. Without the scale a stiff spring (penalty)
-  // dominates the residual norm by which a Krylov solver stops, and the displacements would be
-  // left inaccurate.
+  // springs. Without the scale a stiff spring (penalty) dominates the residual norm by which a
+  // Krylov solver stops, and the displacements would be left inaccurate.
   void
   CondensedSystem::make_units()
   {
@@ -92,6 +91,7 @@ namespace Touchstone
       return;
     // A_pp need not be exact, since any positive scale has the same solution: what constraints
     // add to this entry of the diagonal is left out.
+    //
     // The part of the springs on the diagonal: of each term l r^T the products l_i r_i of changed
     // dofs. Coefficients of equal dofs add up first, as a form may name a dof several times.
     // Terms of a rank can refer to dofs of others, hence the distributed sum.

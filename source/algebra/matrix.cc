@@ -164,8 +164,8 @@ namespace Touchstone
 
 
 
-  // Sums by rows of |a_ij|, with which Solid bounds the round-off of the forces A u (force per
-  // length). A block above the diagonal is also, transposed, in the row of its column.
+  // Sums by rows of |a_ij| (force per length), with which Solid estimates the round-off of the
+  // forces A u. A block above the diagonal is also, transposed, in the row of its column.
   std::vector<double>
   Matrix::absolute_row_sums() const
   {

@@ -183,8 +183,9 @@ namespace Touchstone
     columns.reserve(old_rows.size());
     values.reserve(old_rows.size());
     read(matrix);
-    // What has not changed since the last call is not done again: nothing where
-    // a linear scene repeats itself, the pattern where only normals turn.
+    // What has not changed since the last call is not done again: with the same values nothing,
+    // as where a linear scene repeats itself; with the same pattern no analysis, as where only
+    // normals turn. All ranks must agree, since each of the steps is collective.
     int same[2] = {rows == old_rows && columns == old_columns, values == old_values};
     int all_same[2];
     matrix.Comm().MinAll(same, all_same, 2);
@@ -193,13 +194,17 @@ namespace Touchstone
     data.job   = factorised && all_same[0] ? 2 : 4; // 4: with a new analysis
     factorised = false;
     dmumps_c(&data);
-    // Working space too small: the estimate does not know of delayed pivots.
+    // If the working space is too small the factorisation is repeated with twice as much: the
+    // estimate of the analysis does not know of delayed pivots, which indefinite systems with
+    // multipliers have many of.
     while ((infog(1) == -8 || infog(1) == -9) && icntl(14) < 1000)
       {
         icntl(14) *= 2;
         data.job = 2;
         dmumps_c(&data);
       }
+    // A singular matrix is a missing support rather than a numerical failure: an exception of its
+    // own.
     if (infog(1) == -6 || infog(1) == -10)
       throw SingularSystem("MUMPS: " + reason(infog(1), infog(2)));
     if (infog(1) < 0)
@@ -242,7 +247,8 @@ namespace Touchstone
   void
   MumpsFactors::solve(const Epetra_Vector &rhs, Epetra_Vector &solution)
   {
-    // The right-hand side is centralised: a vector is small beside the factors.
+    // The right-hand side goes to rank 0 and the solution comes back from there: a vector is
+    // small beside the factors.
     const Epetra_Comm &comm = rhs.Comm();
     const Epetra_Map   root(-1, comm.MyPID() == 0 ? data.n : 0, 0, comm);
     Epetra_Import      importer(root, rhs.Map());

@@ -136,8 +136,7 @@ namespace Touchstone
       session.check(PetscOptionsCreate(&data));
       session.check(PetscOptionsInsertString(data, text.c_str()));
       // BoomerAMG (hypre) takes interpolation vectors, here the rigid motions, into account only
-      // with a nodal coarsening and a variant of vector interpolation; without them it converges
-      // badly in elasticity.
+      // with a nodal coarsening and a variant of vector interpolation: the defaults below.
       const auto text_of = [&](const char *name) {
         char      value[64] = "";
         PetscBool given     = PETSC_FALSE;
@@ -220,7 +219,7 @@ namespace Touchstone
       };
       // Preconditioned from the right or by conjugate gradients in the unpreconditioned norm, the
       // tolerance holds for the true residual; from the left, GMRES judges the preconditioned
-      // one, which near incompressibility differs by orders of magnitude.
+      // one.
       const bool from_right = one_of(ksp_type, {KSPGMRES, KSPFGMRES, KSPLGMRES, KSPBCGS});
       const bool own_side   = has_option(session, "-ksp_pc_side");
       if (from_right && !own_side)

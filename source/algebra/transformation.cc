@@ -62,8 +62,8 @@ namespace Touchstone
   void
   Transformation::append(const Index dof, const double factor, LinearForm &entries) const
   {
-    // A dof of changed basis is what the others prescribe plus itself, the
-    // elongation.
+    // A dof of changed basis is x_i = y_i + sum_j c_j x_j: its own new dof, the elongation, and
+    // what a rigid spring would prescribe.
     if (basis_change.is_constrained(dof))
       for (const auto &[other, coefficient] : *basis_change.get_constraint_entries(dof))
         entries.emplace_back(other, factor * coefficient);

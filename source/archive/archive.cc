@@ -23,8 +23,7 @@ namespace Touchstone
   {
     const char *const cells_block = "cells";
 
-    // deal.II's pack() would compress by default; the size of the state is in doubles that hardly
-    // compress, so it is switched off here and where it is packed.
+    // deal.II's pack() compresses by default; it is switched off here and where blocks are packed.
     template <class T>
     T
     unpack(const std::vector<char> &bytes)
@@ -65,7 +64,9 @@ namespace Touchstone
       }
     };
 
-    /** A part of a field: the values of consecutive unknowns. */
+    /**
+     * A part of a field: the values of the consecutive dofs that one rank owns, from @p first on.
+     */
     struct FieldPart
     {
       Index               first = 0;
@@ -79,7 +80,11 @@ namespace Touchstone
       }
     };
 
-    /** Numbers of the nodes of a cell, in the order of the element. */
+    /**
+     * Numbers of the nodes of a cell, in the order of the element. That order is the same in
+     * every mesh, so nodes of equal position in the list of one cell are the same node. The dofs
+     * of a node are consecutive, so the first component tells its number.
+     */
     template <class Cell>
     std::vector<Index>
     nodes_of_cell(const Solid &solid, const Cell &cell)
@@ -92,7 +97,10 @@ namespace Touchstone
       return nodes;
     }
 
-    /** Visit the blocks of one kind with their names. */
+    /**
+     * Visit the blocks of one kind (prefix of ArchiveWriter) with their names: the reader need
+     * not know which fields a run has written.
+     */
     template <class Visitor>
     void
     for_each_block(const std::map<std::string, std::vector<char>> &blocks,
@@ -107,6 +115,8 @@ namespace Touchstone
 
 
 
+  // The list of cells comes first: all other blocks refer to the numbers of nodes and to the
+  // order of cells in it.
   ArchiveWriter::ArchiveWriter(const Solid &solid)
     : solid(solid)
   {
@@ -138,6 +148,8 @@ namespace Touchstone
 
 
 
+  // Values in the order of the list of cells; a cell may have any number of them, such as
+  // internal variables of its quadrature points.
   void
   ArchiveWriter::put_cells(const std::string                                           &name,
                            const std::function<std::vector<double>(unsigned int cell)> &values)
@@ -210,8 +222,8 @@ namespace Touchstone
 
 
 
-  // The parents, up to @p level, of all active cells. They determine the adaptive mesh: refining
-  // just these cells makes the active cells of the archive.
+  // The ancestors of all active cells, of @p level and finer. They determine the adaptive mesh:
+  // refining just these cells makes the active cells of the archive.
   std::set<CellId::binary_type>
   ArchiveReader::refined_cells(const unsigned int level) const
   {
@@ -228,7 +240,7 @@ namespace Touchstone
                      .insert(CellId(id.get_coarse_cell_id(), depth - 1, path.data())
                                .template to_binary<dim>())
                      .second)
-                break; // nor are those above it new
+                break; // its own ancestors are known, too
           }
       }
     return result;
@@ -266,6 +278,8 @@ namespace Touchstone
             if (found == cells.end())
               continue;
             const auto nodes = nodes_of_cell(solid, found->second);
+            // All nodes of known cells, not only owned ones: records on this rank may refer to
+            // neighbours' nodes, and the owner of a node publishes its number below.
             for (unsigned int m = 0; m < std::min(n, nodes.size()); ++m)
               present_nodes[list.nodes[c * n + m]] = nodes[m];
             if (found->second->is_locally_owned() && n == nodes.size())
@@ -284,13 +298,15 @@ namespace Touchstone
 
     for (unsigned int k = 0; k < n_pieces; ++k)
       {
-        const unsigned int i         = (rank + k) % n_pieces;
-        const Blocks      &all       = piece(i);
-        const auto         own_place = [&](const Index node) {
+        const unsigned int i   = (rank + k) % n_pieces;
+        const Blocks      &all = piece(i);
+        // The present number of a node of the file, if this rank owns it: each value is taken by
+        // its one owner.
+        const auto own_place = [&](const Index node) {
           const auto found = present_nodes.find(node);
           return found != present_nodes.end() && solid.owned.is_element(dim * found->second)
-                           ? found->second
-                           : invalid_index;
+                   ? found->second
+                   : invalid_index;
         };
         for_each_block(all, ArchiveWriter::field_prefix, [&](const auto &name, const auto &bytes) {
           const FieldPart part  = unpack<FieldPart>(bytes);

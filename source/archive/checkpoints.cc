@@ -56,7 +56,7 @@ namespace Touchstone
       return text;
     }
 
-    /** What `contents` says of a file, and what is true of it. */
+    /** The entry of a file in `contents`: its size in bytes and its CRC-32. */
     std::string
     size_and_checksum(const char *data, const std::size_t size)
     {
@@ -213,7 +213,7 @@ namespace Touchstone
           {
             std::map<std::string, std::string> files;
             found = read_contents((fs::path(directory) / candidate->second).string(), files);
-            // The ranks share the files out among themselves.
+            // Each rank reads a share of the files, since checksums need every byte of them.
             unsigned int turn = 0;
             for (const auto &[name, expected] : files)
               if (turn++ % n_ranks == rank)
@@ -250,7 +250,7 @@ namespace Touchstone
   Checkpoints::Checkpoints(const OutputFolder                      &folder,
                            const std::shared_ptr<const Checkpoint> &present)
     : folder(folder)
-    // One that was read from another folder is not there to be kept.
+    // A checkpoint that was read from another folder has no namesake here that should be kept.
     , previous(present ? present->name : "")
   {
     // Numbers go on behind all that are there, also damaged ones: a name is never used twice.
@@ -274,10 +274,6 @@ namespace Touchstone
 
     // Remains of an earlier attempt are removed. together() lets all ranks leave with the error
     // of one, so no rank waits in a later collective call.
-    // Only when all pieces are on the disk does rank 0 write the table of contents, then the
-    // folder gets its final name: rename() is atomic, so the name stands for a complete
-    // checkpoint. The second synchronise() makes the name itself durable, and only then are older
-    // checkpoints removed.
     folder.together([&]() {
       if (folder.rank != 0)
         return;
@@ -294,6 +290,10 @@ namespace Touchstone
     const std::vector<std::string> sums =
       Utilities::MPI::gather(folder.communicator, size_and_checksum(piece.data(), piece.size()));
 
+    // Only when all pieces are on the disk does rank 0 write the table of contents, then the
+    // folder gets its final name: rename() is atomic, so the name stands for a complete
+    // checkpoint. The second synchronise() makes the name itself durable, and only then are older
+    // checkpoints removed.
     folder.together([&]() {
       if (folder.rank != 0)
         return;
@@ -315,7 +315,8 @@ namespace Touchstone
         fail(folder.path(name), errno);
       synchronise(folder.path(""));
 
-      // This one and the last are kept. What cannot be removed does no harm.
+      // This one and the one before are kept, for the newest may turn out damaged. An old one that
+      // cannot be removed does no harm.
       std::error_code ignored;
       for (const auto &[number, other] : list(folder.path("")))
         if (other != name && other != previous)

@@ -56,8 +56,8 @@ namespace Touchstone
 
 
 
-  // The diagonal is the inner preconditioner of the polynomial, so eigenvalues are those of D^-1
-  // A.
+  // The diagonal D is the inner preconditioner of the polynomial: eigenvalues are those of
+  // D^-1 A.
   Multigrid::Level::Level(BlockRows &rows, const bool symmetric)
     : matrix(rows, symmetric)
   {
