@@ -250,7 +250,7 @@ namespace Touchstone
   Checkpoints::Checkpoints(const OutputFolder                      &folder,
                            const std::shared_ptr<const Checkpoint> &present)
     : folder(folder)
-    // A checkpoint that was read from another folder has no namesake here that should be kept.
+    // One that was read from another folder is not in this one and needs no protection.
     , previous(present ? present->name : "")
   {
     // Numbers go on behind all that are there, also damaged ones: a name is never used twice.
