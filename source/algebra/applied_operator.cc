@@ -64,7 +64,7 @@ namespace Touchstone
   void
   AppliedOperator::multiply(const Epetra_Vector &x, Epetra_Vector &result) const
   {
-    // Multipliers come last and have no stiffness.
+    // Multipliers come last and have no stiffness; they enter through the terms only.
     const int n = static_cast<int>(dim * input.system.stiffness->n_nodes());
     input.system.stiffness->multiply(result.Values(), x.Values());
     std::fill(result.Values() + n, result.Values() + result.MyLength(), 0.);

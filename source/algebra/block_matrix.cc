@@ -227,6 +227,8 @@ namespace Touchstone
     const unsigned int        n_owned = rows.n_nodes();
     std::vector<unsigned int> order, columns;
     const std::size_t         n_blocks = symmetric ? rows.n_blocks() * 11 / 20 : rows.n_blocks();
+    // Reserved at once: growing the arrays step by step would need twice the memory for a while,
+    // and the stiffness is among the largest data of a run.
     made->start.reserve(n_owned + 1);
     made->upper_end.reserve(n_owned);
     made->column.reserve(n_blocks);

@@ -68,6 +68,7 @@ namespace Touchstone
 
 
 
+  // Multipliers, behind the displacements, are not transformed and are left out here.
   void
   CondensedSystem::expand(const Epetra_Vector &solution, Vector &displacement) const
   {

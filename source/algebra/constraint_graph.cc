@@ -186,7 +186,8 @@ namespace Touchstone
     const auto found = nodes.find(node);
     if (found == nodes.end())
       return;
-    // In the order of acceptance: each does not contain the pivots of those before.
+    // In the order of acceptance: each reduced condition is free of the pivots of those before
+    // it, so one pass eliminates all.
     for (const ReducedCondition &earlier : found->second)
       {
         substitute(reduced.trial, earlier.pivot, earlier.trial);
@@ -372,7 +373,8 @@ namespace Touchstone
                                     const IndexSet                  &relevant,
                                     const MPI_Comm                   communicator) const
   {
-    // Owned lines, with what they refer to.
+    // Lines of owned dofs: hanging nodes first, then each eliminated condition solved for its
+    // pivot.
     std::vector<typename AffineConstraints<double>::ConstraintLine> lines;
     for (const auto &line : hanging.get_lines())
       if (owned.is_element(line.index))

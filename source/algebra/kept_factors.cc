@@ -6,8 +6,8 @@ namespace Touchstone
 {
   KeptFactors::KeptFactors(const CondensedSystem &system)
     : SquareOperator(system.rows(), "kept factors")
-    // What low rank leaves out is as large as what resists a change of shape, near
-    // incompressibility: 1e-6 of the blocks cost 126 iterations.
+    // No low-rank compression: near incompressibility what it leaves out is as large as the
+    // stiffness against a change of shape, and 1e-6 of the blocks cost 126 iterations.
     , factors(0., false)
   {
     factors.factorise(*system.matrix(),

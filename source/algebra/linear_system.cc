@@ -39,6 +39,7 @@ namespace Touchstone
 
 
 
+  // One exchange for all forms: the entries of other ranks are collected first.
   std::vector<double>
   evaluate_forms(const std::vector<LinearForm> &forms, const Vector &x)
   {

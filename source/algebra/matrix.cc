@@ -143,6 +143,8 @@ namespace Touchstone
 
 
 
+  // The diagonal block is stored once in either kind of pattern; its diagonal entries are 0, 4
+  // and 8.
   void
   Matrix::add_to_diagonal(const Vector &values)
   {
@@ -154,6 +156,8 @@ namespace Touchstone
 
 
 
+  // Blocks of the node's row only; with symmetric storage the transposes that other rows store
+  // stay.
   void
   Matrix::clear_node(const int row)
   {

@@ -165,6 +165,8 @@ namespace Touchstone
 
 
 
+  // Factorise only what is needed. The kind can change between solves, as when friction makes the
+  // system unsymmetric, and then MUMPS is started anew.
   bool
   MumpsFactors::factorise(const Epetra_CrsMatrix &matrix, const Kind kind)
   {

@@ -73,6 +73,8 @@ namespace Touchstone
 
 
 
+  // What a type of solver can do is the solver's own knowledge: one is made to be asked, which
+  // costs nothing before its first solve.
   bool
   LinearSolverParameters::takes_multipliers() const
   {
@@ -131,6 +133,9 @@ namespace Touchstone
 
 
 
+  // Errors of the input that only the combination of keys shows: a preconditioner for a direct
+  // solver, keys of a solver that is not used. Each message names the key, its value and the
+  // remedy.
   void
   LinearSolverParameters::check(const std::string &section) const
   {

@@ -21,6 +21,7 @@ namespace Touchstone
     std::vector<int> lengths;
     for (const SparseRow &row : rows)
       lengths.push_back(static_cast<int>(row.size()));
+    // Rows get consecutive numbers on each rank, which only products with vectors use.
     const Epetra_Map range(-1, static_cast<int>(rows.size()), 0, domain.Comm());
     const Epetra_Map columns(
       -1, static_cast<int>(indices.global().size()), indices.global().data(), 0, domain.Comm());

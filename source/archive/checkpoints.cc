@@ -63,7 +63,10 @@ namespace Touchstone
       return std::to_string(size) + " " + checksum(data, size);
     }
 
-    /** All bytes of a file. */
+    /**
+     * All bytes of a file. @throws std::runtime_error, which makes a candidate be skipped and
+     * does not end the run.
+     */
     std::vector<char>
     read(const std::string &path)
     {

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <string>
 
+// Block Jacobi scaling, the simplest preconditioner that knows nodes, as a yardstick for
+// multigrid.
 namespace Touchstone
 {
   namespace

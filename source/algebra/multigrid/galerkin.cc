@@ -22,14 +22,14 @@ namespace Touchstone
   {
     constexpr unsigned int n_modes = Prolongation::n_modes;
 
-    /** A block of P for ranks that refer to its node. */
+    /** A block of P, in the message to a rank whose rows of A refer to its node. */
     struct SentBlockOfP
     {
       Index                            node, aggregate; // global indices
       std::array<float, dim * n_modes> entries;
     };
 
-    /** A block of P^T A P for the rank that owns its row. */
+    /** A block of P^T A P, in the message to the rank that owns its row. */
     struct SentCoarseBlock
     {
       Index                                 row, column; // aggregates, global indices
@@ -83,6 +83,8 @@ namespace Touchstone
     public:
       /** @param rows By global indices of aggregates.
        *  @param coarse Has the dofs of this rank. */
+      // The layout of the coarse level with the columns of its rows as ghosts. They reach further
+      // than those of P: two aggregates are coupled if any of their smoothed columns overlap.
       AggregateRows(std::vector<Prolongation::AggregateRow> &&rows, const Partitioner &coarse)
         : BlockRows(make_partitioner(rows, coarse))
         , rows(std::move(rows))
@@ -248,7 +250,8 @@ namespace Touchstone
         std::sort(part.positions.begin(), part.positions.end());
       }
 
-    // What belongs to other ranks goes there.
+    // The rows of aggregates of other ranks are the last ones, in the order of ghost_targets():
+    // they are sent block by block and then dropped here.
     std::map<unsigned int, std::vector<SentCoarseBlock>> messages;
     const unsigned int n_mine = coarse->locally_owned_size() / n_modes;
     unsigned int       row    = n_mine;

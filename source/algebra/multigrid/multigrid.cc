@@ -77,6 +77,7 @@ namespace Touchstone
                        const bool                       symmetric)
     : SquareOperator(map, "smoothed aggregation")
   {
+    // Bodies by node; motions.body is by dof.
     const Epetra_MultiVector *modes = &near_kernel;
     std::vector<unsigned int> bodies(map.NumMyElements() / dim);
     for (unsigned int node = 0; node < bodies.size(); ++node)
