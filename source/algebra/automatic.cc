@@ -134,7 +134,10 @@ namespace Touchstone
             }
       }
 
-      /** One remark for the first solve that falls back, and one for all that follow. */
+      /**
+       * A remark in the log for the first solve that falls back to MUMPS, and another one when
+       * iterations are given up for the rest of the run; repeated failures do not fill the log.
+       */
       void
       tell(const std::string &reason)
       {
@@ -151,7 +154,8 @@ namespace Touchstone
                      const RigidMotions    &motions,
                      Epetra_Vector         &solution)
       {
-        // What one keeps is of no use for the other.
+        // A preconditioner of one method is of no use for the other, and both together may not
+        // fit into memory.
         Method &method = system.symmetric ? cg : gmres, &other = system.symmetric ? gmres : cg;
         if (other.solver)
           other.solver->clear_cache();

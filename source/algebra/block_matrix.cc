@@ -140,7 +140,8 @@ namespace Touchstone
   std::size_t
   MatrixRows::n_blocks() const
   {
-    // Almost all blocks are full. A matrix that is not complete does not know its nonzeros.
+    // Almost all blocks are full, 10 % allow for those that are not. NumMyNonzeros() would need
+    // FillComplete().
     std::size_t n_nonzeros = 0;
     for (int i = 0; i < matrix.NumMyRows(); ++i)
       n_nonzeros += matrix.NumMyEntries(i);
@@ -161,7 +162,8 @@ namespace Touchstone
     int    *local[dim];
     for (unsigned int d = 0; d < dim; ++d)
       matrix.ExtractMyRowView(dim * node + d, n[d], value[d], local[d]);
-    // Three rows with the same columns, three after three: almost all are so.
+    // Whether the three rows have the same columns, in whole nodes (x, y, z of a node in
+    // succession).
     bool even = n[0] % dim == 0;
     for (unsigned int d = 1; d < dim; ++d)
       even = even && n[d] == n[0] && std::equal(local[0], local[0] + n[0], local[d]);

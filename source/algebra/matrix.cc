@@ -85,6 +85,8 @@ namespace Touchstone
 
 
 
+  // Patterns are shared and never changed, so matrices on one mesh, such as stiffness and mass,
+  // hold it once.
   void
   Matrix::reinit(const Matrix &other)
   {

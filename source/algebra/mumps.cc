@@ -42,7 +42,10 @@ namespace Touchstone
 
 
 
-    /** Direct solution: LDL^T for symmetric systems and LU otherwise. */
+    /**
+     * Direct solution: LDL^T for symmetric systems and LU otherwise. The factors are kept and
+     * reused as long as the matrix is unchanged (MumpsFactors::factorise()).
+     */
     class Mumps : public LinearSolver
     {
     public:

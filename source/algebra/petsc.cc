@@ -31,7 +31,7 @@ namespace Touchstone
 {
   namespace
   {
-    /** What PETSc reports. */
+    /** An error of PETSc, with the first line of its message. */
     class PetscError : public std::runtime_error
     {
       using std::runtime_error::runtime_error;

@@ -35,7 +35,10 @@ namespace Touchstone
       return result;
     }
 
-    /** Refuse values other than the defaults of options that the scene does not use. */
+    /**
+     * Reject values other than the defaults for options of a solver that is not used: a key set
+     * to its default cannot be told from one that is not set, and does no harm.
+     */
     void
     refuse_unused(const std::string &section,
                   const std::string &type,

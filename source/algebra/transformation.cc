@@ -105,6 +105,7 @@ namespace Touchstone
       return *made;
     auto result           = std::make_unique<OwnRows>();
     result->inhomogeneity = std::make_unique<Epetra_Vector>(dofs);
+    // Columns are the own dofs first, then those of other ranks that the lines refer to.
     LocalIndices           indices(dofs);
     std::vector<SparseRow> rows;
     for (int i = 0; i < dofs.NumMyElements(); ++i)

@@ -341,9 +341,12 @@ namespace Touchstone
           list.insert(list.end(), part.begin(), part.end());
         });
       }
+    // Entries were set by their owners only; compress() is collective nonetheless, and all ranks
+    // have the same fields since each reads all pieces.
     for (auto &[name, field] : fields)
       field.compress(VectorOperation::insert);
     translate_references(present_nodes, solid);
+    // Free the last piece: the data of this rank are taken out.
     present = numbers::invalid_unsigned_int;
     blocks.clear();
   }

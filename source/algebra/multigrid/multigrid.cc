@@ -96,8 +96,9 @@ namespace Touchstone
         const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
         if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
           {
-            // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
-            // that are many is sparse and goes to the direct solver.
+            // The coarse level is hardly smaller. On the finest level nothing is coupled then, and
+            // smoothing is enough. On a later one few nodes are left of many bodies and ranks; as
+            // this matrix is sparse, the direct solver takes it although it is larger than usual.
             if (levels.size() == 1)
               return;
             levels.pop_back();

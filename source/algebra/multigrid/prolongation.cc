@@ -106,8 +106,10 @@ namespace Touchstone
 
     using GhostedVector = LinearAlgebra::distributed::Vector<double>;
 
-    /** A vector with the values of all ranks that @p partitioner refers to; copies of it
-     * lose those of the others. */
+    /**
+     * A vector of own values with those of ghosts. It is returned behind a pointer to const,
+     * since a copy would lose the values of the ghosts.
+     */
     std::unique_ptr<const GhostedVector>
     with_ghosts(const std::shared_ptr<const Partitioner> &partitioner,
                 const std::vector<double>                &values)
@@ -148,7 +150,10 @@ namespace Touchstone
           }
     }
 
-    /** Of nodes that belong to no aggregate. */
+    /**
+     * Marks nodes that belong to no aggregate: those without strong couplings, such as
+     * constrained ones. Their rows of P have entries of neighbouring aggregates only.
+     */
     constexpr double no_aggregate = -1.;
   } // namespace
 
@@ -171,7 +176,9 @@ namespace Touchstone
     BlockMatrix<float>::Rows rows(matrix);
     const Aggregates         aggregates = aggregate(couplings(rows, diagonal, group), body);
 
-    // Motions of each aggregate, orthonormal.
+    // P_0: the near-kernel restricted to the nodes of each aggregate, orthonormal by QR. Q are
+    // columns of P_0, in six vectors over the dofs of this level; R are the values of the
+    // near-kernel on the coarse level, so that P_0 R reproduces it exactly there.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);
     for (unsigned int node = 0; node < n_nodes; ++node)
       if (aggregates.of_node[node / group] >= 0)
@@ -246,7 +253,8 @@ namespace Touchstone
     const double          omega = 4. / 3. / largest;
     RowOfBlocks<NodeRows> row;
     start.push_back(0);
-    // Seldom more; what is not used is address space and no memory.
+    // More than eight aggregates in a row of P are rare; memory that is reserved and not touched
+    // costs address space only.
     constexpr std::size_t enough = 8;
     column.reserve(enough * n_nodes);
     entries.reserve(block * enough * n_nodes + 2);
