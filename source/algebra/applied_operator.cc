@@ -4,6 +4,11 @@
 
 #include <algorithm>
 
+// Products with the condensed matrix S^T (A + D + C) T, and its right-hand side S^T (b - A g),
+// without assembling it (doc/theory.md, section 7, 'applied'). A Krylov solver calls Apply() once
+// per iteration. A change of the active set alters T, S and C, which are small, and leaves the
+// large stiffness A alone; only where a preconditioner is set up are the rows assembled
+// (assembled_operator.cc).
 namespace Touchstone
 {
   using namespace dealii;
@@ -16,6 +21,8 @@ namespace Touchstone
     , force(map)
     , part(map)
   {
+    // Matrices of Epetra are made collectively: if any rank has contact terms, all ranks make
+    // them, also those that have no row of their own.
     int any = 0, here = !input.system.terms.empty();
     map.Comm().MaxAll(&here, &any, 1);
     if (any != 0)
@@ -24,6 +31,10 @@ namespace Touchstone
         right       = forms(&RankOneTerm::right);
         elongations = std::make_unique<Epetra_Vector>(right->RangeMap());
       }
+    // The row and column of a constrained dof in S^T A T are zero. Its own diagonal entry makes
+    // the matrix invertible; as it is of the size of the other stiffnesses (force per length), it
+    // leaves the condition number alone. The right-hand side is zero there, so the value has no
+    // effect.
     for (unsigned int i = 0; i < dim * input.system.stiffness->n_nodes(); ++i)
       if (input.constrained[i])
         {
@@ -34,6 +45,9 @@ namespace Touchstone
 
 
 
+  // A contact term l r^T is kept as two sparse rows. A spring between a node and a surface of m
+  // nodes has (3 (1 + m))^2 entries as a block, but 6 (1 + m) as two rows. Columns may be dofs of
+  // other ranks, for LocalIndices extends the own ones.
   std::unique_ptr<Epetra_CrsMatrix>
   AppliedOperator::forms(LinearForm RankOneTerm::*side) const
   {
@@ -50,7 +64,7 @@ namespace Touchstone
   void
   AppliedOperator::multiply(const Epetra_Vector &x, Epetra_Vector &result) const
   {
-    // Multipliers come last and have no stiffness.
+    // Multipliers come last and have no stiffness; they enter through the terms only.
     const int n = static_cast<int>(dim * input.system.stiffness->n_nodes());
     input.system.stiffness->multiply(result.Values(), x.Values());
     std::fill(result.Values() + n, result.Values() + result.MyLength(), 0.);
@@ -60,6 +74,8 @@ namespace Touchstone
         for (int i = 0; i < n; ++i)
           result[i] += shift[i] * x[i];
       }
+    // (C x) = L^T (R x): R gives the elongations, whose number is that of this rank's terms, and
+    // the transposed L sends the forces to all dofs, those of other ranks included.
     if (right)
       {
         right->Multiply(false, x, *elongations);
@@ -70,6 +86,8 @@ namespace Touchstone
 
 
 
+  // S^T (b - A g): the inhomogeneity g prescribes displacements of constrained dofs, and the
+  // forces that these cause have to be on the right-hand side before S^T condenses it.
   std::unique_ptr<Epetra_Vector>
   AppliedOperator::right_hand_side() const
   {
@@ -87,6 +105,8 @@ namespace Touchstone
 
 
 
+  // S^T (A + D + C) (T x) factor by factor, from right to left; the last line adds the diagonal
+  // entries of constrained dofs, whose rows of S^T ... T are zero.
   int
   AppliedOperator::Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const
   {

@@ -4,14 +4,25 @@
 
 #include <algorithm>
 
+// The condensed matrix S^T A T as explicit rows, in two forms: an Epetra_CrsMatrix for
+// factorisations, ML and PETSc, and 3 x 3 blocks read node by node for multigrid, which copies
+// them to single precision and so needs no whole matrix in double precision. In both forms a row
+// is that of the stiffness unless Condensation replaces it, as it does near constraints and
+// contact only (doc/theory.md, section 7).
 namespace Touchstone
 {
   namespace
   {
-    /** Rows of the stiffness, or what replaces them. */
+    /**
+     * Rows of the condensed matrix as 3 x 3 blocks, made when they are read: those of the
+     * stiffness, or those of Condensation where constraints or contact terms change them. The
+     * scaling by units is applied on the fly.
+     */
     class CondensedRows : public BlockRows
     {
     public:
+      // The base class needs the columns of the condensation to number the dofs, before members
+      // of this class exist; so these two are made first and handed over as one object.
       struct Parts
       {
         explicit Parts(const CondensationInput &input)
@@ -32,6 +43,8 @@ namespace Touchstone
         , parts(std::move(made))
         , units(partitioner)
       {
+        // Condensation numbers its columns in the order in which they turn up, the base class
+        // those of a partitioner: the table translates the first to the second.
         for (const int global : parts->columns.global())
           local_index.push_back(partitioner->global_to_local(global));
         units = 1.;
@@ -39,6 +52,7 @@ namespace Touchstone
           std::copy(input.units->Values(),
                     input.units->Values() + input.units->MyLength(),
                     units.begin());
+        // Columns are scaled, too, and may belong to other ranks.
         units.update_ghost_values();
       }
 
@@ -46,6 +60,8 @@ namespace Touchstone
       n_blocks() const override
       {
         const BlockPattern &pattern = stiffness.couplings();
+        // An estimate for memory that is reserved: the stiffness, and 10 % for what condensation
+        // adds.
         return (pattern.column.size() + pattern.transposed_blocks().blocks.size()) * 11 / 10;
       }
 
@@ -53,6 +69,8 @@ namespace Touchstone
       read(const unsigned int node) override
       {
         present.clear();
+        // A node can have both kinds of rows: with a support in one direction its other rows may
+        // be replaced or not, so each of the three is decided by itself.
         const SparseRow *replaced[dim];
         bool             any = false, all = true;
         for (unsigned int d = 0; d < dim; ++d)
@@ -69,6 +87,8 @@ namespace Touchstone
                 Block &to = present.at(static_cast<int>(local_index[dim * row.columns[k]] / dim));
                 for (unsigned int d = 0; d < dim; ++d)
                   for (unsigned int c = 0; c < dim && !replaced[d]; ++c)
+                    // Blocks of the stiffness are stored column by column, those of BlockRows row
+                    // by row.
                     to[dim * d + c] = row.blocks[k][dim * c + d];
               }
           }
@@ -104,12 +124,16 @@ namespace Touchstone
 
 
 
+  // The lengths of all rows are known before the matrix is made, so Epetra can allocate it once
+  // (static profile) and filling it takes no search: entries go in by local indices of columns.
   std::shared_ptr<Epetra_CrsMatrix>
   assemble_condensed_matrix(const CondensationInput &input, std::vector<double> *values)
   {
     const Matrix &stiffness = *input.system.stiffness;
     LocalIndices  columns(stiffness.columns());
     Condensation  condensation(input, columns);
+    // The right-hand side is a by-product of the same pass; who wants the matrix alone passes
+    // null.
     if (values)
       values->swap(condensation.values);
 
@@ -152,6 +176,7 @@ namespace Touchstone
         AssertThrow(error == 0, dealii::ExcMessage("A row does not fit into the matrix."));
       }
     matrix->FillComplete(input.dofs, input.dofs);
+    // S and T end with the same diagonal matrix D of units: D (..) D keeps the matrix symmetric.
     if (input.units)
       {
         matrix->LeftScale(*input.units);

@@ -6,6 +6,10 @@
 
 #include <algorithm>
 
+// The default linear solver, which chooses among the registered ones for each system: a
+// factorisation for small systems and those with multipliers, Krylov methods with multigrid for
+// large ones, and MUMPS again where these fail. So an input file needs no knowledge of solvers;
+// what was chosen against expectation goes to the log (doc/theory.md, section 8).
 namespace Touchstone
 {
   namespace
@@ -28,6 +32,8 @@ namespace Touchstone
       {
       }
 
+      // Whether iterations fail is not known when the input is read, so the keys of both methods
+      // are accepted.
       std::set<std::string>
       used_options() const override
       {
@@ -63,6 +69,7 @@ namespace Touchstone
       }
 
     private:
+      // Made when first needed: a symmetric scene never makes GMRES.
       struct Method
       {
         const std::string             name;
@@ -79,7 +86,12 @@ namespace Touchstone
         return !strikes.out() && n_dofs >= many_dofs;
       }
 
-      /** The size decides how many iterations are worth while, and does not change. */
+      /**
+       * An iterative solver that gives up as soon as its ConvergenceWatch foresees more
+       * iterations than a factorisation of a system of this size is worth; the size does not
+       * change during a run. A patience that is set also tells it to fail instead of factorising
+       * by itself.
+       */
       LinearSolver &
       make(Method &method, const int n_dofs) const
       {
@@ -100,6 +112,8 @@ namespace Touchstone
                const RigidMotions    &motions,
                Epetra_Vector         &solution) override
       {
+        // Multipliers make the system indefinite: neither conjugate gradients nor the smoothers
+        // of multigrid, which need positive eigenvalues, can take it.
         const int n_dofs = system.rows().NumGlobalElements();
         bool      solved = false;
         if (!system.definite && n_dofs >= many_dofs)
@@ -108,6 +122,8 @@ namespace Touchstone
           solved = try_to_iterate(system, motions, solution);
         if (!solved)
           delegate(*direct, system, motions, solution);
+        // Counts of the solvers used are those of this one: delegate() bypasses their own
+        // solve().
         count.factorisations = direct->counts().factorisations;
         count.iterations = count.preconditioner_setups = 0;
         for (const Method *method : {&cg, &gmres})
@@ -118,7 +134,10 @@ namespace Touchstone
             }
       }
 
-      /** One remark for the first solve that falls back, and one for all that follow. */
+      /**
+       * A remark in the log for the first solve that falls back to MUMPS, and another one when
+       * iterations are given up for the rest of the run; repeated failures do not fill the log.
+       */
       void
       tell(const std::string &reason)
       {
@@ -135,7 +154,8 @@ namespace Touchstone
                      const RigidMotions    &motions,
                      Epetra_Vector         &solution)
       {
-        // What one keeps is of no use for the other.
+        // A preconditioner of one method is of no use for the other, and both together may not
+        // fit into memory.
         Method &method = system.symmetric ? cg : gmres, &other = system.symmetric ? gmres : cg;
         if (other.solver)
           other.solver->clear_cache();
@@ -151,6 +171,8 @@ namespace Touchstone
             strikes.failed(system.symmetric);
             tell(failure.what());
             iterative.clear_cache();
+            // What the failed iteration left may be far off or not finite; the direct solver
+            // starts afresh.
             solution.PutScalar(0.);
             return false;
           }

@@ -16,6 +16,10 @@
 #include <memory>
 #include <utility>
 
+// The Krylov methods of Trilinos (Belos): conjugate gradients and GMRES, with a preconditioner
+// that is kept over several solves. What takes the most care is to notice that multigrid
+// converges badly: then factors of MUMPS become the preconditioner, as long as the system is
+// small enough for them (doc/theory.md, section 8).
 namespace Touchstone
 {
   namespace
@@ -23,8 +27,10 @@ namespace Touchstone
     using Problem = Belos::LinearProblem<double, Epetra_MultiVector, Epetra_Operator>;
     using Manager = Belos::SolverManager<double, Epetra_MultiVector, Epetra_Operator>;
 
-    /** Multigrid that would take more iterations than ConvergenceWatch::patience() is replaced by
-     * factors in systems of up to so many dofs, of which they need some GB. */
+    /**
+     * Multigrid that would take more iterations than ConvergenceWatch::patience() is replaced by
+     * factors in systems of up to so many dofs, whose factors take some GB of memory.
+     */
     constexpr int factorisable = 200000;
 
     /** A Krylov method from Belos with a preconditioner of the registry. */
@@ -49,6 +55,8 @@ namespace Touchstone
         return true;
       }
 
+      // A stiff spring is a large term of rank one, which no smoother of single nodes resolves; as
+      // an elongation dof it is one diagonal entry (doc/theory.md, section 7, equation (23)).
       bool
       wants_basis_change(int) const override
       {
@@ -72,7 +80,10 @@ namespace Touchstone
     private:
       const std::shared_ptr<const Preconditioner> preconditioner_maker;
       std::unique_ptr<Epetra_Operator>            preconditioner;
-      /** Multigrid would take too many iterations, factors are kept instead. */
+      /**
+       * slow: factors are the preconditioner, for multigrid would take too many iterations; told:
+       * the log says so.
+       */
       bool    slow = false, told = false;
       Strikes strikes;
       /** Constrained dofs of its matrix, and those of changed basis. */
@@ -143,7 +154,9 @@ namespace Touchstone
              const Epetra_Operator                      &preconditioner,
              ConvergenceWatch                           &watch) const override
       {
-        // In this order, or the problem applies the preconditioner once for nothing.
+        // First setProblem(), or it would apply the preconditioner to the first residual for
+        // nothing. The watch sees the residual in the preconditioner, which conjugate gradients
+        // apply to it once in each iteration.
         problem->setProblem();
         const auto watched = Teuchos::rcp(new WatchedPreconditioner(preconditioner, watch));
         problem->setLeftPrec(Teuchos::rcp(new Belos::EpetraPrecOp(watched)));
@@ -173,6 +186,7 @@ namespace Touchstone
         problem->setRightPrec(Teuchos::rcp(new Belos::EpetraPrecOp(
           Teuchos::rcpFromRef(const_cast<Epetra_Operator &>(preconditioner)))));
         problem->setProblem();
+        // Belos limits the restarts, too: as many as the maximum of iterations allows.
         const int basis = std::min(parameters.restart, parameters.maximum_iterations);
         list->set("Num Blocks", basis);
         list->set("Maximum Restarts", static_cast<int>(parameters.maximum_iterations) / basis);
@@ -180,6 +194,7 @@ namespace Touchstone
         auto result =
           std::make_unique<Belos::BlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(
             problem, list);
+        // A debug status test is called in each iteration, whatever the output is.
         result->setDebugStatusTest(Teuchos::rcp(new WatchingTest(watch)));
         return result;
       }
@@ -196,6 +211,8 @@ namespace Touchstone
 
 
 
+    // If multigrid cannot be set up, e.g. as a level is indefinite, factors may still do: so this
+    // counts as slow convergence. A simple preconditioner that fails is an error.
     std::unique_ptr<Epetra_Operator>
     BelosSolver::make_preconditioner(const CondensedSystem &system,
                                      const RigidMotions    &motions) const
@@ -217,6 +234,8 @@ namespace Touchstone
     void
     BelosSolver::set_up(const CondensedSystem &system, const RigidMotions &motions)
     {
+      // First free the old one: two hierarchies, or two sets of factors, may not fit into the
+      // memory.
       preconditioner.reset();
       constrained = system.constrained;
       changed     = system.changed;
@@ -281,6 +300,7 @@ namespace Touchstone
         {
           converged = solver->solve() == Belos::Converged;
         }
+      // Thrown by the watch in the middle of a solve: what has been done counts all the same.
       catch (const SlowConvergence &)
         {
           count.iterations += watch.iterations();
@@ -300,6 +320,9 @@ namespace Touchstone
 
 
 
+    // A preconditioner made for an earlier Newton iteration may fail where a new one does not, so
+    // a failed solve is repeated once, from zero. With a fresh one (fresh_iterations is 0 before
+    // its first solve succeeds) a repetition would be the same.
     int
     BelosSolver::iterate_or_renew(const CondensedSystem &system,
                                   const RigidMotions    &motions,
@@ -326,6 +349,7 @@ namespace Touchstone
     {
       if (symmetric_only() && (!system.definite || !system.symmetric))
         throw LinearSolverFailure(parameters.type + " needs a symmetric positive definite system");
+      // The rigid motions are those of the displacements: other numbers of rows mean multipliers.
       if (motions.columns.Map().NumGlobalElements() != system.rows().NumGlobalElements())
         throw LinearSolverFailure(parameters.type + " cannot solve a system with multipliers");
       int iterations = 0;
@@ -335,6 +359,7 @@ namespace Touchstone
         }
       catch (const SlowConvergence &slowness)
         {
+          // The automatic solver has its own factors, and a large system has none.
           if (parameters.patience > 0 || system.rows().NumGlobalElements() > factorisable)
             throw LinearSolverFailure(parameters.type + ": " + slowness.what());
           if (!std::exchange(told, true))
@@ -351,10 +376,14 @@ namespace Touchstone
       if (iterations < 0)
         throw LinearSolverFailure(parameters.type + " did not converge in " +
                                   std::to_string(parameters.maximum_iterations) + " iterations");
+      // The cost of a stale preconditioner is measured against its first solve: half as many
+      // iterations again are more than a new set-up costs.
       if (fresh_iterations == 0)
         fresh_iterations = std::max(iterations, 1);
       else if (iterations > fresh_iterations * 3 / 2 + 5)
         preconditioner.reset();
+      // In an unsymmetric system slow convergence may be due to one Newton iterate: the next
+      // solve tries multigrid again, until it has failed for good (class Strikes).
       if (slow && !strikes.out())
         {
           preconditioner.reset();

@@ -8,6 +8,10 @@
 #include <numeric>
 #include <utility>
 
+// Square matrices in 3 x 3 blocks of nodes. Products with them bound the speed of a Krylov solver
+// with multigrid, and their own bound is the memory bandwidth: of a symmetric matrix a block and
+// its transpose are stored and read once, and one column index serves nine entries
+// (doc/theory.md, section 7).
 namespace Touchstone
 {
   using namespace dealii;
@@ -19,10 +23,18 @@ namespace Touchstone
     /** Numbers of a node in padded vectors: three would end within the register of the next. */
     constexpr unsigned int pad = 4;
 
-    /** Numbers that are read behind a block. */
+    /**
+     * Numbers that are read behind a block: its last column is loaded as a register of four, of
+     * which three belong to the block.
+     */
     constexpr unsigned int unused = 1;
 
-    /** out += A in, of padded vectors. */
+    /**
+     * out += A in, of padded vectors. The blocks of a row from start to upper_end stand for their
+     * transposes, too: such a block a of (node, j) adds a x_j to the result of the node and a^T
+     * x_node to that of j, so it is loaded once for both. Blocks behind upper_end (diagonal,
+     * columns of other ranks) are used once.
+     */
     template <typename Number>
     __attribute__((always_inline)) inline void
     add_product(const BlockPattern &pattern,
@@ -52,6 +64,8 @@ namespace Touchstone
               sums[0] += a0 * y[0];
               sums[1] += a1 * y[1];
               sums[2] += a2 * y[2];
+              // The rows of the block, from its columns a0, a1, a2. The fourth numbers are
+              // meaningless, and so is the fourth of out[], which multiply() never copies back.
               const Vector4 upper = TOUCHSTONE_SHUFFLE(a0, a1, 0, 4, 1, 5),
                             lower = TOUCHSTONE_SHUFFLE(a0, a1, 2, 6, 3, 7);
               out[column[k]] += TOUCHSTONE_SHUFFLE(upper, a2, 0, 1, 4, 5) * own[0] +
@@ -69,7 +83,8 @@ namespace Touchstone
         }
     }
 
-    // The versions for several processors must not be templates.
+    // The versions for several instruction sets are chosen at run time by the loader, which does
+    // not work for templates.
     TOUCHSTONE_VECTORISED void
     product(const BlockPattern &pattern, const float *entries, const float *in, float *out)
     {
@@ -85,6 +100,8 @@ namespace Touchstone
 
 
 
+  // The partitioner of the dofs: all three dofs of a node of another rank become ghosts, even if
+  // only one is a column, since the columns of a block are addressed through the node.
   std::shared_ptr<const BlockRows::Partitioner>
   BlockRows::number(const Epetra_Map &rows, const int *const columns, const std::size_t n_columns)
   {
@@ -97,6 +114,7 @@ namespace Touchstone
       if (!owned.is_element(columns[j]))
         for (unsigned int d = 0; d < dim; ++d)
           far.push_back(columns[j] / dim * dim + d);
+    // Sorted first: IndexSet would insert single indices one by one, at quadratic cost.
     std::sort(far.begin(), far.end());
     ghosts.add_indices(far.begin(), far.end());
     return std::make_shared<Partitioner>(owned,
@@ -122,7 +140,8 @@ namespace Touchstone
   std::size_t
   MatrixRows::n_blocks() const
   {
-    // Almost all blocks are full. A matrix that is not complete does not know its nonzeros.
+    // Almost all blocks are full, 10 % allow for those that are not. NumMyNonzeros() would need
+    // FillComplete().
     std::size_t n_nonzeros = 0;
     for (int i = 0; i < matrix.NumMyRows(); ++i)
       n_nonzeros += matrix.NumMyEntries(i);
@@ -131,6 +150,9 @@ namespace Touchstone
 
 
 
+  // The entries of three scalar rows as blocks of nodes. Rows of a node usually have the same
+  // columns, in whole nodes; then blocks are found once for three entries. Where constraints have
+  // taken single columns away, each entry is sorted in by itself.
   const RowOfBlocks<BlockRows::Block> &
   MatrixRows::read(const unsigned int node)
   {
@@ -140,7 +162,8 @@ namespace Touchstone
     int    *local[dim];
     for (unsigned int d = 0; d < dim; ++d)
       matrix.ExtractMyRowView(dim * node + d, n[d], value[d], local[d]);
-    // Three rows with the same columns, three after three: almost all are so.
+    // Whether the three rows have the same columns, in whole nodes (x, y, z of a node in
+    // succession).
     bool even = n[0] % dim == 0;
     for (unsigned int d = 1; d < dim; ++d)
       even = even && n[d] == n[0] && std::equal(local[0], local[0] + n[0], local[d]);
@@ -169,6 +192,9 @@ namespace Touchstone
 
 
 
+  // The transposed pattern of the strictly upper blocks, by counting sort: lengths of the rows,
+  // their prefix sums as row pointers, then the blocks. The rows are visited in ascending order,
+  // so each list comes out sorted.
   const BlockPattern::TransposedBlocks &
   BlockPattern::transposed_blocks() const
   {
@@ -191,6 +217,9 @@ namespace Touchstone
 
 
 
+  // Pattern and entries in one pass over the rows, which may be expensive to make (Condensation,
+  // Galerkin product) and are read once. 11/20 is half of the blocks and 10 % for the diagonal
+  // and for columns of other ranks, which are never stored once for two.
   template <typename Number>
   BlockMatrix<Number>::BlockMatrix(BlockRows &rows, const bool symmetric)
   {
@@ -200,6 +229,8 @@ namespace Touchstone
     const unsigned int        n_owned = rows.n_nodes();
     std::vector<unsigned int> order, columns;
     const std::size_t         n_blocks = symmetric ? rows.n_blocks() * 11 / 20 : rows.n_blocks();
+    // Reserved at once: growing the arrays step by step would need twice the memory for a while,
+    // and the stiffness is among the largest data of a run.
     made->start.reserve(n_owned + 1);
     made->upper_end.reserve(n_owned);
     made->column.reserve(n_blocks);
@@ -212,6 +243,8 @@ namespace Touchstone
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           if (made->has(node, row.columns[k]))
             order.push_back(k);
+        // Ascending columns: the look-up of a block is a binary search, and memory is read
+        // forwards.
         std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
           return row.columns[a] < row.columns[b];
         });
@@ -224,6 +257,7 @@ namespace Touchstone
             Number *to = &entries[block * made->block(node, row.columns[k])];
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int r = 0; r < dim; ++r)
+                // Stored column by column, since add_product() multiplies columns by numbers.
                 *to++ = static_cast<Number>(row.blocks[k][dim * r + c]);
           }
       }
@@ -249,6 +283,9 @@ namespace Touchstone
 
 
 
+  // The exchange of ghosts is started first, so the messages travel while the own part of x is
+  // copied to the padded vector. Arrays are plain, for callers whose vectors are those of Epetra
+  // or deal.II.
   template <typename Number>
   void
   BlockMatrix<Number>::multiply(Number *result, const Number *x) const
@@ -293,6 +330,9 @@ namespace Touchstone
 
 
 
+  // The whole row of a node in ascending columns, in four parts: transposes of the blocks stored
+  // in earlier rows, the diagonal, the upper blocks of this rank, and those with columns of other
+  // ranks.
   template <typename Number>
   const typename BlockMatrix<Number>::Rows::Row &
   BlockMatrix<Number>::Rows::read(const unsigned int node)
@@ -308,6 +348,7 @@ namespace Touchstone
                       n_upper = pattern.upper_end[node] - first;
     present.columns.resize(n_transposed + n_own);
     present.blocks.resize(n_transposed + n_own);
+    // Stored column by column: a[3 r + c] is entry (c, r), and its transpose goes to (r, c).
     for (std::size_t m = 0; m < n_transposed; ++m)
       {
         const auto &[other, k] = transposed.blocks[begin + m];
@@ -324,6 +365,8 @@ namespace Touchstone
                   block * n,
                   reinterpret_cast<Number *>(present.blocks.data() + to));
     };
+    // Where upper blocks follow, the diagonal block has to be put before them; otherwise all is
+    // in order.
     const std::size_t n_middle = n_upper > 0 ? 1 : 0;
     copy(n_upper, n_middle, n_transposed);
     copy(0, n_upper, n_transposed + n_middle);

@@ -9,6 +9,11 @@
 #include <cmath>
 #include <map>
 
+// The rows of S^T (A + C) T that differ from those of the stiffness A, and the right-hand side
+// S^T (b - A g) (doc/theory.md, section 7). Only nodes near constraints and contact are affected,
+// so the cost is that of the contact surface and not of the volume. The steps are: rows of A T
+// and of the contact terms (sources), which row of S^T takes them with which factor (parts), sums
+// for rows of other ranks and their exchange, sums for the own rows.
 namespace Touchstone
 {
   using namespace dealii;
@@ -44,6 +49,9 @@ namespace Touchstone
 
 
 
+  // Rows of T are looked up through deal.II's constraints by global index, which is slow; contact
+  // couples a dof to dozens of others, so each answer is kept. A deque does not move its rows
+  // when it grows: references that were returned stay valid.
   const TransformationRows::Row *
   TransformationRows::row(const int local)
   {
@@ -80,6 +88,8 @@ namespace Touchstone
 
 
 
+  // In this order, for exchange() sends the parts of all sources, of the stiffness and of contact
+  // terms, and gather() also sums up those that were received.
   Condensation::Condensation(const CondensationInput &input, LocalIndices &columns)
     : values(input.dofs.NumMyElements())
     , system(input.system)
@@ -113,6 +123,8 @@ namespace Touchstone
 
 
 
+  // Column by T: an entry a_ij of a constrained dof j becomes entries a_ij T_jk of those that j
+  // depends on, and a_ij g_j is known and goes to the right-hand side.
   double
   Condensation::add_transformed(const int column, const double value)
   {
@@ -129,6 +141,9 @@ namespace Touchstone
 
 
 
+  // Row by S^T: row i of A T, with the right-hand side of the row, goes to all dofs k that test
+  // function i depends on, with the factor S_ik. Rows are kept once and referred to by parts,
+  // since a contact row distributes its slave row to the dofs of the master faces.
   void
   Condensation::add_source(const int row, const double value)
   {
@@ -147,7 +162,8 @@ namespace Touchstone
   std::vector<char>
   Condensation::affected_nodes()
   {
-    // Each column is asked for 27 times: look it up once.
+    // A node has about 27 neighbours in a mesh of hexahedra, so each column would be looked up 27
+    // times: mark the nodes that T leaves alone once.
     const BlockPattern &pattern = system.stiffness->couplings();
     std::vector<char>   affected(pattern.n_nodes()), plain(pattern.n_local_nodes(), 1);
     for (unsigned int node = 0; node < plain.size(); ++node)
@@ -156,6 +172,8 @@ namespace Touchstone
           plain[node] = 0;
     for (unsigned int node = 0; node < affected.size(); ++node)
       {
+        // Of two blocks that are each other's transposes one is stored: a changed node affects
+        // the nodes above it through its own upper blocks, and those below through theirs.
         for (std::size_t k = pattern.start[node]; k < pattern.start[node + 1]; ++k)
           affected[node] |= !plain[pattern.column[k]];
         if (!plain[node])
@@ -167,6 +185,10 @@ namespace Touchstone
 
 
 
+  // Rows of the stiffness that meet a constrained column, belong to a constrained dof, or get a
+  // shift of the diagonal (a force per length, where contact alone holds a body, doc/theory.md,
+  // section 9) become sources; all others stay in the stiffness and only give their right-hand
+  // side.
   void
   Condensation::add_stiffness()
   {
@@ -200,11 +222,15 @@ namespace Touchstone
           product += add_transformed(i, shift[i]);
         add_source(i, system.rhs.begin()[i] - product);
       }
+    // Last, because the entries of constrained dofs are to be of the size of the largest diagonal
+    // entry that the loop has met.
     add_own_rows(constrained_rows, diagonal);
   }
 
 
 
+  // Rows that no stiffness gives: a diagonal for constrained dofs, so that the matrix stays
+  // regular, and rows of multipliers, which may stay empty if a multiplier has no term.
   void
   Condensation::add_own_rows(const std::vector<int> &constrained, double diagonal)
   {
@@ -225,6 +251,9 @@ namespace Touchstone
 
 
 
+  // A term l r^T becomes S^T l (T^T r)^T - one source r^T T, shared by all rows of S^T l. Forms
+  // may name the same dof several times, and contributions may cancel; see
+  // take_without_round_off().
   void
   Condensation::add_terms()
   {
@@ -255,6 +284,8 @@ namespace Touchstone
   SparseRow
   Condensation::take_without_round_off()
   {
+    // Entries that are not finite are kept, so that check_finite() (linear_solver.cc) finds them:
+    // an infinite entry would make the threshold infinite and be dropped itself.
     constexpr double round_off = 1e-14;
     SparseRow        row       = accumulator.take();
     double           largest   = 0.;
@@ -272,6 +303,9 @@ namespace Touchstone
 
 
 
+  // The sum of all parts of one target, factor times source, in the accumulator, and of their
+  // right-hand sides in value. Returns where the next target begins; parts have to be sorted by
+  // target.
   std::size_t
   Condensation::sum(const std::size_t begin, double &value)
   {
@@ -288,6 +322,10 @@ namespace Touchstone
 
 
 
+  // Displacements and multipliers are two ranges of numbers, each distributed over the ranks in
+  // ascending order: the owner of a dof is the last rank whose first number is not greater. A rank
+  // without nodes gets a first number behind all others, and one without multipliers that of the
+  // next rank, so that neither is taken for the owner.
   std::vector<unsigned int>
   Condensation::owners(const std::vector<Index> &of_dofs) const
   {
@@ -313,6 +351,10 @@ namespace Touchstone
 
 
 
+  // Rows of S^T A T for dofs of other ranks, as at a contact surface between two ranks. Each rank
+  // sums up its parts of a row before it sends them, which keeps messages small: hundreds of
+  // parts may share their columns. The stable sort keeps the order of summation, and with it the
+  // round-off, from run to run.
   void
   Condensation::exchange()
   {
@@ -326,6 +368,7 @@ namespace Touchstone
     std::stable_sort(away.begin(), away.end(), [](const Part &a, const Part &b) {
       return a.target < b.target;
     });
+    // sum() works on the member: give it the parts for other ranks for a while.
     parts.swap(away);
 
     std::vector<Index> targets;
@@ -346,6 +389,7 @@ namespace Touchstone
         for (const auto &[column, entry] : row)
           entries.push_back({static_cast<Index>(columns.global()[column]), entry});
       }
+    // From here on the own parts again, to which those received are appended.
     parts.swap(away);
     auto received_entries = exchange_records(sent_entries, communicator);
     for (const auto &[rank, received_rows] : exchange_records(sent_rows, communicator))
@@ -366,6 +410,10 @@ namespace Touchstone
 
 
 
+  // The final rows of this rank: the row of the stiffness itself where it stayed as it was but
+  // other rows or contact terms are added to it, and all parts. A source is freed with its last
+  // use, for together the rows of A T of a large contact surface take more memory than the rows
+  // that result.
   void
   Condensation::gather()
   {

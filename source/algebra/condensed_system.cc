@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <map>
 
+// From a LinearSystem, the parts of a Newton iteration, to what linear solvers see: the
+// transformations T and S of trial and test functions, the scaling of elongation dofs, and the
+// operator, applied factor by factor or assembled (doc/theory.md, section 7). A solver returns y;
+// expand() makes the displacement increment x = T y + g of it.
 namespace Touchstone
 {
   namespace
@@ -40,6 +44,9 @@ namespace Touchstone
         changed[i]     = !constrained[i] && system.basis_change.is_constrained(dofs.GID(i));
       }
     make_units();
+    // S differs from T where the force of a condition is not along its own coefficients:
+    // friction, and the change of normals with consistent linearisation (doc/theory.md 6.3,
+    // equation (22)). In a symmetric system both are one object.
     trial = std::make_unique<Transformation>(
       system.constraints, system.basis_change, dofs, system.rhs.size(), units.get());
     if (system.test_constraints || system.test_basis_change)
@@ -61,6 +68,7 @@ namespace Touchstone
 
 
 
+  // Multipliers, behind the displacements, are not transformed and are left out here.
   void
   CondensedSystem::expand(const Epetra_Vector &solution, Vector &displacement) const
   {
@@ -71,6 +79,10 @@ namespace Touchstone
 
 
 
+  // The scales s = K_pp / A_pp of elongation dofs (doc/theory.md, section 7, equation (23)).
+  // A_pp, the diagonal of the condensed matrix, is the stiffness of the continuum and that of the
+  // springs. Without the scale a stiff spring (penalty) dominates the residual norm by which a
+  // Krylov solver stops, and the displacements would be left inaccurate.
   void
   CondensedSystem::make_units()
   {
@@ -78,8 +90,12 @@ namespace Touchstone
     dofs.Comm().MaxAll(&here, &any, 1);
     if (any == 0)
       return;
-    // Any number would do: what constraints add to the entry of the diagonal is
-    // left out.
+    // A_pp need not be exact, since any positive scale has the same solution: what constraints
+    // add to this entry of the diagonal is left out.
+    //
+    // The part of the springs on the diagonal: of each term l r^T the products l_i r_i of changed
+    // dofs. Coefficients of equal dofs add up first, as a form may name a dof several times.
+    // Terms of a rank can refer to dofs of others, hence the distributed sum.
     Vector springs(system.rhs.locally_owned_elements(), system.rhs.get_mpi_communicator());
     std::map<Index, double> sums;
     std::map<Index, double> left, right;
@@ -109,6 +125,8 @@ namespace Touchstone
     for (unsigned int i = 0; i < dim * system.stiffness->n_nodes(); ++i)
       if (const double spring = springs.begin()[i]; changed[i] && spring > 0.)
         {
+          // Between 0 and 1; springs with negative diagonals (unsymmetric ones) keep the scale
+          // one.
           const double own = system.stiffness->diagonal(i);
           (*units)[i]      = own / (own + spring);
         }

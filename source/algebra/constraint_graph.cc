@@ -9,6 +9,11 @@
 #include <algorithm>
 #include <cmath>
 
+// Linear independence of all conditions on displacements, prescribed ones and contact, decided
+// node by node (doc/theory.md, section 6, 'One constraint graph'), and their translation to
+// deal.II's AffineConstraints: lines for elimination and changes of basis for stiff springs
+// (section 7). Each condition has two sides: what it prescribes of trial functions, and the force
+// that meets it, which is the condition on test functions (section 6.3, equation (22)).
 namespace Touchstone
 {
   using namespace dealii;
@@ -21,10 +26,16 @@ namespace Touchstone
      * large (doc/theory.md, section 6). */
     constexpr double dependent = 1e-3;
 
-    /** Coefficients of round-off are left out of lines: they could close a cycle of references. */
+    /**
+     * Smaller coefficients are round-off and are left out of constraint lines: references without
+     * meaning could close a cycle, which elimination cannot resolve.
+     */
     constexpr double negligible = 1e-12;
 
-    /** side <- side - factor * other */
+    /**
+     * side <- side - factor * other: a step of elimination, on coefficients, right-hand side and
+     * the combination of accepted conditions (origin) alike.
+     */
     template <class Side>
     void
     subtract(Side &side, const double factor, const Side &other)
@@ -48,6 +59,8 @@ namespace Touchstone
       side.direction[pivot] = 0.;
     }
 
+    // Scale a side so that its coefficient at the pivot is one, which solves it for that
+    // component.
     template <class Side>
     void
     normalise(Side &side, const unsigned int pivot)
@@ -100,6 +113,9 @@ namespace Touchstone
                         const IndexSet            &needed,
                         const MPI_Comm             communicator)
     {
+      // The partitioner knows both directions: import_indices() are the own dofs that other ranks
+      // have among their ghosts, in the order of import_targets(). So owners send without being
+      // asked.
       const Utilities::MPI::Partitioner partitioner(owned, needed, communicator);
       std::vector<Index>                asked;
       for (const auto &[begin, end] : partitioner.import_indices())
@@ -135,6 +151,9 @@ namespace Touchstone
 
 
 
+  // Split a form by nodes into the part of the condition's own node, in which the pivot is
+  // chosen, and coefficients of all other dofs. The form may name a node several times:
+  // terms of equal node add up.
   ConstraintGraph::Side::Side(const Index node, const NodalForm &form, const double value)
     : value(value)
   {
@@ -167,7 +186,8 @@ namespace Touchstone
     const auto found = nodes.find(node);
     if (found == nodes.end())
       return;
-    // In the order of acceptance: each does not contain the pivots of those before.
+    // In the order of acceptance: each reduced condition is free of the pivots of those before
+    // it, so one pass eliminates all.
     for (const ReducedCondition &earlier : found->second)
       {
         substitute(reduced.trial, earlier.pivot, earlier.trial);
@@ -177,6 +197,8 @@ namespace Touchstone
 
 
 
+  // The projection is orthogonal to the directions of the reduced conditions, which are not
+  // orthogonal to each other: hence the orthonormal basis first.
   Tensor<1, dim>
   ConstraintGraph::free_part(const Index node, Tensor<1, dim> vector) const
   {
@@ -200,6 +222,8 @@ namespace Touchstone
 
 
 
+  // One step of Gaussian elimination with pivoting among the components of the node. Trial and
+  // test sides share the pivot, since dof and equation are eliminated together.
   bool
   ConstraintGraph::accept(const Condition &condition, const Treatment treatment)
   {
@@ -212,15 +236,20 @@ namespace Touchstone
     const unsigned int number = found == nodes.end() ? 0 : found->second.size();
     if (number >= dim)
       return false; // all directions are determined
+    // The condition is itself so far; reduce() notes in origin which earlier ones are subtracted,
+    // and forces() needs that to tell the forces of the conditions from those of their
+    // combinations.
     reduced.trial.origin[number] = reduced.test.origin[number] = 1.;
     reduce(condition.node, reduced);
 
-    // The pivot must do for both sides.
+    // The component whose smaller coefficient of the two sides is the largest (doc/theory.md,
+    // section 6.3): a pivot that is small on either side would make its line ill-conditioned.
     double best = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // Of components that are nearly equal the first: the choice should stay when
-        // the direction turns a little.
+        // Of components that are nearly equal the first: a normal that turns a little from one
+        // Newton iteration to the next should keep its pivot, and with it the pattern of the
+        // matrix.
         const double size =
           std::min(std::abs(reduced.trial.direction[d]), std::abs(reduced.test.direction[d]));
         if (size > 1.3 * best)
@@ -235,8 +264,9 @@ namespace Touchstone
     normalise(reduced.trial, reduced.pivot);
     normalise(reduced.test, reduced.pivot);
     std::vector<ReducedCondition> &all = nodes[condition.node];
-    // What is eliminated must not refer to another pivot of its own node, or the
-    // lines would depend on each other in a cycle.
+    // Back-substitution: lines of eliminated dofs must not refer to another eliminated dof of the
+    // same node, or they would depend on each other in a cycle. Conditions of multipliers are not
+    // solved for a dof.
     if (treatment != Treatment::multiplier)
       for (ReducedCondition &earlier : all)
         {
@@ -254,6 +284,9 @@ namespace Touchstone
 
 
 
+  // Forces mu of eliminated conditions, in units of force, from balance at the eliminated dofs.
+  // Sweeps repeat until nothing changes: a force also acts on the dofs of its stencil, and if one
+  // of these is eliminated by another condition, that one gets its share in the next sweep.
   std::vector<double>
   ConstraintGraph::forces(const Vector                        &residual,
                           const std::function<void(Vector &)> &condense) const
@@ -299,11 +332,15 @@ namespace Touchstone
         if (Utilities::MPI::max(change, communicator) <=
             round_off * Utilities::MPI::max(largest, communicator))
           break;
+        // Stencils reach nodes of other ranks, so the sum is collective; so is the decision to
+        // stop above.
         rest.add(dofs, values);
         rest.compress(VectorOperation::add);
         condense(rest);
       }
 
+    // From reduced conditions back to those that were accepted: reduced condition k is the sum of
+    // accepted conditions times origin, and its force counts for each of them in that proportion.
     std::vector<double> result(conditions.size(), 0.);
     for (std::size_t i = 0; i < conditions.size(); ++i)
       {
@@ -336,7 +373,8 @@ namespace Touchstone
                                     const IndexSet                  &relevant,
                                     const MPI_Comm                   communicator) const
   {
-    // Owned lines, with what they refer to.
+    // Lines of owned dofs: hanging nodes first, then each eliminated condition solved for its
+    // pivot.
     std::vector<typename AffineConstraints<double>::ConstraintLine> lines;
     for (const auto &line : hanging.get_lines())
       if (owned.is_element(line.index))
@@ -411,7 +449,9 @@ namespace Touchstone
     if (Utilities::MPI::max(here, communicator) == 0)
       return AffineConstraints<double>();
 
-    // Two rounds: which dofs are changed, then to what.
+    // Two rounds, as a line must not refer to another changed dof (CondensedSystem substitutes
+    // once): the first finds out which dofs are changed on all ranks, the second makes their
+    // lines without these.
     std::vector<Index> far;
     for (const auto &line : constraints.get_lines())
       for (const auto &entry : line.entries)
@@ -438,7 +478,10 @@ namespace Touchstone
               if (!with_entries)
                 continue;
               std::map<Index, double> entries;
-              const auto              add = [&](const Index dof, const double factor) {
+              // References to eliminated dofs are resolved at once, so that B follows C in T = C
+              // B D; references to other changed dofs are dropped, which any change of basis
+              // allows (doc/theory.md, end of section 7).
+              const auto add = [&](const Index dof, const double factor) {
                 if (constraints.is_constrained(dof))
                   {
                     for (const auto &entry : *constraints.get_constraint_entries(dof))

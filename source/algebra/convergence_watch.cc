@@ -6,6 +6,9 @@
 #include <cmath>
 #include <string>
 
+// Foresees the number of iterations of a Krylov method from the reduction of the residual so far,
+// assuming that it goes on at the same rate, so that multigrid which converges badly is given up
+// early and not after the maximum of iterations (doc/theory.md, section 8).
 namespace Touchstone
 {
   namespace
@@ -25,6 +28,8 @@ namespace Touchstone
 
 
 
+  // A factorisation costs as much as about n/130 iterations (measured, doc/benchmarks.md); at
+  // least 75, as short iterations cost little, and at most 300.
   double
   ConvergenceWatch::patience(const int n_dofs)
   {
@@ -50,9 +55,11 @@ namespace Touchstone
       return;
     if (iterations() == 0)
       first = smallest = residual;
+    // The smallest residual, since that of conjugate gradients oscillates.
     smallest = std::min(smallest, residual);
     if (iterations() < enough)
       return;
+    // Natural logarithms of the reductions reached and wanted; their ratio scales the iterations.
     const double digits = -std::log(smallest / first);
     const double expected =
       digits > 0. ? iterations() * std::log(1. / tolerance) / digits : endless;

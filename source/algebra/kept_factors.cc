@@ -6,13 +6,15 @@ namespace Touchstone
 {
   KeptFactors::KeptFactors(const CondensedSystem &system)
     : SquareOperator(system.rows(), "kept factors")
-    // What low rank leaves out is as large as what resists a change of shape, near
-    // incompressibility: 1e-6 of the blocks cost 126 iterations.
+    // No low-rank compression: near incompressibility what it leaves out is as large as the
+    // stiffness against a change of shape, and 1e-6 of the blocks cost 126 iterations.
     , factors(0., false)
   {
     factors.factorise(*system.matrix(),
                       system.symmetric ? MumpsFactors::Kind::definite
                                        : MumpsFactors::Kind::unsymmetric);
+    // The copy of the matrix serves to recognise an unchanged one; these factors are never
+    // renewed.
     factors.release_matrix();
   }
 

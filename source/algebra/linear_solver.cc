@@ -9,13 +9,20 @@
 #include <string>
 #include <utility>
 
+// What all linear solvers share: the check of the input, the translation of whatever a library
+// throws into failures that cut the time step, and the check of the true residual of the result
+// (doc/theory.md, section 8).
 namespace Touchstone
 {
   namespace
   {
-    /** One product shows all entries that are not finite, for these make what they
-     * meet not finite whatever it is. First, as they get into the right-hand side by
-     * condensation. */
+    /**
+     * A product with a vector of ones shows all entries that are not finite: Inf and NaN spread
+     * to whatever they are added to, even where they are multiplied by zero. The matrix is judged
+     * before the right-hand side, since condensation carries its entries over to the right-hand
+     * side and the message should name the cause. The norm is a sum over all ranks, so all throw
+     * or none.
+     */
     void
     check_finite(const CondensedSystem &system, const double rhs_norm)
     {
@@ -51,6 +58,8 @@ namespace Touchstone
 
 
 
+  // A NonConvergence passes unchanged, for it is in the terms of this program already. Anything
+  // kept for later solves may be inconsistent after an exception and is dropped.
   void
   LinearSolver::guarded_solve(const CondensedSystem &system,
                               const RigidMotions    &motions,
@@ -76,7 +85,7 @@ namespace Touchstone
         reason = error.what();
         reason = reason.substr(0, reason.find('\n'));
       }
-    // So does Epetra report errors.
+    // Epetra throws plain integers.
     catch (const int error)
       {
         reason = "Epetra reports error " + std::to_string(error);
@@ -96,6 +105,7 @@ namespace Touchstone
     double rhs_norm = 0.;
     system.rhs->Norm2(&rhs_norm);
     solution.PutScalar(0.);
+    // The solution is zero; a relative residual would not be defined.
     if (rhs_norm == 0.)
       return;
     check_finite(system, rhs_norm);
@@ -107,8 +117,10 @@ namespace Touchstone
     double residual = 0.;
     rest.Norm2(&residual);
     residual /= rhs_norm;
-    // A direct solver cannot do better than round-off allows, an iterative one
-    // goes by a residual that it updates: neither is believed.
+    // Neither kind of solver is trusted: a direct one meets null pivots and round-off without
+    // notice, an iterative one stops by a residual that is updated and not computed anew, and can
+    // drift from the true one. The factor and the lower bound leave room for exactly that
+    // round-off.
     if (!(residual <= std::max(10. * system.tolerance, 1e-6)))
       throw LinearSolverFailure("the linear solver " + parameters.type +
                                 " left a true relative residual of " + std::to_string(residual));

@@ -4,13 +4,18 @@
 
 #include <algorithm>
 
+// Values of the parts of a linear system without assembling it: linear forms (elongations, gaps)
+// and the residual, from which contact forces follow.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** A copy of @p x with the entries of other ranks that @p for_each_form refers to. */
+    /**
+     * A copy of @p x with the entries of other ranks that @p for_each_form refers to;
+     * multipliers, whose numbers follow those of the displacements, are not in @p x.
+     */
     template <class ForEachForm>
     Vector
     with_ghosts(const Vector &x, const ForEachForm &for_each_form)
@@ -34,6 +39,7 @@ namespace Touchstone
 
 
 
+  // One exchange for all forms: the entries of other ranks are collected first.
   std::vector<double>
   evaluate_forms(const std::vector<LinearForm> &forms, const Vector &x)
   {
@@ -54,6 +60,10 @@ namespace Touchstone
 
 
 
+  // b - (A + D + C) x part by part, as in AppliedOperator::multiply(), but without conditions.
+  // Forces of the conditions do not appear, so in equilibrium the residual at constrained dofs is
+  // minus these forces (ConstraintGraph::forces()). Multipliers act through the terms: columns
+  // from first_extra on belong to extra.
   Vector
   LinearSystem::residual(const Vector &displacement, const std::vector<double> &extra) const
   {
@@ -75,6 +85,8 @@ namespace Touchstone
     std::vector<double> values;
     for (const RankOneTerm &term : terms)
       {
+        // r^T x of the term l r^T, e.g. the elongation of a spring; its force acts along l, also
+        // on nodes of other ranks, hence the distributed sum behind the loop.
         double amount = 0.;
         for (const auto &[column, value] : term.right)
           amount += value * (column < rhs.size() ? ghosted(column) : extra[column - first_extra]);

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+// The stiffness and the mass: pattern and operations on entries of a BlockMatrix in double
+// precision that is filled cell by cell (doc/theory.md, section 7). All indices are local ones:
+// nodes of this rank first, then those of others in ascending order.
 namespace Touchstone
 {
   using namespace dealii;
@@ -18,6 +21,9 @@ namespace Touchstone
 
 
 
+  // The pattern from the couplings of nodes, a third of the rows and columns of a pattern of
+  // dofs. Maps of Epetra in the same numbering are for the condensed matrix, whose first columns
+  // are these.
   void
   Matrix::reinit(const IndexSet               &owned,
                  const DynamicSparsityPattern &couplings,
@@ -67,6 +73,8 @@ namespace Touchstone
                                 (std::lower_bound(far.begin(), far.end(), other) - far.begin()));
           else if (made->has(node - first, other - first))
             of_row.push_back(other - first);
+        // In ascending order, as add_row() wants it: own columns, then those of others, whose
+        // local indices are higher.
         of_row.insert(of_row.end(), of_others.begin(), of_others.end());
         made->add_row(of_row);
       }
@@ -77,6 +85,8 @@ namespace Touchstone
 
 
 
+  // Patterns are shared and never changed, so matrices on one mesh, such as stiffness and mass,
+  // hold it once.
   void
   Matrix::reinit(const Matrix &other)
   {
@@ -118,6 +128,9 @@ namespace Touchstone
 
 
 
+  // Factors differ from body to body only, and the continuum does not couple bodies: a factor of
+  // the row is also that of the column, so rows of a symmetric matrix stored by halves can be
+  // scaled.
   void
   Matrix::add(const Vector &factors, const Matrix &added)
   {
@@ -132,6 +145,8 @@ namespace Touchstone
 
 
 
+  // The diagonal block is stored once in either kind of pattern; its diagonal entries are 0, 4
+  // and 8.
   void
   Matrix::add_to_diagonal(const Vector &values)
   {
@@ -143,6 +158,8 @@ namespace Touchstone
 
 
 
+  // Blocks of the node's row only; with symmetric storage the transposes that other rows store
+  // stay.
   void
   Matrix::clear_node(const int row)
   {
@@ -153,6 +170,8 @@ namespace Touchstone
 
 
 
+  // Sums by rows of |a_ij| (force per length), with which Solid estimates the round-off of the
+  // forces A u. A block above the diagonal is also, transposed, in the row of its column.
   std::vector<double>
   Matrix::absolute_row_sums() const
   {
@@ -172,6 +191,7 @@ namespace Touchstone
 
 
 
+  // Blocks that stand for their transposes count twice.
   double
   Matrix::frobenius_norm() const
   {

@@ -8,6 +8,8 @@
 #include <ml_MultiLevelPreconditioner.h>
 #include <string>
 
+// The multigrid of Trilinos (ML) as a preconditioner to compare with the program's own. It reads
+// the assembled matrix of doubles, and its aggregates do not know bodies.
 namespace Touchstone
 {
   namespace

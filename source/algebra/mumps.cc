@@ -3,6 +3,7 @@
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/algebra/mumps_factors.h>
 
+// The direct solver: its keys and its registration; MUMPS itself is called in mumps_factors.cc.
 namespace Touchstone
 {
   namespace
@@ -41,7 +42,10 @@ namespace Touchstone
 
 
 
-    /** Direct solution: LDL^T for symmetric systems and LU otherwise. */
+    /**
+     * Direct solution: LDL^T for symmetric systems and LU otherwise. The factors are kept and
+     * reused as long as the matrix is unchanged (MumpsFactors::factorise()).
+     */
     class Mumps : public LinearSolver
     {
     public:
@@ -72,6 +76,8 @@ namespace Touchstone
                const RigidMotions &,
                Epetra_Vector &solution) override
       {
+        // What is known of the matrix saves work: a definite one needs no pivoting, a symmetric
+        // one half of the memory.
         const auto kind = !system.symmetric ? MumpsFactors::Kind::unsymmetric
                           : system.definite ? MumpsFactors::Kind::definite
                                             : MumpsFactors::Kind::symmetric;

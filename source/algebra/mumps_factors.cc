@@ -10,6 +10,10 @@
 #include <Epetra_MpiComm.h>
 #include <algorithm>
 
+// The calls of MUMPS, in its order: start (job -1), analysis and factorisation (4, or 2 with the
+// analysis of before), solution (3), end (-2). All are collective, and INFOG is the same on all
+// ranks, so errors can be thrown from it without further communication. Numbers of ICNTL and
+// INFOG are those of its manual.
 namespace Touchstone
 {
   MumpsFactors::MumpsFactors(const double low_rank_tolerance, const bool out_of_core)
@@ -30,6 +34,8 @@ namespace Touchstone
   void
   MumpsFactors::clear()
   {
+    // A solver may live longer than MPI, as a static object does: then MUMPS must not be called
+    // any more.
     int finalized = 0;
     MPI_Finalized(&finalized);
     if (initialised && !finalized)
@@ -53,6 +59,7 @@ namespace Touchstone
 
 
 
+  // Texts for the codes that users meet; the numbers go along for those in its manual.
   std::string
   MumpsFactors::reason(const int infog1, const int infog2)
   {
@@ -103,8 +110,9 @@ namespace Touchstone
     const auto &comm  = dynamic_cast<const Epetra_MpiComm &>(matrix.Comm());
     data.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm.Comm()));
     data.par          = 1; // rank 0 takes part in the factorisation
-    data.sym          = static_cast<MUMPS_INT>(kind);
-    data.job          = -1;
+    // Set before job -1, and fixed from then on: another kind needs a new instance (factorise()).
+    data.sym = static_cast<MUMPS_INT>(kind);
+    data.job = -1;
     dmumps_c(&data);
     initialised = true;
     for (int i = 1; i <= 4; ++i)
@@ -123,6 +131,8 @@ namespace Touchstone
 
 
 
+  // The rows of this rank as triplets, numbered from one. Of symmetric matrices MUMPS wants one
+  // triangle, and would add an entry of the other to it.
   void
   MumpsFactors::read(const Epetra_CrsMatrix &matrix)
   {
@@ -155,6 +165,8 @@ namespace Touchstone
 
 
 
+  // Factorise only what is needed. The kind can change between solves, as when friction makes the
+  // system unsymmetric, and then MUMPS is started anew.
   bool
   MumpsFactors::factorise(const Epetra_CrsMatrix &matrix, const Kind kind)
   {
@@ -162,6 +174,8 @@ namespace Touchstone
       clear();
     if (!initialised)
       start(matrix, kind);
+    // The matrix of the last call is moved aside and compared with the new one, entry by entry:
+    // the copy is needed anyway, as MUMPS does not copy its input.
     std::vector<int>    old_rows, old_columns;
     std::vector<double> old_values;
     rows.swap(old_rows);
@@ -171,8 +185,9 @@ namespace Touchstone
     columns.reserve(old_rows.size());
     values.reserve(old_rows.size());
     read(matrix);
-    // What has not changed since the last call is not done again: nothing where
-    // a linear scene repeats itself, the pattern where only normals turn.
+    // What has not changed since the last call is not done again: with the same values nothing,
+    // as where a linear scene repeats itself; with the same pattern no analysis, as where only
+    // normals turn. All ranks must agree, since each of the steps is collective.
     int same[2] = {rows == old_rows && columns == old_columns, values == old_values};
     int all_same[2];
     matrix.Comm().MinAll(same, all_same, 2);
@@ -181,13 +196,17 @@ namespace Touchstone
     data.job   = factorised && all_same[0] ? 2 : 4; // 4: with a new analysis
     factorised = false;
     dmumps_c(&data);
-    // Working space too small: the estimate does not know of delayed pivots.
+    // If the working space is too small the factorisation is repeated with twice as much: the
+    // estimate of the analysis does not know of delayed pivots, which indefinite systems with
+    // multipliers have many of.
     while ((infog(1) == -8 || infog(1) == -9) && icntl(14) < 1000)
       {
         icntl(14) *= 2;
         data.job = 2;
         dmumps_c(&data);
       }
+    // A singular matrix is a missing support rather than a numerical failure: an exception of its
+    // own.
     if (infog(1) == -6 || infog(1) == -10)
       throw SingularSystem("MUMPS: " + reason(infog(1), infog(2)));
     if (infog(1) < 0)
@@ -199,6 +218,9 @@ namespace Touchstone
 
 
 
+  // With ICNTL(24) MUMPS replaces null pivots and goes on, with one of the infinitely many
+  // solutions; here they are an error that names the nodes, since they mean a missing support
+  // (doc/theory.md, section 8).
   void
   MumpsFactors::check_pivots() const
   {
@@ -227,7 +249,8 @@ namespace Touchstone
   void
   MumpsFactors::solve(const Epetra_Vector &rhs, Epetra_Vector &solution)
   {
-    // The right-hand side is centralised: a vector is small beside the factors.
+    // The right-hand side goes to rank 0 and the solution comes back from there: a vector is
+    // small beside the factors.
     const Epetra_Comm &comm = rhs.Comm();
     const Epetra_Map   root(-1, comm.MyPID() == 0 ? data.n : 0, 0, comm);
     Epetra_Import      importer(root, rhs.Map());

@@ -22,11 +22,16 @@
 
 #  ifndef PETSC_USE_COMPLEX
 
+// All solvers and preconditioners of PETSc behind one name: the user chooses by PETSc's own
+// options, and what these leave open is set so that the result meets the same checks as that of
+// other solvers (doc/theory.md, section 8). The condensed matrix is copied to PETSc's format
+// before each solve; the preconditioner is kept while the same dofs are constrained, as in
+// belos.cc.
 namespace Touchstone
 {
   namespace
   {
-    /** What PETSc reports. */
+    /** An error of PETSc, with the first line of its message. */
     class PetscError : public std::runtime_error
     {
       using std::runtime_error::runtime_error;
@@ -34,7 +39,10 @@ namespace Touchstone
 
 
 
-    /** Options as on PETSc's command line, apart from those of the whole process. */
+    /**
+     * Options as on PETSc's command line, in a database of their own: the global one belongs to
+     * the process, and two solvers with different options must not mix theirs.
+     */
     class OptionsDatabase
     {
     public:
@@ -58,8 +66,11 @@ namespace Touchstone
 
 
 
-    /** Where PETSc is called: it reads the options of one database only, and its errors are
-     * thrown instead of printed. */
+    /**
+     * A scope in which PETSc is called. It makes PETSc read the options of one database only, and
+     * keeps the first line of an error instead of printing it, so that check() can throw it. C
+     * functions on the way must not be left by an exception, hence the two stages.
+     */
     class Session
     {
     public:
@@ -106,7 +117,7 @@ namespace Touchstone
            const char    *text,
            void          *self)
       {
-        // Each function on the way back reports the error again.
+        // Each function on the way back reports the error again; the first report has the reason.
         if (type == PETSC_ERROR_INITIAL && text)
           {
             std::string first                     = text;
@@ -124,7 +135,8 @@ namespace Touchstone
       Session session(nullptr);
       session.check(PetscOptionsCreate(&data));
       session.check(PetscOptionsInsertString(data, text.c_str()));
-      // BoomerAMG heeds the rigid motions only with both of these options.
+      // BoomerAMG (hypre) takes interpolation vectors, here the rigid motions, into account only
+      // with a nodal coarsening and a variant of vector interpolation: the defaults below.
       const auto text_of = [&](const char *name) {
         char      value[64] = "";
         PetscBool given     = PETSC_FALSE;
@@ -205,6 +217,9 @@ namespace Touchstone
       const auto one_of = [](const std::string &type, const std::vector<std::string> &types) {
         return std::find(types.begin(), types.end(), type) != types.end();
       };
+      // Preconditioned from the right or by conjugate gradients in the unpreconditioned norm, the
+      // tolerance holds for the true residual; from the left, GMRES judges the preconditioned
+      // one.
       const bool from_right = one_of(ksp_type, {KSPGMRES, KSPFGMRES, KSPLGMRES, KSPBCGS});
       const bool own_side   = has_option(session, "-ksp_pc_side");
       if (from_right && !own_side)
@@ -232,6 +247,8 @@ namespace Touchstone
       session.check(KSPCreate(communicator, &objects.ksp));
       session.check(KSPSetOperators(objects.ksp, objects.matrix, objects.matrix));
       session.check(KSPGetPC(objects.ksp, &pc));
+      // Defaults: Krylov methods with PETSc's multigrid (GAMG) for definite systems, and factors
+      // for those with multipliers, on which multigrid fails.
       if (kind.definite)
         {
           session.check(KSPSetType(objects.ksp, kind.symmetric ? KSPCG : KSPGMRES));
@@ -242,13 +259,15 @@ namespace Touchstone
           session.check(KSPSetType(objects.ksp, KSPPREONLY));
           session.check(PCSetType(pc, kind.symmetric ? PCCHOLESKY : PCLU));
         }
+      // Options override these defaults; complete_options() must follow, since it depends on the
+      // types that were chosen.
       session.check(KSPSetFromOptions(objects.ksp));
       complete_options(session, objects, restart);
     }
 
 
 
-    /** Solve, from zero. */
+    /** Solve, from zero, with vectors that live as long as the solve. */
     void
     run(Session &session, const Objects &objects, const double *rhs, double *solution)
     {
@@ -270,7 +289,11 @@ namespace Touchstone
 
 
 
-    /** Rows for a matrix, in the numbering in which those of a rank follow each other. */
+    /**
+     * An empty matrix. PETSc numbers the rows of each rank consecutively. The numbers of entries
+     * per row in columns of this rank and of others let it allocate once, without which insertion
+     * is slow; blocks of three let GAMG and BoomerAMG treat nodes.
+     */
     Mat
     make_matrix(Session                     &session,
                 const MPI_Comm               communicator,
@@ -300,6 +323,8 @@ namespace Touchstone
             const Epetra_CrsMatrix &matrix,
             const Kind             &kind)
     {
+      // New numbers by a prefix sum over the ranks; those of columns on other ranks come by the
+      // importer that Epetra uses for products. MPI_Exscan leaves the result of rank 0 undefined.
       const int        n     = matrix.NumMyRows();
       int              first = 0;
       Epetra_IntVector own(matrix.RowMap()), all(matrix.ColMap());
@@ -313,6 +338,7 @@ namespace Touchstone
       else
         std::copy(own.Values(), own.Values() + n, all.Values());
 
+      // First count, then insert.
       std::vector<PetscInt> n_here(n, 0), n_elsewhere(n, 0), columns;
       int                   count   = 0;
       int                  *indices = nullptr;
@@ -344,7 +370,11 @@ namespace Touchstone
 
 
 
-    /** Tell PETSc's multigrid of the near null space, which has to be orthonormal. Collective. */
+    /**
+     * Tell PETSc's multigrid of the near null space, from which it makes its coarse levels. PETSc
+     * wants it orthonormal: Gram-Schmidt, in which modes that constraints have made dependent are
+     * dropped. Collective.
+     */
     void
     set_near_null_space(Session                  &session,
                         const MPI_Comm            communicator,
@@ -363,7 +393,7 @@ namespace Touchstone
           std::copy(modes[v], modes[v] + modes.MyLength(), values);
           session.check(VecRestoreArray(column, &values));
           session.check(VecNorm(column, NORM_2, &before));
-          // Twice is enough.
+          // A second sweep removes what round-off leaves of nearly parallel modes.
           for (unsigned int sweep = 0; sweep < 2; ++sweep)
             for (const Vec earlier : columns)
               {
@@ -388,8 +418,12 @@ namespace Touchstone
 
 
 
-    /** Stiffness of springs between the nodes of a cube, on this rank alone: small, but large
-     * enough for two levels of multigrid. */
+    /**
+     * Stiffness of springs between the neighbouring nodes of a cube of 6^3 nodes, on this rank
+     * alone, for the check of options: small, but large enough for two levels of multigrid.
+     * Springs are three times as stiff along their axis as across it, and 0.1 on the diagonal
+     * makes it positive definite; no unit.
+     */
     Mat
     make_sample(Session &session)
     {
@@ -437,7 +471,11 @@ namespace Touchstone
           dealii::Patterns::Anything());
       }
 
-      /** Solve a small system with the options: PETSc reports errors only where it uses them. */
+      /**
+       * Solve a small system with the options when the input is read: PETSc reports wrong values
+       * only where it uses them, which otherwise would be after the mesh has been made. Options
+       * that were not used are spelled wrong, or have no effect beside the others.
+       */
       void
       check(const std::string &section) const override
       {
@@ -469,7 +507,8 @@ namespace Touchstone
           {
             refuse(text, "PETSc: " + std::string(error.what()));
           }
-        // The levels of the sample are fewer than those of a large system.
+        // Options of single levels (-mg_...) are accepted, for the sample has fewer levels than a
+        // large system.
         for (const std::string &name : unused)
           if (name.rfind("-mg_", 0) != 0)
             refuse(name, "PETSc has no such option, or does not use it beside the others");
@@ -481,7 +520,11 @@ namespace Touchstone
 
 
 
-    /** Whether @p text sets the option @p name to one of @p values. */
+    /**
+     * Whether @p text sets the option @p name to one of @p values; the last occurrence counts, as
+     * for PETSc. Read from the text, since what a solver can do is asked before PETSc objects
+     * exist.
+     */
     bool
     sets(const std::string &text, const std::string &name, const std::vector<std::string> &values)
     {
@@ -552,6 +595,8 @@ namespace Touchstone
             Session session(database.get());
             if (!fits(system))
               kept.reset();
+            // A preconditioner of an earlier Newton iteration may have failed: try once more with
+            // a new one.
             const bool fresh = !kept;
             if (!try_to_solve(session, system, motions, solution) && !fresh)
               {
@@ -593,6 +638,7 @@ namespace Touchstone
         const bool fresh = !kept;
         if (fresh)
           kept = std::make_unique<Objects>();
+        // The matrix is new in each Newton iteration, the preconditioner (in the KSP) is not.
         MatDestroy(&kept->matrix);
         kept->matrix = convert(session, communicator, *system.matrix(), kind);
         if (fresh)
@@ -622,18 +668,23 @@ namespace Touchstone
         KSPConvergedReason reason     = KSP_CONVERGED_ITERATING;
         session.check(KSPGetIterationNumber(kept->ksp, &iterations));
         session.check(KSPGetConvergedReason(kept->ksp, &reason));
-        // A preconditioner that only factorises is no iteration.
+        // With KSPPREONLY the preconditioner is the solution, a factorisation: no iteration.
         KSPType type = nullptr;
         session.check(KSPGetType(kept->ksp, &type));
         if (std::string(type) != KSPPREONLY)
           count.iterations += static_cast<unsigned int>(iterations);
         if (fresh_iterations == 0)
           fresh_iterations = std::max<PetscInt>(iterations, 1);
+        // As in belos.cc: half as many iterations again are worth a new set-up.
         stale = iterations > fresh_iterations * 3 / 2 + 5;
         return reason > 0;
       }
 
-      /** That of the options, if they have one. */
+      /**
+       * The tolerance and the maximum of iterations are those of the options, if given, and
+       * otherwise those of Newton's method and of the input. The absolute tolerance is switched
+       * off: forces have no natural scale.
+       */
       void
       set_tolerance(Session &session, const double tolerance)
       {
@@ -666,6 +717,7 @@ namespace Touchstone
           ++count.preconditioner_setups;
       }
 
+      // The present preconditioner has become too slow and is dropped after the solve.
       bool stale = false;
 
       /** @throws LinearSolverFailure if the last solve did not converge. */

@@ -4,6 +4,9 @@
 
 namespace Touchstone
 {
+  // Rigid motions over the condensed dofs (doc/theory.md, section 8). Constrained dofs have been
+  // eliminated. The dof of an elongation is treated like one of them: a stiff spring hardly
+  // elongates in a motion of little energy.
   Epetra_MultiVector
   near_null_space(const CondensedSystem &system, const RigidMotions &motions)
   {

@@ -7,6 +7,9 @@
 
 #include <sstream>
 
+// Section 'Linear solver' of the input file. Keys of single solvers and preconditioners are
+// declared by these (LinearSolverOptionsRegistry), and keys that have no effect with the chosen
+// 'Type' are errors: a user who sets them expects something.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -14,7 +17,10 @@ namespace Touchstone
 
   namespace
   {
-    /** The lines "set KEY = VALUE" of the present values of options. */
+    /**
+     * The lines "KEY = VALUE" of the present values of options: printing them is the one way to
+     * compare keys of any type without knowing them.
+     */
     std::vector<std::string>
     lines(PluginParameters &options)
     {
@@ -29,7 +35,10 @@ namespace Touchstone
       return result;
     }
 
-    /** Refuse values other than the defaults of options that the scene does not use. */
+    /**
+     * Reject values other than the defaults for options of a solver that is not used: a key set
+     * to its default cannot be told from one that is not set, and does no harm.
+     */
     void
     refuse_unused(const std::string &section,
                   const std::string &type,
@@ -67,6 +76,8 @@ namespace Touchstone
 
 
 
+  // What a type of solver can do is the solver's own knowledge: one is made to be asked, which
+  // costs nothing before its first solve.
   bool
   LinearSolverParameters::takes_multipliers() const
   {
@@ -117,12 +128,17 @@ namespace Touchstone
                       "one matrix only where multigrid is set up; 'assembled' does so in each "
                       "Newton iteration.",
                       Patterns::Selection("applied|assembled"));
+    // All are declared whatever the type is, since the parser must know each key before it reads
+    // 'Type'.
     for (const auto &of_one : options)
       of_one.second->declare(prm);
   }
 
 
 
+  // Errors of the input that only the combination of keys shows: a preconditioner for a direct
+  // solver, keys of a solver that is not used. Each message names the key, its value and the
+  // remedy.
   void
   LinearSolverParameters::check(const std::string &section) const
   {

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 
+// The substitution x = T y + g with T = C B D (doc/theory.md, section 7) in two forms: row by row
+// for Condensation, which assembles, and as a small distributed matrix of the rows that are not
+// those of the identity, for AppliedOperator and the expansion of solutions.
 namespace Touchstone
 {
   using namespace dealii;
 
+  // Column indices are given beforehand and are local, so Epetra neither searches nor
+  // communicates until FillComplete(), which plans the exchange of ghosts.
   std::unique_ptr<Epetra_CrsMatrix>
   make_matrix(const std::vector<SparseRow> &rows,
               const LocalIndices           &indices,
@@ -16,6 +21,7 @@ namespace Touchstone
     std::vector<int> lengths;
     for (const SparseRow &row : rows)
       lengths.push_back(static_cast<int>(row.size()));
+    // Rows get consecutive numbers on each rank, which only products with vectors use.
     const Epetra_Map range(-1, static_cast<int>(rows.size()), 0, domain.Comm());
     const Epetra_Map columns(
       -1, static_cast<int>(indices.global().size()), indices.global().data(), 0, domain.Comm());
@@ -57,8 +63,8 @@ namespace Touchstone
   void
   Transformation::append(const Index dof, const double factor, LinearForm &entries) const
   {
-    // A dof of changed basis is what the others prescribe plus itself, the
-    // elongation.
+    // A dof of changed basis is x_i = y_i + sum_j c_j x_j: its own new dof, the elongation, and
+    // what a rigid spring would prescribe.
     if (basis_change.is_constrained(dof))
       for (const auto &[other, coefficient] : *basis_change.get_constraint_entries(dof))
         entries.emplace_back(other, factor * coefficient);
@@ -67,6 +73,9 @@ namespace Touchstone
 
 
 
+  // C B of one dof: the line of the constraint, in which dofs of changed basis are replaced.
+  // Constraint lines come without chains, so one level is enough; multipliers are never
+  // transformed.
   std::optional<Transformation::Row>
   Transformation::row(const Index dof) const
   {
@@ -88,6 +97,7 @@ namespace Touchstone
 
 
 
+  // Collective where it is made: all ranks reach it in the same product.
   const Transformation::OwnRows &
   Transformation::own_rows() const
   {
@@ -95,6 +105,7 @@ namespace Touchstone
       return *made;
     auto result           = std::make_unique<OwnRows>();
     result->inhomogeneity = std::make_unique<Epetra_Vector>(dofs);
+    // Columns are the own dofs first, then those of other ranks that the lines refer to.
     LocalIndices           indices(dofs);
     std::vector<SparseRow> rows;
     for (int i = 0; i < dofs.NumMyElements(); ++i)
@@ -108,6 +119,7 @@ namespace Touchstone
         }
     result->entries = make_matrix(rows, indices, dofs);
     result->values  = std::make_unique<Epetra_Vector>(result->entries->RangeMap());
+    // D scales columns: the substitution of elongations is x = .. + s w (equation (23)).
     if (units)
       result->entries->RightScale(*units);
     made = std::move(result);
@@ -124,6 +136,8 @@ namespace Touchstone
 
 
 
+  // All rows are copied as those of the identity, then the others are overwritten. The identity
+  // needs no D, for dofs with units other than one have rows of their own.
   void
   Transformation::apply(const Epetra_Vector &y, Epetra_Vector &result) const
   {
@@ -136,6 +150,8 @@ namespace Touchstone
 
 
 
+  // Scatter: entries of rows that are not those of the identity go to the dofs that these refer
+  // to; what is left goes to its own dof. Contributions to dofs of other ranks are added there.
   void
   Transformation::apply_transposed(Epetra_Vector &x, Epetra_Vector &result) const
   {

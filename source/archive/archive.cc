@@ -10,6 +10,11 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
+// Writing the state of a run as pieces that do not depend on the partition, and reading it on any
+// number of ranks. The writer needs no communication. The reader makes the same mesh, finds the
+// cells of all pieces in it by their CellId, thereby learns which node of the file is which of
+// its own, and takes what belongs to its nodes and cells. Values go through unchanged, bit by
+// bit, so that a resumed run can repeat the one that was interrupted.
 namespace Touchstone
 {
   using namespace dealii;
@@ -18,6 +23,7 @@ namespace Touchstone
   {
     const char *const cells_block = "cells";
 
+    // deal.II's pack() compresses by default; it is switched off here and where blocks are packed.
     template <class T>
     T
     unpack(const std::vector<char> &bytes)
@@ -25,7 +31,10 @@ namespace Touchstone
       return Utilities::unpack<T>(bytes, /*allow_compression=*/false);
     }
 
-    /** The active cells of a rank: their ids, and the numbers of their nodes. */
+    /**
+     * The active cells of a rank: their ids, and the numbers of their nodes. All are in two flat
+     * lists, since boost would serialise one object per cell with an overhead each.
+     */
     struct CellList
     {
       static constexpr std::size_t id_size = std::tuple_size<CellId::binary_type>::value;
@@ -55,7 +64,9 @@ namespace Touchstone
       }
     };
 
-    /** A part of a field: the values of consecutive unknowns. */
+    /**
+     * A part of a field: the values of the consecutive dofs that one rank owns, from @p first on.
+     */
     struct FieldPart
     {
       Index               first = 0;
@@ -69,7 +80,11 @@ namespace Touchstone
       }
     };
 
-    /** Numbers of the nodes of a cell, in the order of the element. */
+    /**
+     * Numbers of the nodes of a cell, in the order of the element. That order is the same in
+     * every mesh, so nodes of equal position in the list of one cell are the same node. The dofs
+     * of a node are consecutive, so the first component tells its number.
+     */
     template <class Cell>
     std::vector<Index>
     nodes_of_cell(const Solid &solid, const Cell &cell)
@@ -82,7 +97,10 @@ namespace Touchstone
       return nodes;
     }
 
-    /** Visit the blocks of one kind with their names. */
+    /**
+     * Visit the blocks of one kind (prefix of ArchiveWriter) with their names: the reader need
+     * not know which fields a run has written.
+     */
     template <class Visitor>
     void
     for_each_block(const std::map<std::string, std::vector<char>> &blocks,
@@ -97,6 +115,8 @@ namespace Touchstone
 
 
 
+  // The list of cells comes first: all other blocks refer to the numbers of nodes and to the
+  // order of cells in it.
   ArchiveWriter::ArchiveWriter(const Solid &solid)
     : solid(solid)
   {
@@ -114,6 +134,7 @@ namespace Touchstone
 
 
 
+  // Only the first number and the values: owned dofs are contiguous.
   void
   ArchiveWriter::put_field(const std::string &name, const Vector &field)
   {
@@ -127,6 +148,8 @@ namespace Touchstone
 
 
 
+  // Values in the order of the list of cells; a cell may have any number of them, such as
+  // internal variables of its quadrature points.
   void
   ArchiveWriter::put_cells(const std::string                                           &name,
                            const std::function<std::vector<double>(unsigned int cell)> &values)
@@ -173,6 +196,8 @@ namespace Touchstone
 
 
 
+  // One piece is kept at a time: together they may be larger than the memory of one rank, and
+  // callers read them one after the other.
   const ArchiveReader::Blocks &
   ArchiveReader::piece(const unsigned int number) const
   {
@@ -197,6 +222,8 @@ namespace Touchstone
 
 
 
+  // The ancestors of all active cells, of @p level and finer. They determine the adaptive mesh:
+  // refining just these cells makes the active cells of the archive.
   std::set<CellId::binary_type>
   ArchiveReader::refined_cells(const unsigned int level) const
   {
@@ -213,7 +240,7 @@ namespace Touchstone
                      .insert(CellId(id.get_coarse_cell_id(), depth - 1, path.data())
                                .template to_binary<dim>())
                      .second)
-                break; // nor are those above it new
+                break; // its own ancestors are known, too
           }
       }
     return result;
@@ -221,6 +248,8 @@ namespace Touchstone
 
 
 
+  // Two passes over the pieces: the first finds cells and nodes, and compares the meshes before
+  // anything is used; the second takes fields, data of cells and records.
   void
   ArchiveReader::connect(const Solid &solid)
   {
@@ -228,6 +257,7 @@ namespace Touchstone
 
     std::map<CellId::binary_type, typename DoFHandler<dim>::active_cell_iterator> cells;
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      // Ghost cells, too: an owned node can lie in cells of which this rank owns none.
       if (!cell->is_artificial())
         cells.emplace(cell->id().template to_binary<dim>(), cell);
 
@@ -248,6 +278,8 @@ namespace Touchstone
             if (found == cells.end())
               continue;
             const auto nodes = nodes_of_cell(solid, found->second);
+            // All nodes of known cells, not only owned ones: records on this rank may refer to
+            // neighbours' nodes, and the owner of a node publishes its number below.
             for (unsigned int m = 0; m < std::min(n, nodes.size()); ++m)
               present_nodes[list.nodes[c * n + m]] = nodes[m];
             if (found->second->is_locally_owned() && n == nodes.size())
@@ -258,19 +290,23 @@ namespace Touchstone
           }
       }
     const auto &mesh = solid.dof_handler.get_triangulation();
+    // Each cell of the archive must be owned by just one rank, and the mesh must have no others.
+    // Decided by a sum, so that all ranks throw.
     if (Utilities::MPI::sum(found_cells, solid.communicator) != all_cells ||
         all_cells != mesh.n_global_active_cells())
       throw ArchiveError("it has another mesh, of " + std::to_string(all_cells) + " cells");
 
     for (unsigned int k = 0; k < n_pieces; ++k)
       {
-        const unsigned int i         = (rank + k) % n_pieces;
-        const Blocks      &all       = piece(i);
-        const auto         own_place = [&](const Index node) {
+        const unsigned int i   = (rank + k) % n_pieces;
+        const Blocks      &all = piece(i);
+        // The present number of a node of the file, if this rank owns it: each value is taken by
+        // its one owner.
+        const auto own_place = [&](const Index node) {
           const auto found = present_nodes.find(node);
           return found != present_nodes.end() && solid.owned.is_element(dim * found->second)
-                           ? found->second
-                           : invalid_index;
+                   ? found->second
+                   : invalid_index;
         };
         for_each_block(all, ArchiveWriter::field_prefix, [&](const auto &name, const auto &bytes) {
           const FieldPart part  = unpack<FieldPart>(bytes);
@@ -305,9 +341,12 @@ namespace Touchstone
           list.insert(list.end(), part.begin(), part.end());
         });
       }
+    // Entries were set by their owners only; compress() is collective nonetheless, and all ranks
+    // have the same fields since each reads all pieces.
     for (auto &[name, field] : fields)
       field.compress(VectorOperation::insert);
     translate_references(present_nodes, solid);
+    // Free the last piece: the data of this rank are taken out.
     present = numbers::invalid_unsigned_int;
     blocks.clear();
   }
@@ -318,7 +357,10 @@ namespace Touchstone
   ArchiveReader::translate_references(const std::unordered_map<Index, Index> &present_nodes,
                                       const Solid                            &solid)
   {
-    // A dictionary that is spread over the ranks: that of a node's old number is asked.
+    // Records refer to nodes that may be far away, such as the master nodes of a contact row, so
+    // no rank knows all of them. The translation of old number k is therefore held by rank k
+    // modulo the number of ranks: owners publish theirs there, all others ask there. No rank
+    // needs a table of all nodes.
     using Translations         = std::vector<std::pair<Index, Index>>;
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(solid.communicator);
     std::map<unsigned int, Translations> published;
@@ -329,6 +371,8 @@ namespace Touchstone
     for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, published))
       dictionary.insert(list.begin(), list.end());
 
+    // Each rank knows whom to ask, and answers come back in the same pattern; both exchanges are
+    // sparse.
     std::map<unsigned int, std::vector<Index>> questions;
     for (const auto &[name, list] : records)
       for (const auto &[node, record] : list)

@@ -16,6 +16,9 @@
 #include <sstream>
 #include <unistd.h>
 
+// Checkpoints on disk (format and order of writing: see the header). A checkpoint must be either
+// complete or recognised as incomplete, whatever interrupts the program: hence durable writing, a
+// rename at the end, and checksums that are verified before anything is read.
 namespace Touchstone
 {
   using namespace dealii;
@@ -26,6 +29,8 @@ namespace Touchstone
     const std::string first_line = "touchstone checkpoint, format 1";
     const std::string contents = "contents", parameters_file = "parameters.prm";
 
+    // An error that names the path and says what the user can do; all failures of writing end
+    // here.
     [[noreturn]] void
     fail(const std::string &path, const int code)
     {
@@ -51,14 +56,17 @@ namespace Touchstone
       return text;
     }
 
-    /** What `contents` says of a file, and what is true of it. */
+    /** The entry of a file in `contents`: its size in bytes and its CRC-32. */
     std::string
     size_and_checksum(const char *data, const std::size_t size)
     {
       return std::to_string(size) + " " + checksum(data, size);
     }
 
-    /** All bytes of a file. */
+    /**
+     * All bytes of a file. @throws std::runtime_error, which makes a candidate be skipped and
+     * does not end the run.
+     */
     std::vector<char>
     read(const std::string &path)
     {
@@ -71,7 +79,7 @@ namespace Touchstone
       return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
     }
 
-    /** Force a folder's list of names to the disk. */
+    /** Force the entries of a folder to the disk: fsync() of a file does not cover its name. */
     void
     synchronise(const std::string &path)
     {
@@ -88,7 +96,11 @@ namespace Touchstone
       close(descriptor);
     }
 
-    /** Write a file and force it to the disk. */
+    /**
+     * Write a file and force it to the disk. Calls of the system and not a stream, for only these
+     * report errors of writing that appear late (fsync, close), as on full or remote disks.
+     * write() may write a part, or be interrupted.
+     */
     void
     write_durably(const std::string &path, const char *data, const std::size_t size)
     {
@@ -112,7 +124,10 @@ namespace Touchstone
         fail(path, code);
     }
 
-    /** Names of the checkpoints in a folder by their numbers, complete or not. */
+    /**
+     * Names of the checkpoints in a folder by their numbers, complete or not. Folders that end in
+     * .part do not match: they were never complete. A folder that cannot be read has none.
+     */
     std::map<unsigned int, std::string>
     list(const std::string &directory)
     {
@@ -136,7 +151,9 @@ namespace Touchstone
     {
       const std::vector<char> bytes = read((fs::path(folder) / contents).string());
       const std::string       text(bytes.begin(), bytes.end());
-      const std::size_t       end = text.rfind("complete ");
+      // The last line is a checksum of all before it: a file that was cut off or changed is
+      // noticed before its table is believed.
+      const std::size_t end = text.rfind("complete ");
       if (text.compare(0, first_line.size(), first_line) != 0)
         throw std::runtime_error(text.compare(0, 21, first_line, 0, 21) == 0
                                    ? "it has another format than this program's"
@@ -183,12 +200,14 @@ namespace Touchstone
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator),
                        n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     FoundCheckpoint result;
-    // All ranks look at the same list, even if another program writes there.
+    // One rank lists the folder, so that all ranks try the same candidates even if another
+    // program writes there in the meantime.
     std::vector<std::pair<unsigned int, std::string>> candidates;
     if (rank == 0)
       for (const auto &[number, name] : list(directory.empty() ? "." : directory))
         candidates.emplace_back(number, name);
     candidates = Utilities::MPI::broadcast(communicator, candidates, 0);
+    // From the newest on; an older complete one is better than none.
     for (auto candidate = candidates.rbegin(); candidate != candidates.rend(); ++candidate)
       {
         Checkpoint  found;
@@ -197,7 +216,7 @@ namespace Touchstone
           {
             std::map<std::string, std::string> files;
             found = read_contents((fs::path(directory) / candidate->second).string(), files);
-            // The ranks share the files out among themselves.
+            // Each rank reads a share of the files, since checksums need every byte of them.
             unsigned int turn = 0;
             for (const auto &[name, expected] : files)
               if (turn++ % n_ranks == rank)
@@ -213,6 +232,8 @@ namespace Touchstone
           {
             problem = error.what();
           }
+        // All ranks must have found their share in order. Of several problems that of the lowest
+        // rank is reported, so the message does not depend on timing.
         const unsigned int first =
           Utilities::MPI::min(problem.empty() ? n_ranks : rank, communicator);
         if (first == n_ranks)
@@ -232,9 +253,10 @@ namespace Touchstone
   Checkpoints::Checkpoints(const OutputFolder                      &folder,
                            const std::shared_ptr<const Checkpoint> &present)
     : folder(folder)
-    // One that was read from another folder is not there to be kept.
+    // One that was read from another folder is not in this one and needs no protection.
     , previous(present ? present->name : "")
   {
+    // Numbers go on behind all that are there, also damaged ones: a name is never used twice.
     if (folder.rank == 0)
       for (const auto &[number, name] : list(folder.path("")))
         last_number = std::max(last_number, number);
@@ -253,6 +275,8 @@ namespace Touchstone
     std::snprintf(text, sizeof(text), "checkpoint_%06u", ++last_number);
     const std::string name = text, part = folder.path(name + ".part");
 
+    // Remains of an earlier attempt are removed. together() lets all ranks leave with the error
+    // of one, so no rank waits in a later collective call.
     folder.together([&]() {
       if (folder.rank != 0)
         return;
@@ -269,6 +293,10 @@ namespace Touchstone
     const std::vector<std::string> sums =
       Utilities::MPI::gather(folder.communicator, size_and_checksum(piece.data(), piece.size()));
 
+    // Only when all pieces are on the disk does rank 0 write the table of contents, then the
+    // folder gets its final name: rename() is atomic, so the name stands for a complete
+    // checkpoint. The second synchronise() makes the name itself durable, and only then are older
+    // checkpoints removed.
     folder.together([&]() {
       if (folder.rank != 0)
         return;
@@ -290,7 +318,8 @@ namespace Touchstone
         fail(folder.path(name), errno);
       synchronise(folder.path(""));
 
-      // This one and the last are kept. What cannot be removed does no harm.
+      // This one and the one before are kept, for the newest may turn out damaged. An old one that
+      // cannot be removed does no harm.
       std::error_code ignored;
       for (const auto &[number, other] : list(folder.path("")))
         if (other != name && other != previous)

@@ -108,17 +108,17 @@ namespace Touchstone
     /** @brief Empty. */
     BlockMatrix() = default;
 
-    /** @param symmetric Of each two blocks that are transposes of each other one counts. */
+    /** @param symmetric Of two blocks that are transposes of each other one is read and stored. */
     BlockMatrix(BlockRows &rows, bool symmetric);
 
-    /** @brief Of vectors that fit. */
+    /** @brief The layout of vectors that can be multiplied. */
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &
     vector_partitioner() const
     {
       return pattern->partitioner;
     }
 
-    /** @brief Make @p vector fit, with ghosts; its values are not set. */
+    /** @brief Give @p vector the layout of the rows, with ghosts; its values are not set. */
     void
     initialize_vector(VectorType &vector) const
     {
@@ -187,8 +187,8 @@ namespace Touchstone
       {
       }
 
-      /** @brief Of a node of this rank; valid until another one is read. What is read for
-       * one dof of a node after the other is put together once. */
+      /** @brief The row of a node of this rank; valid until another one is read. Repeated calls
+       * for the same node, one for each of its dofs, assemble the row once. */
       const Row &
       read(unsigned int node);
 
@@ -200,17 +200,18 @@ namespace Touchstone
 
   protected:
     std::shared_ptr<const BlockPattern> pattern;
-    /** Of the blocks of the pattern, column by column; one more is read behind. */
+    /** Of the blocks of the pattern, column by column, and one more number, since a register
+     * of four is loaded for the last column of three. */
     dealii::AlignedVector<Number> entries;
 
-    /** Make room for products and, unless they are there, for entries: zeros. */
+    /** Allocate the vectors of products and, unless they exist, the entries as zeros. */
     void
     allocate();
 
   private:
-    /** Vectors of a product, four numbers a node: of three, one node's would overlap in the
-     * registers with the next one's, which is being written. And what comes from other
-     * ranks and goes to them. */
+    /** Vectors of a product, padded to four numbers a node: a register of four numbers written
+     * to one node would otherwise overwrite the first number of the next. And the numbers
+     * received from other ranks (ghosts) and sent to them (imported). */
     mutable dealii::AlignedVector<Number> padded_in, padded_out, ghosts, imported;
   };
 } // namespace Touchstone

@@ -11,8 +11,7 @@
 
 namespace Touchstone
 {
-  /** @brief The rows of a Transformation, without units, by local index: each is
-   * looked up once. */
+  /** @brief Cache of the rows of a Transformation, without units, by local index. */
   class TransformationRows
   {
   public:
@@ -36,7 +35,8 @@ namespace Touchstone
   private:
     const Transformation &transformation;
     LocalIndices         &indices;
-    /** Number of the row of each dof; none, or not known yet. */
+    /** Index in rows of the row of each dof; or its row is that of the identity, or has not been
+     * asked of the transformation yet. */
     static constexpr int identity = -1, not_looked_up = -2;
     std::vector<int>     number;
     std::deque<Row>      rows;
@@ -67,14 +67,14 @@ namespace Touchstone
     take();
 
   private:
-    /** Where an index stands in the row; -1: not there. */
+    /** Position of an index in the row; -1: not in it. */
     std::vector<int> position;
     SparseRow        row;
   };
 
-  /** @brief What a condensed system is made of: S^T A T and S^T (b - A g) of a
-   * linear system A x = b with x = T y + g. All must live as long as what is made
-   * from it. */
+  /** @brief The input from which a condensed system is made, S^T A T and S^T (b - A g) of a
+   * linear system A x = b with x = T y + g. All objects must outlive the operators that are
+   * made from it. */
   struct CondensationInput
   {
     const LinearSystem &system;
@@ -94,8 +94,8 @@ namespace Touchstone
    *
    * A T is formed row by row, where a row of the stiffness meets a constrained
    * column and for contact terms; then each row of S^T (A T) gathers the rows
-   * that it stands for. Nothing is summed up twice, and what goes to other ranks
-   * is summed up before.
+   * of the test functions that depend on its dof. Rows for other ranks are summed up
+   * before they are sent.
    */
   class Condensation
   {
@@ -131,7 +131,7 @@ namespace Touchstone
     TransformationRows   trial, test;
     SparseRowAccumulator accumulator;
 
-    /** Which of the rows row() gives, by local index; -1: none. */
+    /** Index in rows of the row that replaces that of the stiffness, by local index; -1: none. */
     std::vector<int>       number;
     std::vector<SparseRow> rows;
 
@@ -139,7 +139,7 @@ namespace Touchstone
     std::vector<SparseRow> sources;
     std::vector<double>    source_values;
     std::vector<Part>      parts;
-    /** Marks rows of the stiffness that do not stand as they are. */
+    /** Marks rows of the stiffness that are replaced. */
     std::vector<char> replaced;
 
     SparseRow &
@@ -184,6 +184,7 @@ namespace Touchstone
     std::vector<unsigned int>
     owners(const std::vector<Index> &of_dofs) const;
 
+    /** Sum up the final rows of this rank from parts and sources. */
     void
     gather();
 

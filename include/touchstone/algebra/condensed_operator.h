@@ -15,8 +15,8 @@
 namespace Touchstone
 {
   /**
-   * @brief The matrix S^T A T of a condensed system, with units, as Krylov
-   * methods, preconditioners and factorisations ask for it: assembled once
+   * @brief The matrix S^T A T of a condensed system, with units, in the forms that Krylov
+   * methods, preconditioners and factorisations need: assembled once
    * (AssembledOperator) or applied factor by factor (AppliedOperator).
    */
   class CondensedOperator

@@ -87,8 +87,9 @@ namespace Touchstone
   private:
     const LinearSystem &system;
     const Epetra_Map    dofs;
-    /** Units of dofs and equations, other than one for elongations: an error of
-     * these counts as much then as one of a displacement. Null: all are one. */
+    /** Scales s of dofs and equations, x = s y, other than one for the elongations of springs
+     * (doc/theory.md, section 7, equation (23)), so that an error of these counts as much in the
+     * residual as one of a displacement. Null: all are one. */
     std::unique_ptr<Epetra_Vector> units;
     /** T and g; and S, null if it is T. */
     std::unique_ptr<Transformation>    trial, test;

@@ -79,24 +79,24 @@ namespace Touchstone
   };
 
   /**
-   * @brief Decides, in one place, which conditions are linearly independent (doc/theory.md,
+   * @brief Decides which conditions are linearly independent (doc/theory.md,
    * sections 6 and 7).
    *
-   * Conditions are offered in the order of their precedence: prescribed
+   * Conditions are added (accept()) in the order of their precedence: prescribed
    * displacements first, then contact. One whose direction is already determined
-   * by earlier conditions of the same node is refused: it would make the system
+   * by earlier conditions of the same node is rejected: it would make the system
    * singular or contradictory. Conditions at one node are kept in reduced form,
    * each with a component of its own that later ones do not contain.
    */
   class ConstraintGraph
   {
   public:
-    /** @brief Forget all conditions. */
+    /** @brief Remove all conditions. */
     void
     clear();
 
-    /** @brief How a condition is met: by elimination of a dof, or by a
-     * multiplier or a spring that somebody else adds. */
+    /** @brief How a condition is enforced: by elimination of a dof, or by a multiplier or a
+     * spring, whose terms the caller adds to the linear system. */
     enum class Treatment
     {
       eliminate,
@@ -104,8 +104,8 @@ namespace Touchstone
       spring
     };
 
-    /** @brief Take note of a condition. @return false if it depends on earlier
-     * ones and was refused. */
+    /** @brief Add a condition. @return false if it depends linearly on earlier ones and was
+     * rejected. */
     bool
     accept(const Condition &condition, Treatment treatment = Treatment::eliminate);
 
@@ -252,7 +252,7 @@ namespace Touchstone
 
     std::vector<Condition>                         conditions;
     std::map<Index, std::vector<ReducedCondition>> nodes;
-    /** Number of each condition among those of its node. */
+    /** Index of each accepted condition among those of its node. */
     std::vector<unsigned int> numbers;
 
     /** Substitute the conditions of the same node into @p reduced. */

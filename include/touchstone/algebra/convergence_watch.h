@@ -15,7 +15,7 @@ namespace Touchstone
   };
 
   /**
-   * @brief Looks at the residuals of an iteration and foresees how many steps it would take.
+   * @brief Extrapolates from the residuals of an iteration how many steps it would take.
    *
    * Residuals are the same on all ranks, and so is what is thrown.
    */
@@ -44,7 +44,7 @@ namespace Touchstone
     void
     next(double residual);
 
-    /** @brief The next residual is not known. */
+    /** @brief Count an iteration whose residual is not computed. */
     void
     skip()
     {
@@ -64,9 +64,9 @@ namespace Touchstone
   };
 
   /**
-   * @brief Whether multigrid has failed for good: at once in a symmetric system, where the bodies
-   * are to blame, and after three solves on end in unsymmetric ones, where a Newton iterate
-   * with wild forces of friction may be.
+   * @brief Whether multigrid is given up for the rest of the run: after one failure in a symmetric
+   * system, where the bodies are the cause, and after three successive failures in unsymmetric
+   * ones, where the cause may be a single Newton iterate with large forces of friction.
    */
   class Strikes
   {

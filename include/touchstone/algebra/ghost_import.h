@@ -11,8 +11,8 @@
 
 namespace Touchstone
 {
-  /** @brief Copies vectors to vectors with ghosts, again and again: deal.II's assignment
-   * plans the messages anew each time. */
+  /** @brief Copies vectors to vectors with ghosts by a communication plan that is made once;
+   * deal.II's assignment makes a new one in each call. */
   class GhostImport
   {
   public:

@@ -49,8 +49,8 @@ namespace Touchstone
     void
     solve(const CondensedSystem &system, const RigidMotions &motions, Epetra_Vector &solution);
 
-    /** @brief Registered names of those whose keys it heeds: its own, and those of the solvers and
-     * preconditioners that it uses. Other keys are refused where a scene sets them. */
+    /** @brief Registered names of the solvers and preconditioners whose keys it uses, itself
+     * included. An input file that sets keys of others is rejected. */
     virtual std::set<std::string>
     used_options() const
     {
@@ -64,7 +64,7 @@ namespace Touchstone
       return true;
     }
 
-    /** @brief Whether it heeds the key `Preconditioner`. */
+    /** @brief Whether it uses the key `Preconditioner`. */
     virtual bool
     takes_preconditioner() const
     {
@@ -100,8 +100,9 @@ namespace Touchstone
       return false;
     }
 
-    /** @brief Drop factors and preconditioners that are kept from one solve for the next: a run
-     * that resumes from a checkpoint has none, and must go on in the same way. Collective. */
+    /** @brief Drop factors and preconditioners that are kept from one solve for the next. Done
+     * where a checkpoint is written: a run that resumes from it has none, and must give the same
+     * results as the run that continues. Collective. */
     virtual void
     clear_cache()
     {
@@ -122,11 +123,12 @@ namespace Touchstone
     const LinearSolverParameters parameters;
     LinearSolverCounts           count;
 
-    /** @brief Have @p text told once, also after clear_cache(). */
+    /** @brief Add @p text to the remarks unless it has been one before. */
     void
     remark(const std::string &text);
 
-    /** @brief Let @p other solve: the part of solve() that is its own. @throws as solve() */
+    /** @brief Let @p other solve, without the checks of solve(), which this solver makes itself.
+     * @throws as solve() */
     static void
     delegate(LinearSolver          &other,
              const CondensedSystem &system,

@@ -54,12 +54,12 @@ namespace Touchstone
     void
     solve(const Epetra_Vector &rhs, Epetra_Vector &solution);
 
-    /** @brief Give up the copy of the matrix, by which the next call of factorise() would see that
-     * nothing has changed. */
+    /** @brief Free the copy of the matrix with which factorise() compares the next one to find
+     * out what has changed. */
     void
     release_matrix();
 
-    /** @brief Give up the factors and their memory. Collective. */
+    /** @brief Free the factors. Collective. */
     void
     clear();
 

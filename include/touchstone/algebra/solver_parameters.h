@@ -18,7 +18,7 @@ namespace Touchstone
    * @brief Keys of a linear solver or preconditioner of its own, registered under its name. They
    * stand in the section "Linear solver" whatever solver is chosen, since solvers use each other
    * ("automatic" uses MUMPS), so their names are unlike those of all others of the section; a
-   * scene that sets keys of a solver that it does not use is refused.
+   * scene that sets keys of a solver that it does not use is rejected.
    */
   using LinearSolverOptionsRegistry = Registry<PluginParameters>;
 
@@ -31,12 +31,12 @@ namespace Touchstone
      * Newton iteration (inexact Newton); no unit. */
     double       tolerance          = 1e-4;
     unsigned int maximum_iterations = 2000;
-    /** Iterations of GMRES after which it starts anew, to save memory. */
+    /** Iterations of GMRES between restarts, which bound its memory. */
     unsigned int restart = 100;
     /** Of the Krylov solvers of Belos: a name of PreconditionerRegistry. */
     std::string preconditioner = "multigrid";
-    /** No key: an iterative solver fails at once if it would take more iterations than these;
-     * 0: it goes on. */
+    /** Not a key of the input: an iterative solver fails as soon as it is expected to take more
+     * iterations than these; 0: no limit of this kind. */
     unsigned int patience = 0;
     /** Of iterative solvers: "applied" or "assembled". */
     std::string contact_operator = "applied";

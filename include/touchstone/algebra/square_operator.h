@@ -8,8 +8,8 @@
 
 namespace Touchstone
 {
-  /** @brief What Epetra asks of every operator, for one over the dofs of a map that
-   * is applied, or applied as an inverse, and nothing else. */
+  /** @brief Default implementation of Epetra's interface for a square operator over the dofs of a
+   * map, of which derived classes implement Apply() or ApplyInverse() only. */
   class SquareOperator : public Epetra_Operator
   {
   public:

@@ -21,8 +21,8 @@ namespace Touchstone
   /** @brief Entries of a sparse row, by local index. */
   using SparseRow = std::vector<std::pair<int, double>>;
 
-  /** @brief Local indices: those of a map, then those of others in the order in
-   * which they are first asked for. */
+  /** @brief Local indices: those of a map, then those of other dofs in the order in which
+   * local() is first called for them. */
   class LocalIndices
   {
   public:

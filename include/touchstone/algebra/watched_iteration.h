@@ -15,7 +15,8 @@
 
 namespace Touchstone
 {
-  /** @brief Watches conjugate gradients, which apply the preconditioner to their residual. */
+  /** @brief Passes the residuals of conjugate gradients to a ConvergenceWatch: these apply the
+   * preconditioner to their residual once an iteration. */
   class WatchedPreconditioner : public SquareOperator
   {
   public:
@@ -45,7 +46,8 @@ namespace Touchstone
     ConvergenceWatch      &watch;
   };
 
-  /** @brief Watches GMRES, which knows its residual. */
+  /** @brief Passes the residuals of GMRES to a ConvergenceWatch. It never stops the iteration as a
+   * status test; the watch throws. */
   class WatchingTest : public Belos::StatusTest<double, Epetra_MultiVector, Epetra_Operator>
   {
   public:

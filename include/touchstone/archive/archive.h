@@ -30,15 +30,15 @@
 
 namespace Touchstone
 {
-  /** @brief Pieces that cannot be what the program has written, or was looking for. */
+  /** @brief Pieces that this program has not written, or that are of another scene. */
   class ArchiveError : public std::runtime_error
   {
   public:
     using std::runtime_error::runtime_error;
   };
 
-  /** @brief What is known of a node: numbers, nodes that it refers to, which may be of any
-   * rank, and keys that mean the same in any partition. */
+  /** @brief Data of a node: values, nodes that it refers to, which may be of any rank, and keys
+   * that mean the same in any partition. */
   struct NodeRecord
   {
     Index                      node = invalid_index;
@@ -54,7 +54,7 @@ namespace Touchstone
     }
   };
 
-  /** @brief Pairs of keys, a whole that every rank knows a part of. */
+  /** @brief Pairs of keys: a distributed set, of which each rank contributes a part. */
   using KeyPairs = std::vector<std::pair<std::uint64_t, std::uint64_t>>;
 
   /** @brief Gathers the state of this rank. Names are free, but each is given once. */
@@ -72,11 +72,11 @@ namespace Touchstone
       put_block(value_prefix + name, value);
     }
 
-    /** @brief A field over the unknowns, without ghosts. */
+    /** @brief A field over the dofs, without ghosts. */
     void
     put_field(const std::string &name, const Vector &field);
 
-    /** @brief Data of cells, as many numbers as they like.
+    /** @brief Data of cells, any number of values for each.
      * @param values Called with the active cell index of each owned cell. */
     void
     put_cells(const std::string                                           &name,
@@ -147,8 +147,9 @@ namespace Touchstone
     std::set<dealii::CellId::binary_type>
     refined_cells(unsigned int level) const;
 
-    /** @brief Find out which node and cell is which, and take this rank's share of all
-     * pieces. Collective. @throws ArchiveError, on all ranks, if the mesh is another. */
+    /** @brief Match nodes and cells of the pieces with those of the mesh of @p solid, and read this
+     * rank's share of all pieces. Collective. @throws ArchiveError, on all ranks, if the mesh is
+     * another. */
     void
     connect(const Solid &solid);
 

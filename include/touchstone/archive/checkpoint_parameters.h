@@ -9,7 +9,7 @@
 
 namespace Touchstone
 {
-  /** @brief Section "Checkpoints": from which a run that was stopped goes on. */
+  /** @brief Section "Checkpoints": when to write checkpoints, from which a run can resume. */
   struct CheckpointParameters
   {
     /** Write one every so many steps; 0: not by steps. */

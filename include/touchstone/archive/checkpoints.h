@@ -61,7 +61,7 @@ namespace Touchstone
   {
     /** Null if there is none. */
     std::shared_ptr<const Checkpoint> checkpoint;
-    /** About those that are not. */
+    /** Messages about newer ones that are incomplete or damaged. */
     std::vector<std::string> skipped;
   };
 
@@ -74,8 +74,8 @@ namespace Touchstone
   {
   public:
     /** @param folder  Must outlive this object.
-     * @param present The one that the run goes on from, or null: then older ones are
-     *                another run's, and go when the first has been written. */
+     * @param present The one that the run resumes from, or null: then older ones are
+     *                another run's, and are removed when the first has been written. */
     Checkpoints(const OutputFolder &folder, const std::shared_ptr<const Checkpoint> &present);
 
     /** @brief Write one. Collective.
@@ -90,7 +90,7 @@ namespace Touchstone
 
   private:
     const OutputFolder &folder;
-    /** The last one that this run has written or gone on from. */
+    /** Name of the last one that this run has written or resumed from. */
     std::string  previous;
     unsigned int last_number = 0;
   };

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <map>
 
+// Which nodes form one aggregate of smoothed aggregation: greedy, in three passes over the graph
+// of strong couplings, on each rank by itself (doc/theory.md, section 8). Aggregates never cross
+// bodies or ranks.
 namespace Touchstone
 {
   namespace
@@ -32,6 +35,8 @@ namespace Touchstone
   Aggregates
   aggregate(std::vector<std::vector<int>> graph, const std::vector<unsigned int> &body)
   {
+    // Couplings between bodies come from contact that has been condensed; they must not form
+    // aggregates, see the header.
     const int n_nodes = static_cast<int>(graph.size());
     for (int i = 0; i < n_nodes; ++i)
       {
@@ -52,11 +57,16 @@ namespace Touchstone
           of_node[j] = result.n;
       of_node[root] = result.n++;
     };
-    // Whole neighbourhoods that do not overlap.
+    // First pass: nodes whose neighbourhoods are still free become roots, with all their
+    // neighbours. So aggregates are about three nodes wide, the width for which one step of
+    // Jacobi's method smooths them enough.
     for (int i = 0; i < n_nodes; ++i)
       if (free(i) && !graph[i].empty() && std::all_of(graph[i].begin(), graph[i].end(), free))
         gather(i);
-    // What is left between them joins one of them; what touches none makes its own.
+    // Second pass: nodes left between these join the neighbouring aggregate to which most of
+    // their neighbours belong. Only aggregates of the first pass count, or they would grow in
+    // chains. Third pass: what touches none forms its own with its free neighbours, or joins one
+    // of the second pass.
     const std::vector<int> whole = of_node;
     for (int i = 0; i < n_nodes; ++i)
       if (free(i))

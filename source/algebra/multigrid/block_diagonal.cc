@@ -9,10 +9,14 @@
 #include <cmath>
 #include <string>
 
+// Block Jacobi scaling, the simplest preconditioner that knows nodes, as a yardstick for
+// multigrid.
 namespace Touchstone
 {
   namespace
   {
+    // Registered as 'diagonal'. It is not multilevel, so a large number of iterations is expected
+    // and no reason to take factors instead (Preconditioner::multilevel()).
     class BlockDiagonalScaling : public Preconditioner
     {
     public:
@@ -37,6 +41,8 @@ namespace Touchstone
 
 
 
+  // Singular blocks are counted over all ranks before anything is thrown, so that all ranks
+  // throw.
   BlockDiagonal::BlockDiagonal(const Epetra_Map &map, BlockRows &rows)
     : SquareOperator(map, "block diagonal")
     , inverse(rows.n_nodes())
@@ -51,7 +57,9 @@ namespace Touchstone
             for (unsigned int r = 0; r < dim; ++r)
               for (unsigned int c = 0; c < dim; ++c)
                 block[r][c] += row.blocks[k][dim * r + c];
-        // Relative to what it could be: stiffness has no scale of its own.
+        // |det| is compared with the product of the lengths of the rows, its upper bound
+        // (Hadamard), since stiffnesses have no natural scale; the comparison is negated so that
+        // NaN counts as singular.
         double scale = 1.;
         for (unsigned int r = 0; r < dim; ++r)
           scale *= block[r].norm();

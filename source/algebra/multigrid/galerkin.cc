@@ -9,6 +9,11 @@
 #include <array>
 #include <map>
 
+// The matrix of the next coarser level, P^T A P (doc/theory.md, section 8). Node by node: one
+// block row of A P is formed and at once multiplied by the blocks of P^T of that node, so A P is
+// never stored. Ranks add up the rows of all aggregates that their nodes contribute to, then send
+// those of other ranks to the owners. Sums are in double precision, although P is in single
+// precision, because rigid motions have almost no energy: their entries are small differences.
 namespace Touchstone
 {
   using namespace dealii;
@@ -17,22 +22,24 @@ namespace Touchstone
   {
     constexpr unsigned int n_modes = Prolongation::n_modes;
 
-    /** A block of P for ranks that refer to its node. */
+    /** A block of P, in the message to a rank whose rows of A refer to its node. */
     struct SentBlockOfP
     {
       Index                            node, aggregate; // global indices
       std::array<float, dim * n_modes> entries;
     };
 
-    /** A block of P^T A P for the rank that owns its row. */
+    /** A block of P^T A P, in the message to the rank that owns its row. */
     struct SentCoarseBlock
     {
       Index                                 row, column; // aggregates, global indices
       std::array<double, n_modes * n_modes> entries;
     };
 
-    /** Rows of P over nodes, by local indices of nodes: where their blocks and the columns
-     * of these begin, and how many there are. */
+    /**
+     * Where the blocks of a row of P begin and what their columns are, by local index of the
+     * node; so own rows and those of other ranks, which are stored differently, are read alike.
+     */
     struct RowOfP
     {
       const float        *entries;
@@ -66,12 +73,18 @@ namespace Touchstone
           double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 + double(p[2 * n_modes + i]) * ap2;
     }
 
-    /** The rows of aggregates as those of their nodes. */
+    /**
+     * The rows of aggregates as those of nodes: the six dofs of an aggregate are two nodes of
+     * three, so a 6 x 6 block is 2 x 2 blocks of 3 x 3 and coarse levels need no code of their
+     * own.
+     */
     class AggregateRows : public BlockRows
     {
     public:
       /** @param rows By global indices of aggregates.
        *  @param coarse Has the dofs of this rank. */
+      // The layout of the coarse level with the columns of its rows as ghosts. They reach further
+      // than those of P: two aggregates are coupled if any of their smoothed columns overlap.
       AggregateRows(std::vector<Prolongation::AggregateRow> &&rows, const Partitioner &coarse)
         : BlockRows(make_partitioner(rows, coarse))
         , rows(std::move(rows))
@@ -79,7 +92,9 @@ namespace Touchstone
         const int first = static_cast<int>(partitioner->local_range().first / n_modes);
         for (unsigned int row = 0; row < this->rows.size(); ++row)
           {
-            // A motion that the aggregate does not have stands alone.
+            // A motion that the aggregate does not have (one node has no rotations, a straight
+            // row of nodes none about itself) is a zero column of P and a zero row here: a one on
+            // the diagonal keeps the matrix regular, and the motion stays zero.
             Prolongation::AggregateBlock &own = this->rows[row].at(first + static_cast<int>(row));
             for (unsigned int i = 0; i < n_modes; ++i)
               if (own[i][i] == 0.)
@@ -143,6 +158,9 @@ namespace Touchstone
 
 
 
+  // Rows of P of nodes on other ranks that rows of A refer to. The owner of a node knows from the
+  // partitioner who has it as a ghost and sends without being asked; one message per pair of
+  // ranks.
   std::vector<Prolongation::FarRow>
   Prolongation::far_rows() const
   {
@@ -182,6 +200,8 @@ namespace Touchstone
 
 
 
+  // This rank's contribution: the nodes that it owns, all aggregates that these belong to.
+  // Smoothing extends P by one layer, so aggregates of neighbouring ranks are among them.
   std::vector<Prolongation::AggregateRow>
   Prolongation::part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const
   {
@@ -218,6 +238,8 @@ namespace Touchstone
 
 
 
+  // Columns become global indices first, as local ones mean nothing to other ranks, and are
+  // sorted again, for AggregateRow::at() searches by bisection.
   void
   Prolongation::sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const
   {
@@ -228,7 +250,8 @@ namespace Touchstone
         std::sort(part.positions.begin(), part.positions.end());
       }
 
-    // What belongs to other ranks goes there.
+    // The rows of aggregates of other ranks are the last ones, in the order of ghost_targets():
+    // they are sent block by block and then dropped here.
     std::map<unsigned int, std::vector<SentCoarseBlock>> messages;
     const unsigned int n_mine = coarse->locally_owned_size() / n_modes;
     unsigned int       row    = n_mine;

@@ -9,25 +9,39 @@
 #include <cstdlib>
 #include <string>
 
+// Set-up of the levels and the V-cycle of smoothed aggregation (doc/theory.md, section 8). A
+// level is a matrix in single precision, its Chebyshev smoother, and the prolongation from the
+// next level; on the coarsest one KLU factorises in double precision. As a preconditioner a
+// V-cycle has to be accurate to a few digits only.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** Degree of the polynomials, and largest over smallest eigenvalue that they smooth. */
+    /**
+     * Degree of the polynomials, and the part of the spectrum that they smooth: from the largest
+     * eigenvalue to a twentieth of it. Lower modes are smooth and left to the coarse level.
+     * Unlike Gauss-Seidel, a polynomial needs products alone, is the same on any number of ranks
+     * and symmetric, as conjugate gradients require.
+     */
     constexpr int    degree = 3;
     constexpr double range  = 20.;
 
-    /** Conjugate gradients that estimate the largest eigenvalue, and what deal.II adds to
-     * the estimate. */
+    /**
+     * Conjugate gradients that estimate the largest eigenvalue, and the factor by which deal.II
+     * enlarges the estimate, which bounds it from below; largest_eigenvalue() divides by it.
+     */
     constexpr unsigned int estimate_iterations = 10;
     constexpr double       margin              = 1.2;
 
-    /** Dofs of a system that is solved directly. */
+    /** Size at and below which a level is solved directly: too small for several ranks to gain. */
     constexpr Index few = 1000;
 
-    /** Whatever one rank meets, all leave. */
+    /**
+     * Throw on all ranks if a call of Amesos failed on any, or the others would wait for ever in
+     * their next collective call.
+     */
     void
     check(int error, const Epetra_Comm &communicator)
     {
@@ -42,6 +56,8 @@ namespace Touchstone
 
 
 
+  // The diagonal D is the inner preconditioner of the polynomial: eigenvalues are those of
+  // D^-1 A.
   Multigrid::Level::Level(BlockRows &rows, const bool symmetric)
     : matrix(rows, symmetric)
   {
@@ -61,11 +77,15 @@ namespace Touchstone
                        const bool                       symmetric)
     : SquareOperator(map, "smoothed aggregation")
   {
+    // Bodies by node; motions.body is by dof.
     const Epetra_MultiVector *modes = &near_kernel;
     std::vector<unsigned int> bodies(map.NumMyElements() / dim);
     for (unsigned int node = 0; node < bodies.size(); ++node)
       bodies[node] = body[dim * node];
     unsigned int group = 1;
+    // From fine to coarse until few dofs are left. The rows of a level are made by the Galerkin
+    // product of the one above and are read twice, for the copy in single precision and for the
+    // next product in double.
     while (rows->numbers()->size() > few)
       {
         levels.push_back(std::make_unique<Level>(*rows, symmetric));
@@ -76,8 +96,9 @@ namespace Touchstone
         const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
         if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
           {
-            // Where nothing is coupled, smoothing is all; what is left of bodies and ranks
-            // that are many is sparse and goes to the direct solver.
+            // The coarse level is hardly smaller. On the finest level nothing is coupled then, and
+            // smoothing is enough. On a later one few nodes are left of many bodies and ranks; as
+            // this matrix is sparse, the direct solver takes it although it is larger than usual.
             if (levels.size() == 1)
               return;
             levels.pop_back();
@@ -120,6 +141,8 @@ namespace Touchstone
 
 
 
+  // The coarsest matrix is regular: motions without stiffness got a one on their diagonal
+  // (AggregateRows), or else KLU reports it. Its rows stay distributed; Amesos gathers them.
   void
   Multigrid::make_coarsest(BlockRows &rows)
   {
@@ -170,6 +193,9 @@ namespace Touchstone
 
 
 
+  // V-cycle from zero: smooth, correct by the coarser level, smooth again by the same polynomial,
+  // so that the operator is symmetric. The outer level has double and the others single
+  // precision, hence the template; without a prolongation the level is smoothed only.
   template <typename Number>
   void
   Multigrid::cycle(const unsigned int k, const Number *rhs, Number *solution) const

@@ -8,6 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+// The prolongation of smoothed aggregation, P = (1 - omega D^-1 A) P_0 (doc/theory.md, section
+// 8). P_0 has the rigid motions of each aggregate as orthonormal columns and thus interpolates
+// rigid motions of bodies exactly; one step of Jacobi's method lowers the energy of the columns
+// at the edges of aggregates, where they jump to zero.
 namespace Touchstone
 {
   using namespace dealii;
@@ -19,7 +23,12 @@ namespace Touchstone
     /** Square, by rows. */
     using Factor = std::array<double, Prolongation::n_modes * Prolongation::n_modes>;
 
-    /** The groups of nodes of this rank to which each of them is coupled. */
+    /**
+     * The groups of nodes of this rank to which each group is strongly coupled: |a_ij| >
+     * weak_coupling sqrt(a_ii a_jj) for any pair of their dofs. Along weak couplings, such as
+     * the long edges of flat cells, an error need not be smooth after smoothing, and an aggregate
+     * could not represent it.
+     */
     std::vector<std::vector<int>>
     couplings(BlockMatrix<float>::Rows &matrix,
               const std::vector<float> &diagonal,
@@ -58,8 +67,11 @@ namespace Touchstone
       return graph;
     }
 
-    /** Orthonormal columns from the motions of an aggregate, in place, and the factor that
-     * takes them back; columns that depend on those before them become zero. */
+    /**
+     * QR factorisation of the motions of an aggregate by Gram-Schmidt: orthonormal columns in
+     * place, and the factor R, which gives the rigid motions on the coarse level. Columns that
+     * depend on those before them, as rotations of a single node do, become zero.
+     */
     Factor
     orthonormalise(std::vector<Modes> &q)
     {
@@ -94,8 +106,10 @@ namespace Touchstone
 
     using GhostedVector = LinearAlgebra::distributed::Vector<double>;
 
-    /** A vector with the values of all ranks that @p partitioner refers to; copies of it
-     * lose those of the others. */
+    /**
+     * A vector of own values with those of ghosts. It is returned behind a pointer to const,
+     * since a copy would lose the values of the ghosts.
+     */
     std::unique_ptr<const GhostedVector>
     with_ghosts(const std::shared_ptr<const Partitioner> &partitioner,
                 const std::vector<double>                &values)
@@ -106,8 +120,11 @@ namespace Touchstone
       return result;
     }
 
-    /** row += (1 - damping A) P_0, of a node: a motion of its own, if it is in an aggregate, less
-     * those that its neighbours take. */
+    /**
+     * row += (1 - damping A) P_0 for one node, with damping = omega D^-1: the motion of its own
+     * aggregate, if it is in one, less the forces that the motions of its own and neighbouring
+     * nodes cause.
+     */
     TOUCHSTONE_VECTORISED void
     add_smoothed(const BlockMatrix<float>::Rows::Row &of_matrix,
                  const unsigned int                   node,
@@ -133,7 +150,10 @@ namespace Touchstone
           }
     }
 
-    /** Of nodes that belong to no aggregate. */
+    /**
+     * Marks nodes that belong to no aggregate: those without strong couplings, such as
+     * constrained ones. Their rows of P have entries of neighbouring aggregates only.
+     */
     constexpr double no_aggregate = -1.;
   } // namespace
 
@@ -156,7 +176,9 @@ namespace Touchstone
     BlockMatrix<float>::Rows rows(matrix);
     const Aggregates         aggregates = aggregate(couplings(rows, diagonal, group), body);
 
-    // Motions of each aggregate, orthonormal.
+    // P_0: the near-kernel restricted to the nodes of each aggregate, orthonormal by QR. Q are
+    // columns of P_0, in six vectors over the dofs of this level; R are the values of the
+    // near-kernel on the coarse level, so that P_0 R reproduces it exactly there.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);
     for (unsigned int node = 0; node < n_nodes; ++node)
       if (aggregates.of_node[node / group] >= 0)
@@ -190,10 +212,13 @@ namespace Touchstone
             (*coarse_kernel)[m][n_modes * a + i] = factor[n_modes * i + m];
       }
 
+    // Nothing is coupled, on any rank.
     if (coarse_map.NumGlobalElements() == 0)
       return;
 
-    // With those of the neighbouring ranks.
+    // Aggregates and motions of ghost nodes, exchanged as vectors over the dofs: the number of an
+    // aggregate travels as a double, which is exact. Aggregates met there are the ghosts of the
+    // coarse level.
     const auto                                        aim = with_ghosts(fine, target);
     std::vector<std::unique_ptr<const GhostedVector>> shape;
     for (const auto &values : tentative)
@@ -211,7 +236,8 @@ namespace Touchstone
     ghosts.add_indices(far.begin(), far.end());
     coarse = std::make_shared<Partitioner>(owned, ghosts, fine->get_mpi_communicator());
 
-    // P = (1 - omega D^-1 A) P_0, with the omega that makes the motions cost the least.
+    // P = (1 - omega D^-1 A) P_0. omega = 4/3 over the largest eigenvalue of D^-1 A minimises the
+    // bound of the energy of the smoothed motions (Vanek, Mandel and Brezina 1996).
     std::vector<int>   column_of(n_local / dim, -1);
     std::vector<float> tentative_blocks(block * column_of.size() + 2);
     for (unsigned int node = 0; node < column_of.size(); ++node)
@@ -227,7 +253,8 @@ namespace Touchstone
     const double          omega = 4. / 3. / largest;
     RowOfBlocks<NodeRows> row;
     start.push_back(0);
-    // Seldom more; what is not used is address space and no memory.
+    // More than eight aggregates in a row of P are rare; memory that is reserved and not touched
+    // costs address space only.
     constexpr std::size_t enough = 8;
     column.reserve(enough * n_nodes);
     entries.reserve(block * enough * n_nodes + 2);
@@ -252,6 +279,8 @@ namespace Touchstone
 
 
 
+  // Rows of own nodes only, so values of ghosts are needed at the coarse level and none are
+  // written.
   void
   Prolongation::prolongate_and_add(VectorType &to, const VectorType &from) const
   {
@@ -273,6 +302,8 @@ namespace Touchstone
 
 
 
+  // The exact transpose, or the cycle would not be symmetric: sums for aggregates of other ranks
+  // are collected in the ghosts, and compress() adds them where they belong.
   void
   Prolongation::restrict_to(VectorType &to, const VectorType &from) const
   {

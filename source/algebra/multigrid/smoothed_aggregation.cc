@@ -6,6 +6,8 @@
 #include <Ifpack_PointRelaxation.h>
 #include <Teuchos_ParameterList.hpp>
 
+// Registers the preconditioner 'multigrid', and takes one sweep of Gauss-Seidel in its place
+// where inertia makes the system easy, as in dynamics with small steps.
 namespace Touchstone
 {
   namespace
@@ -32,8 +34,11 @@ namespace Touchstone
 
 
 
-    /** Resistance to rigid motions over that of single dofs, away from constrained
-     * ones: zero but for inertia. Collective. */
+    /**
+     * Ratio of the resistance to a translation t, t^T A t, to that of the single dofs, t^T D t,
+     * in rows of dofs without conditions. Stiffness resists a translation beside constrained dofs
+     * only, so the ratio is small unless there is inertia. Collective.
+     */
     double
     stiffness_of_motions(const CondensedSystem &system, const RigidMotions &motions)
     {

@@ -10,7 +10,7 @@ namespace Touchstone
   /** @brief Couplings weaker than this, over the diagonal, do not count for aggregates. */
   constexpr double weak_coupling = 0.003;
 
-  /** @brief Nodes that stand for one on the next coarser level of multigrid. */
+  /** @brief Groups of nodes; each becomes one unit of the next coarser level of multigrid. */
   struct Aggregates
   {
     /** By node, counted from 0; -1: none. */

@@ -21,8 +21,8 @@ namespace Touchstone
   /**
    * @brief Multigrid by smoothed aggregation, for systems of displacements.
    *
-   * All levels work in single precision on 3 x 3 blocks, for their speed is that of the
-   * memory; what is left of a few dofs is solved directly (KLU, by Amesos).
+   * All levels work in single precision on 3 x 3 blocks, since the memory bandwidth bounds their
+   * speed; the coarsest system, of few dofs, is solved directly (KLU, by Amesos).
    *
    * Vanek, Mandel and Brezina (1996), Computing 56; smoothing by Chebyshev polynomials:
    * Adams, Brezina, Hu and Tuminaro (2003), J. Comput. Phys. 188.
@@ -69,7 +69,7 @@ namespace Touchstone
 
     std::vector<std::unique_ptr<Level>> levels;
 
-    /** What is solved directly. */
+    /** The coarsest level, which is solved directly. */
     std::unique_ptr<Epetra_CrsMatrix>  coarsest_matrix;
     std::unique_ptr<Epetra_Vector>     coarsest_rhs, coarsest_solution;
     Epetra_LinearProblem               coarsest_problem;

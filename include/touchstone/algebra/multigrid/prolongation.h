@@ -17,8 +17,8 @@
 namespace Touchstone
 {
   /**
-   * @brief Takes corrections from a level of multigrid to the next finer one, and forces
-   * back: smoothed aggregation.
+   * @brief Transfer between two levels of multigrid by smoothed aggregation: prolongates
+   * corrections to the finer level and restricts residuals to the coarser one.
    *
    * Three dofs make a node, on all levels. An aggregate() of the finer level has six
    * on the coarser one, its rigid motions: a pair of nodes there, which stay together. They
@@ -97,7 +97,7 @@ namespace Touchstone
       return body_of_aggregate;
     }
 
-    /** @brief Make @p vector fit the coarser level, with ghosts. */
+    /** @brief Give @p vector the layout of the coarser level, with ghosts. */
     void
     initialize_coarse_vector(VectorType &vector) const
     {
@@ -120,7 +120,8 @@ namespace Touchstone
      * the blocks, row by row. */
     std::vector<std::size_t>  start;
     std::vector<unsigned int> column;
-    /** Read beyond their end, as those of FarRow. */
+    /** Two more numbers than there are entries, like those of FarRow: rows of six are loaded as
+     * registers of eight (PaddedRows). */
     std::vector<float> entries;
 
     std::unique_ptr<Epetra_MultiVector> coarse_kernel;
@@ -141,8 +142,8 @@ namespace Touchstone
     std::vector<AggregateRow>
     part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const;
 
-    /** @brief Make of @p parts the rows of this rank's aggregates, with the parts of all
-     * ranks, by the global indices of aggregates. */
+    /** @brief Sum up the parts of all ranks: on return @p parts are the rows of this rank's
+     * aggregates, by the global indices of aggregates. */
     void
     sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const;
   };

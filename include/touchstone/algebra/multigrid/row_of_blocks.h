@@ -39,7 +39,7 @@ namespace Touchstone
     }
 
   private:
-    /** Where a column stands in the row; -1: not there. */
+    /** Position of a column in the row; -1: not in it. */
     std::vector<int> position;
   };
 } // namespace Touchstone
