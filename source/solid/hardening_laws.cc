@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+// The isotropic hardening laws of doc/materials.md, "Keys": yield stress k(p) over the equivalent
+// plastic strain p, its derivative, and its integral, the plastic work per reference volume that
+// isotropic hardening stores or dissipates. Curves that fall are refused for all laws.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -90,6 +93,7 @@ namespace Touchstone
       YieldStress
       at(const double plastic_strain) const override
       {
+        // Value, derivative, integral over the plastic strain, as in all laws here.
         return {yield_stress + modulus * plastic_strain,
                 modulus,
                 (yield_stress + 0.5 * modulus * plastic_strain) * plastic_strain};
@@ -212,6 +216,9 @@ namespace Touchstone
       YieldStress
       at(const double plastic_strain) const override
       {
+        // Work is the integral of all complete lines and of the part of the line that holds the
+        // strain; the slope is that of this line, so at a point of the table that of the line
+        // which begins there.
         double work = 0.;
         for (unsigned int k = 1; k < points.size(); ++k)
           {

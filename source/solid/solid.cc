@@ -13,6 +13,10 @@
 #include <cmath>
 #include <limits>
 
+// The discretised bodies: dofs, hanging nodes, the stiffness matrix over all of them, internal
+// forces, energies, stresses and history. Linear bodies contribute K u with a matrix assembled
+// once; the rows of nonlinear bodies are assembled and evaluated anew by NonlinearCells.
+// Conditions of supports and contact are applied elsewhere (doc/theory.md, section 7).
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,6 +36,8 @@ namespace Touchstone
 
 
 
+  /** Distribute dofs and allocate all that depends on the mesh, at the start and after each
+   * refinement. Collective. */
   void
   Solid::reinit()
   {
@@ -81,6 +87,9 @@ namespace Touchstone
 
 
 
+  /** Move the forces on hanging nodes to the nodes that they follow, f_p += C_hp f_h, and leave
+   * zero (doc/theory.md, section 11, "Hanging nodes"). A parent can belong to another rank, which
+   * the compress() covers. Collective. */
   void
   Solid::condense(Vector &force) const
   {
@@ -116,6 +125,8 @@ namespace Touchstone
 
 
 
+  /** Assemble the stiffness of the linear bodies, once per mesh, and the tangent of the others at
+   * rest. */
   void
   Solid::assemble()
   {
@@ -135,6 +146,8 @@ namespace Touchstone
 
 
 
+  /** Turn the failure of a material law on any rank into an exception on all of them; it cuts the
+   * step. Laws without history cannot fail, so elastic runs are spared the reduction. */
   void
   Solid::check_solved(const bool solved) const
   {
@@ -155,6 +168,8 @@ namespace Touchstone
 
 
 
+  /** The product writes the forces of linear bodies and, for the others, numbers without meaning
+   * (tangent times u), which the loop over nonlinear cells replaces. */
   void
   Solid::internal_force(const Vector &u, Vector &force) const
   {
@@ -165,6 +180,9 @@ namespace Touchstone
 
 
 
+  /** Elastic energy: u.Ku / 2 over the rows of linear bodies, and the integrals over the cells of
+   * the others. Rows of nonlinear bodies are set to zero first, so that the product counts linear
+   * bodies alone. Collective. */
   double
   Solid::strain_energy(const Vector &u) const
   {
@@ -180,6 +198,8 @@ namespace Touchstone
 
 
 
+  /** Whether det F > 0 at all points of all ranks (doc/theory.md 2.2); always true for linear
+   * bodies. Collective. */
   bool
   Solid::admissible(const Vector &u) const
   {
@@ -189,6 +209,9 @@ namespace Touchstone
 
 
 
+  /** An estimate of the round-off in the norm of the internal forces (force): the machine
+   * precision times the sums of absolute values that cancel in them. A residual below it cannot
+   * be expected of Newton's method. Collective. */
   double
   Solid::round_off(const Vector &u) const
   {
@@ -243,6 +266,8 @@ namespace Touchstone
 
 
 
+  /** Mean stress of each cell for output, with equal weights of its points; for_each_stress()
+   * visits the points of a cell one after the other, so the counter tells the cell. */
   std::vector<SymmetricTensor<2, dim>>
   Solid::cell_stress(const Vector &u) const
   {
@@ -266,6 +291,8 @@ namespace Touchstone
 
 
 
+  /** Ranks assemble their ghost cells as well, so history of a cell must be known to all of these.
+   * Collective. */
   void
   Solid::exchange_cell_states()
   {
@@ -283,6 +310,8 @@ namespace Touchstone
 
 
 
+  /** Plastic work since the start over all bodies (energy; doc/materials.md, "Output").
+   * Collective. */
   double
   Solid::dissipation() const
   {
