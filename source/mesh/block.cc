@@ -84,7 +84,9 @@ namespace Touchstone
                      false,
                      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
                        const Point<3> unit(positions[0][i], positions[1][j], positions[2][k]);
-                       Point<3>       x;
+                       // Trilinear interpolation between the corners: edges are straight, faces
+                       // may be warped.
+                       Point<3> x;
                        for (unsigned int v = 0; v < 8; ++v)
                          x += GeometryInfo<3>::d_linear_shape_function(unit, v) * corner(v);
                        return x;

@@ -60,6 +60,7 @@ namespace Touchstone
             positions[d] = graded_positions(lower[d], upper[d], n[d], grading[d]);
           }
 
+        // Rotations about fixed axes, the first applied first, hence from the left.
         Tensor<2, 3> turn = unit_symmetric_tensor<3>();
         for (unsigned int d = 0; d < 3; ++d)
           if (rotation[d] != 0.)
@@ -78,6 +79,8 @@ namespace Touchstone
                      false,
                      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
                        const Point<3> x(positions[0][i], positions[1][j], positions[2][k]);
+                       // A box that is not rotated gets its coordinates without the round-off of
+                       // a product.
                        return turned ? Point<3>(lower + turn * (x - lower)) : x;
                      },
                      {{0, 1, 2, 3, 4, 5}});

@@ -21,6 +21,7 @@ namespace Touchstone
       return box;
     }
 
+    /** The widened boxes of all coarse faces of the given boundaries. */
     std::vector<BoundingBox<dim>>
     boxes(const BodyMesh &mesh, const std::set<types::boundary_id> &boundaries)
     {
@@ -44,6 +45,9 @@ namespace Touchstone
                         const std::set<types::boundary_id> &slaves,
                         const std::set<types::boundary_id> &masters)
   {
+    // Work is counted only for faces near the other surface, as the partition is made for the
+    // initial position. Where the surfaces are nowhere near each other, an empty tree makes all
+    // their faces count.
     const std::vector<Box> of_slaves = boxes(mesh, slaves), of_masters = boxes(mesh, masters);
     const auto             tree = pack_rtree(of_masters);
     const bool any = std::any_of(of_slaves.begin(), of_slaves.end(), [&](const Box &box) {

@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+// A solid cylinder from a lattice with a square core, without the degenerate cells that a polar
+// mesh has on its axis.
 namespace Touchstone
 {
   using namespace dealii;
@@ -112,6 +114,8 @@ namespace Touchstone
     BodyMesh
     Cylinder::create(const double factor, const std::string &, const std::string &) const
     {
+      // The section's first direction is mirrored unless it is a quarter, the second unless it is
+      // a half or quarter.
       const std::vector<std::string> keep = {part == Part::quarter ? "+" : "both",
                                              part == Part::full ? "both" : "+"};
       const unsigned int layers = scaled_cells(cells[2], factor);
@@ -126,6 +130,8 @@ namespace Touchstone
         mesh.vertices.push_back(
           axes.point(radius * x[0], radius * x[1], along[std::lround(x[2] * layers)]));
 
+      // Lattice coordinates are exactly 0 or 1 on flat faces, so comparisons need no tolerance;
+      // what is left is the side.
       add_boundary_faces(mesh, [&](const FaceVertices &face) {
         const auto all = [&](const unsigned int d, const double value) {
           for (const unsigned int v : face)

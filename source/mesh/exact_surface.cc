@@ -37,6 +37,7 @@ namespace Touchstone
 
 
 
+    /** A unit vector from 'x', 'y', 'z' or three numbers; the next character decides which. */
     Tensor<1, 3>
     direction(std::istream &in)
     {
@@ -56,6 +57,9 @@ namespace Touchstone
 
 
 
+    /** One surface from its words, in any order, with the manifold by which its mesh is refined. A
+     * cone is refined in cylindrical coordinates: these average radius and position along the
+     * axis, and the mean of two points of a cone is on the cone. */
     ExactSurface
     parse_one(const std::string &text)
     {

@@ -16,6 +16,10 @@
 #include <fstream>
 #include <set>
 
+// A body from a mesh file: cells of one volume of the file are selected, checked and oriented,
+// their boundary faces get ids from the surfaces that the file marks, and exact surfaces are
+// attached. The formats are read elsewhere (read_gmsh.cc, read_abaqus.cc, read_vtk.cc) into the
+// common MeshFile.
 namespace Touchstone
 {
   using namespace dealii;
@@ -121,6 +125,8 @@ namespace Touchstone
                          const std::string &section,
                          const std::string &folder) const
     {
+      // Powers of two were taken out of the factor before (Forest::make): what is left cannot be
+      // had from given cells.
       if (factor != 1.)
         throw InputError("Discretisation",
                          "Refinement factor",
@@ -157,6 +163,8 @@ namespace Touchstone
 
 
 
+    /** Size and checksum of the file, by which a run that resumes from a checkpoint notices that
+     * the mesh has changed. */
     std::string
     FileGeometry::fingerprint(const std::string &folder) const
     {
@@ -194,6 +202,8 @@ namespace Touchstone
             throw MeshFileError("The file has no hexahedra.");
           return mesh;
         }
+      // A damaged number of entries can ask for any amount of memory; that is an error of the
+      // file, not of the program.
       catch (const std::bad_alloc &)
         {
           throw InputError(section,
@@ -214,6 +224,8 @@ namespace Touchstone
 
 
 
+    /** Only vertices that the selected cells use are taken, in the order of their first use: a
+     * vertex without a cell would be invalid in deal.II. */
     BodyMesh
     FileGeometry::select(const MeshFile                       &mesh_file,
                          std::map<unsigned int, unsigned int> &vertex_numbers,
@@ -280,11 +292,16 @@ namespace Touchstone
                            " inverted or distorted: the Jacobian is not positive at each "
                            "corner",
                          "repair the mesh in the program that made it");
+      // deal.II needs edges whose directions agree between neighbouring cells, which files do not
+      // guarantee.
       GridTools::consistently_order_cells(mesh.cells);
     }
 
 
 
+    /** Give each boundary face the id of the surface of the file to which it belongs. Faces are
+     * compared by sorted vertices. Faces of the file between two cells, or of other volumes, are
+     * ignored. */
     void
     FileGeometry::mark(BodyMesh                                   &mesh,
                        const MeshFile                             &mesh_file,
@@ -362,6 +379,9 @@ namespace Touchstone
     void
     FileGeometry::attach_exact_surfaces(BodyMesh &mesh, const std::string &section) const
     {
+      // Each exact surface becomes the manifold of its faces, for refinement, and the surface
+      // from which contact takes gaps. Vertices are moved to it; a vertex farther away than 1e-3
+      // of the size of a face tells of wrong parameters, not of rounding in the file.
       types::manifold_id next = 0;
       for (const auto &[name, shape] : parse_exact_surfaces(exact))
         {

@@ -10,6 +10,8 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  /** File formats number the vertices of a hexahedron around its faces, deal.II in lexicographic
+   * order. */
   void
   MeshFile::add_cell(const std::vector<unsigned int> &v, const unsigned int line)
   {
@@ -60,6 +62,9 @@ namespace Touchstone
 
 
 
+  /** Gmsh 2.2 writes an element once for each physical group that has it. With @p
+   * one_for_each_volume such copies are joined to one cell that is a member of all their volumes;
+   * any other two cells with the same vertices are an error, because they would overlap. */
   void
   MeshFile::join_copies(const bool one_for_each_volume)
   {

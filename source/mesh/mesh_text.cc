@@ -5,6 +5,9 @@
 #include <charconv>
 #include <cmath>
 
+// Words and numbers of mesh files with the line where they stand, for messages that lead to the
+// damage. The characters come straight from the stream buffer, as formatted input of streams is
+// slow and lenient.
 namespace Touchstone
 {
   using namespace dealii;
@@ -81,6 +84,7 @@ namespace Touchstone
 
 
 
+  /** Skip white space and count the lines; the next character stays in the stream. */
   int
   MeshText::next_character()
   {
@@ -166,6 +170,8 @@ namespace Touchstone
 
 
 
+  /** A number of entries that is about to be allocated. Each entry takes at least two characters,
+   * a digit and a blank, so that damaged numbers are found before memory is exhausted. */
   unsigned int
   MeshText::announced(const char *what)
   {
@@ -205,6 +211,7 @@ namespace Touchstone
 
 
 
+  /** Whether only blanks are left on the line; blanks are skipped. */
   bool
   MeshText::at_end_of_line()
   {

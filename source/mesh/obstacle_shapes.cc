@@ -3,6 +3,8 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/mesh/obstacle_shape.h>
 
+// The shapes of rigid obstacles: keys of the input and the exact surface that they describe. The
+// normal points to the side of the bodies, as that of a master surface does.
 namespace Touchstone
 {
   using dealii::ParameterHandler;

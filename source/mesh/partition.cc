@@ -19,6 +19,9 @@
 #  include <metis.h>
 #endif
 
+// Three ways of distributing the mesh, apart from that by coordinates (bisection.cc): the whole
+// mesh on one rank, the space-filling curve of p4est, which alone can adapt the mesh, and METIS,
+// which minimises the faces between parts.
 namespace Touchstone
 {
   using namespace dealii;
@@ -61,6 +64,7 @@ namespace Touchstone
 
       idx_t options[METIS_NOPTIONS];
       METIS_SetDefaultOptions(options);
+      // A fixed seed makes runs reproducible.
       options[METIS_OPTION_SEED] = 1;
       // Largest piece over the mean: contact comes in larger lumps.
       std::vector<real_t> tolerances{1.03, 1.1};
@@ -152,6 +156,9 @@ namespace Touchstone
 
 
 
+  /** One rank of each group makes the whole refined mesh, calls METIS and sends the others their
+   * parts; with a single group of all ranks that is the first rank. Memory for the whole mesh is
+   * needed there. Collective. */
   std::unique_ptr<parallel::TriangulationBase<dim>>
   partition_by_graph(const BodyMesh    &mesh,
                      const unsigned int refinements,

@@ -9,6 +9,9 @@
 #include <set>
 #include <sstream>
 
+// Meshes from Abaqus input files (.inp): *NODE, *ELEMENT with C3D8 and quadrilaterals, *ELSET and
+// *SURFACE; other keywords are skipped. Sets of elements become volumes or surfaces,
+// element-based surfaces become surfaces.
 namespace Touchstone
 {
   using namespace dealii;
@@ -103,6 +106,8 @@ namespace Touchstone
       if (!pending.empty())
         throw MeshFileError(line_of_pending, "The file ends, or is damaged, in *ELEMENT.");
 
+      // Groups are made at the end only, as sets may be defined before the elements that they
+      // name. A set with cells and faces gives a volume and a surface of the same name.
       for (const std::string &name : set_names)
         for (const auto &[groups, elements] :
              {std::make_pair(&mesh.volumes, &cell), std::make_pair(&mesh.surfaces, &face)})
@@ -159,6 +164,9 @@ namespace Touchstone
 
 
 
+    /** A keyword line rules the data lines up to the next one. Keywords and names of parameters
+     * are compared in capitals, as Abaqus does; blanks around commas and equal signs do not
+     * count. */
     void
     AbaqusReader::read_keyword(const std::string &line)
     {
@@ -183,6 +191,8 @@ namespace Touchstone
     void
     AbaqusReader::read_element(const std::vector<std::string> &words)
     {
+      // Solid elements of another shape are an error, since the body would have holes without
+      // them; elements that carry no volume are skipped.
       const std::string type    = upper(parameters["TYPE"]);
       const bool        is_cell = type.compare(0, 4, "C3D8") == 0;
       const bool is_face = type.compare(0, 2, "S4") == 0 || type.compare(0, 4, "CPS4") == 0 ||
@@ -211,6 +221,8 @@ namespace Touchstone
           return; // beams, springs and the like
         }
 
+      // An element may go on over several lines: its numbers are collected until there are
+      // enough.
       if (pending.empty())
         line_of_pending = line_number;
       for (const std::string &word : words)
@@ -285,6 +297,7 @@ namespace Touchstone
             throw MeshFileError("The file ends, or is damaged, in *ELSET.");
           const unsigned long step  = words.size() > 2 ? whole_number(words[2]) : 1;
           const unsigned long first = whole_number(words[0]), last = whole_number(words[1]);
+          // The bound keeps damaged numbers from filling the memory.
           if (step == 0 || last < first || (last - first) / step > 100000000ul)
             throw MeshFileError("The file is damaged in *ELSET, GENERATE.");
           for (unsigned long e = first; e <= last; e += step)

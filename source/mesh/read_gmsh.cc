@@ -7,6 +7,10 @@
 #include <map>
 #include <set>
 
+// Meshes of Gmsh (.msh) in ASCII, versions 2.2 and 4.1. In version 2 elements name their physical
+// groups themselves; in version 4 they name an entity, whose groups are listed in $Entities. Each
+// section is checked to end where it should, for a wrong number of entries shifts all that
+// follows.
 namespace Touchstone
 {
   using namespace dealii;
@@ -97,6 +101,7 @@ namespace Touchstone
                         " has more entries than it announces, or is damaged.",
                       "save the mesh again, or correct the number at the head of " + section +
                         " if you know all of its lines to be right");
+          // Sections that this reader does not know are skipped up to their end.
           while (word != end)
             if (!text.word(word))
               text.fail("The file ends before " + end + ".");
@@ -104,6 +109,7 @@ namespace Touchstone
       if (sections.count("$Elements") == 0)
         throw MeshFileError("The file has no $Elements.");
 
+      // Only version 2 writes an element again for each of its physical groups.
       mesh.join_copies(version < 3.);
       for (auto *groups : {&mesh.surfaces, &mesh.volumes})
         for (MeshFile::Group &group : *groups)
@@ -152,6 +158,8 @@ namespace Touchstone
 
 
 
+    /** Physical groups of the entities, by dimension. Bounding boxes and the entities of their
+     * boundaries are read over. The sign of a group tells its orientation only. */
     void
     GmshReader::read_entities()
     {
@@ -247,6 +255,8 @@ namespace Touchstone
 
 
 
+    /** Version 4 lists elements in blocks of one entity and type; points and lines are read to be
+     * checked, and dropped. */
     void
     GmshReader::read_elements()
     {

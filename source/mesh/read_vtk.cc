@@ -8,6 +8,9 @@
 #include <cmath>
 #include <set>
 
+// Meshes from legacy VTK files: hexahedra become cells and quadrilaterals faces; a scalar field
+// of the cells numbers volumes and boundaries. CELLS, CELL_TYPES and CELL_DATA come one after the
+// other in the file, so cells are kept as they are and translated at the end.
 namespace Touchstone
 {
   using namespace dealii;
@@ -91,6 +94,7 @@ namespace Touchstone
       const unsigned long announced = text.number("CELLS");
       const unsigned int  head      = text.line();
       unsigned long       found     = 0;
+      // Version 5 of the format has another layout of CELLS, with offsets.
       if (text.next_character() == 'O')
         text.fail("CELLS has OFFSETS; save the file as version 4.2 or earlier.");
       for (VtkCell &cell : cells)
@@ -153,6 +157,8 @@ namespace Touchstone
     void
     VtkReader::add(const VtkCell &cell)
     {
+      // Codes of the VTK manual. Lower-dimensional cells are dropped, other solids are an error,
+      // for the body would have holes without them.
       constexpr unsigned int quad = 9, hexahedron = 12, first_solid = 10;
       if (cell.type == quad || cell.type == hexahedron)
         {

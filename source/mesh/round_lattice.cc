@@ -70,6 +70,8 @@ namespace Touchstone
       if (size > 0.)
         direction /= direction.norm();
 
+      // Inside the core a blend of the square lattice and circles; outside of it straight lines
+      // from the side of the core to the surface.
       const Tensor<1, 3> inside =
         core_width * ((1. - core_bulge) * straight + core_bulge * size * direction);
       const double fraction = static_cast<double>(key.ring) / rings;
@@ -79,6 +81,8 @@ namespace Touchstone
       return x;
     };
 
+    // Points are numbered by integer keys, so common points of neighbouring stacks are found
+    // without comparing coordinates.
     std::map<Key, unsigned int> numbers;
     const auto                  vertex = [&](const Key &key) {
       const auto [where, is_new] = numbers.insert({key, points.size()});

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+// A plate of constant thickness with one rounded corner: the plane section is meshed by
+// RoundedRectangle and extruded.
 namespace Touchstone
 {
   using namespace dealii;
@@ -156,6 +158,7 @@ namespace Touchstone
     BodyMesh
     RoundedPlate::create(const double factor, const std::string &, const std::string &) const
     {
+      // An upper bound of the cells of a section, times layers, before anything is allocated.
       check_number_of_cells(
         (scaled_cells(cells[0], factor) + 2. * scaled_cells(fillet_half, factor)) *
         (scaled_cells(cells[1], factor) + 2. * scaled_cells(fillet_half, factor)) *
@@ -194,6 +197,8 @@ namespace Touchstone
         const auto on = [&](const std::set<unsigned int> &side) {
           return all([&](const unsigned int v) { return side.count(v % points) > 0; });
         };
+        // The fillet comes before the sides, whose first vertices are the ends of the rounding.
+        // Only the fillet is curved.
         using Ids = std::pair<types::boundary_id, types::manifold_id>;
         if (all([&](const unsigned int v) { return v < points; }))
           return Ids(back, numbers::flat_manifold_id);

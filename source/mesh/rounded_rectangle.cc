@@ -11,6 +11,10 @@
 
 #include <cmath>
 
+// Plane mesh of a rectangle with one rounded corner: rows of cells follow the two sides and the
+// rounding between them, behind them is a block of rows and columns. Points of the outline are
+// prescribed, those inside follow from a discrete Laplace equation, which spreads the distortion
+// beside the rounding over the section.
 namespace Touchstone
 {
   using namespace dealii;
@@ -47,6 +51,9 @@ namespace Touchstone
         unsigned int a, b;
         double       weight;
       };
+      // The weight of an edge is the conductance of a rectangle in its direction, width over
+      // length, half of it for each of the two cells at the edge: on a graded rectangular grid
+      // the solution is that grid itself.
       std::vector<Edge> edges;
       for (unsigned int c = 0; c < cells.size(); ++c)
         {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+// Tubes, sectors of tubes and cones as a structured block in cylindrical coordinates.
 namespace Touchstone
 {
   using namespace dealii;
@@ -110,6 +111,7 @@ namespace Touchstone
                          Patterns::Tools::to_string(end),
                          "the tube ends before it starts",
                          "make it larger than 'Start' (" + Patterns::Tools::to_string(start) + ")");
+      // Radii are linear along the axis, so the two ends tell for the whole tube.
       for (const double s : {start, end})
         {
           const std::string where = " at the position " + Patterns::Tools::to_string(s);
@@ -149,6 +151,7 @@ namespace Touchstone
       std::array<unsigned int, 3> n;
       for (unsigned int d = 0; d < 3; ++d)
         n[d] = scaled_cells(cells[d], factor);
+      // A factor below one must not leave cells wider than check() allows.
       n[1] = std::max<unsigned int>(n[1], std::ceil(angle / widest_cell));
 
       const Axes axes(axis, origin);
