@@ -17,8 +17,8 @@ namespace Touchstone
   {
     const Tensor<2, 3> identity = unit_symmetric_tensor<3>();
 
-    /** Any unit vector perpendicular to @p direction: the way out for points on
-     * an axis, where every direction leads to a closest point. */
+    /** Any unit vector perpendicular to @p direction: used for points on an axis, where every
+     * radial direction leads to a closest point. */
     Tensor<1, 3>
     some_perpendicular(const Tensor<1, 3> &direction)
     {

@@ -61,7 +61,8 @@ namespace Touchstone
       for (unsigned int d = 1; d < dim; ++d)
         if (box.side_length(d) > (1. + 1e-6) * box.side_length(axis))
           axis = d;
-      // Layers stay whole but for one, whatever round-off does to their places.
+      // Positions are rounded, so that round-off does not decide the order within a layer of cells
+      // and all layers but one stay in one part.
       const double unit  = std::max(1e-6 * box.side_length(axis), 1e-300);
       const auto   place = [&](const Item &item) {
         return std::make_pair(std::round((item.center[axis] - box.lower_bound(axis)) / unit),
@@ -78,7 +79,7 @@ namespace Touchstone
       auto               middle  = begin;
       for (; middle != end && sum + 0.5 * middle->work < total * n_lower / n_ranks; ++middle)
         sum += middle->work;
-      // However heavy a cell, no rank goes without if there is one for each.
+      // Each rank gets at least one cell if there are enough, however uneven the work.
       if (const std::ptrdiff_t n_items = end - begin; n_items >= n_ranks)
         middle = begin +
                  std::clamp<std::ptrdiff_t>(middle - begin, n_lower, n_items - (n_ranks - n_lower));
@@ -243,7 +244,8 @@ namespace Touchstone
       describe(whole, [&](const auto &cell) { return rank[cell->active_cell_index()]; });
     else
       {
-        // What lies behind the neighbours tells that their outer faces are no boundary.
+        // A second layer of neighbours is needed for the first one to know which of its faces are
+        // at the boundary of the body.
         std::vector<char> marked(mesh.cells.size());
         for (unsigned int c = 0; c < marked.size(); ++c)
           marked[c] = rank[c] == here;

@@ -79,6 +79,8 @@ namespace Touchstone
             positions[d] = graded_positions(0., 1., n[d], grading[d]);
           }
 
+        // The block is meshed on the unit cube, with the grading of each direction, and mapped to
+        // its corners.
         BodyMesh mesh =
           make_block(n,
                      false,

@@ -96,6 +96,8 @@ namespace Touchstone
             mesh.cells.push_back(cell);
           }
 
+    // Boundary faces: on both sides of each direction d, faces over the two other directions; a
+    // closed block has no sides in its second direction.
     for (unsigned int d = 0; d < 3; ++d)
       {
         if (d == 1 && closed)
@@ -217,7 +219,7 @@ namespace Touchstone
     triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.subcells);
 
     // The ids of the faces are there now, but deal.II leaves edges flat, and so
-    // the faces between cells. Boundary faces come last: they know best.
+    // the faces between cells. Boundary faces come last, so that their manifold takes precedence.
     for (const auto &cell : triangulation.cell_iterators_on_level(0))
       if (cell->manifold_id() != numbers::flat_manifold_id)
         {

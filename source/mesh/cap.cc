@@ -87,7 +87,7 @@ namespace Touchstone
 
     private:
       const Point<3> apex;
-      /** Directions in which the face is curved: x, or x and y. */
+      /** The number of directions in which the face is curved: x, or x and y. */
       const unsigned int curved;
       const double       radius, height, direction;
     };
@@ -316,6 +316,7 @@ namespace Touchstone
                                                    height,
                                                    scaled_cells(outer_layers, factor));
 
+      // A cylinder has equal cells along its axis (y), a sphere the same positions in x and y.
       std::vector<double> across;
       if (is_cylinder())
         across = graded_positions(0., depth, scaled_cells(depth_cells, factor), 1.);
@@ -360,6 +361,8 @@ namespace Touchstone
 
       if (radius > 0.)
         {
+          // All cells have the manifold, not just the surface, so that refinement keeps the
+          // layers parallel to the curved face near it.
           mesh.manifolds[0] = manifold;
           for (CellData<3> &cell : mesh.cells)
             cell.manifold_id = 0;

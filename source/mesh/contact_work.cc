@@ -10,7 +10,8 @@ namespace Touchstone
 
   namespace
   {
-    /** Reaches as far as it is long: surfaces may be curved, and move. */
+    /** The bounding box of a face, extended by half of its diagonal on all sides, as surfaces may
+     * be curved, and move. */
     BoundingBox<dim>
     wide_box(const std::vector<Point<dim>> &vertices)
     {
@@ -53,7 +54,7 @@ namespace Touchstone
     const bool any = std::any_of(of_slaves.begin(), of_slaves.end(), [&](const Box &box) {
       return tree.qbegin(boost::geometry::index::intersects(box)) != tree.qend();
     });
-    // Bodies that are apart come together no one knows where.
+    // Where bodies that are apart will meet is not known in advance.
     sides.push_back({slaves, slave_face, any ? tree : RTree<Box>()});
     if (!masters.empty())
       sides.push_back({masters, master_face, any ? pack_rtree(of_slaves) : RTree<Box>()});

@@ -73,6 +73,8 @@ namespace Touchstone
       Tensor<1, 3> axis({0., 0., 1.});
       double       radius = 0., slope = 0.;
       bool         outside = true;
+      // A word that another shape would need, as 'slope' for a cylinder, is an error like an
+      // unknown one.
       for (std::string word; in >> word;)
         if (word == "axis" && shape != "sphere")
           axis = direction(in);

@@ -231,6 +231,8 @@ namespace Touchstone
                          std::map<unsigned int, unsigned int> &vertex_numbers,
                          const std::string                    &section) const
     {
+      // A volume can be called by its name or by its number; if several groups match, all of them
+      // are taken.
       std::vector<CellData<3>> cells;
       if (volume.empty())
         cells = mesh_file.cells;
@@ -312,6 +314,7 @@ namespace Touchstone
       types::boundary_id                                   next = unmarked + 1;
       for (const MeshFile::Group &group : mesh_file.surfaces)
         {
+          // Ids for shared faces begin behind the highest number of the file.
           next = std::max(next, group.number + 1);
           for (const unsigned int f : group.members)
             {
@@ -352,6 +355,8 @@ namespace Touchstone
       for (const MeshFile::Group &group : mesh_file.surfaces)
         if (used.count(group.number) > 0 && !group.name.empty())
           mesh.boundary_names[group.name] = group.number;
+      // Names from the input for formats that have numbers only, checked like those of the file:
+      // they must exist, and must not rename another boundary.
       for (const auto &[name, number] : extra_names)
         {
           if (used.count(number) == 0)
@@ -413,7 +418,7 @@ namespace Touchstone
                     face.manifold_id = next;
                     for (const unsigned int v : face.vertices)
                       {
-                        // Files have few digits; what the formula says counts.
+                        // Files round coordinates to few digits; the formula is exact.
                         Point<3>      &x     = mesh.vertices[v];
                         const Point<3> exact = shape.surface->project(x);
                         farthest             = std::max(farthest, exact.distance(x));

@@ -63,6 +63,8 @@ namespace Touchstone
                   const unsigned int              level,
                   const DiscretisationParameters &parameters)
     {
+      // Counted in cells of degree 1: a cell of degree 2 has about eight times as many dofs, and
+      // each refinement eight times the cells.
       try
         {
           check_number_of_cells(cells * std::pow(8., level) * std::pow(parameters.degree, 3));
@@ -150,6 +152,8 @@ namespace Touchstone
     BodyMesh all;
     for (unsigned int body = 0; body < input.bodies.size(); ++body)
       {
+        // Errors of a geometry are reported with the section of its body, since geometries do not
+        // know for whom they work.
         const std::string section = "Body " + input.bodies[body].name + "/Geometry";
 
         const BodyMesh mesh = create(*input.bodies[body].geometry, factor, section, scene_folder);
@@ -220,9 +224,8 @@ namespace Touchstone
 
 
 
-  /** Bring a uniformly refined mesh to a stored one, level by level: marked are the cells that
-   * have children in the stored mesh, and their children may be marked in turn once they exist.
-   * Collective. */
+  /** Refine to a mesh that the run had before, level by level: marked are the cells that have
+   * children in that mesh, and their children may be marked in turn once they exist. Collective. */
   void
   Forest::refine(const std::set<CellId::binary_type> &cells)
   {
@@ -289,6 +292,7 @@ namespace Touchstone
                      const std::string              &section,
                      const std::string              &key) const
   {
+    // The same boundary under two names would get two conditions or be in contact twice.
     std::vector<BoundaryIds>           result;
     std::map<BoundaryIds, std::string> seen;
     for (const std::string &name : names)

@@ -100,6 +100,8 @@ namespace Touchstone
   bool
   MeshText::word(std::string &text)
   {
+    // The line of a word is kept apart from the current one: the latter has moved on when an
+    // error of the word is found.
     std::streambuf &buffer = *in.rdbuf();
     constexpr int   end    = std::char_traits<char>::eof();
     text.clear();
@@ -138,6 +140,7 @@ namespace Touchstone
   long
   MeshText::signed_number(const char *what)
   {
+    // Gmsh gives a negative sign to groups and entities of reversed orientation.
     const std::string next  = text(what);
     long              value = 0;
     if (!parse(next, value))
@@ -150,6 +153,7 @@ namespace Touchstone
   double
   MeshText::real(const char *what)
   {
+    // Infinite numbers and NaN parse, but make no mesh.
     const std::string next  = text(what);
     double            value = 0.;
     if (!parse(next, value) || !std::isfinite(value))
@@ -175,8 +179,9 @@ namespace Touchstone
   unsigned int
   MeshText::announced(const char *what)
   {
-    const unsigned long n    = number(what);
-    const auto          here = in.tellg();
+    const unsigned long n = number(what);
+    // The bound comes from the number of bytes to the end of the file.
+    const auto here = in.tellg();
     in.seekg(0, std::ios::end);
     const auto left = in.tellg() - here;
     in.seekg(here);

@@ -26,6 +26,7 @@ namespace Touchstone
                     const std::string  &remedy)
     {
       if (direction.norm() == 0.)
+        // A vector of length zero has no direction; any other length is normalised later.
         throw InputError(
           section, "Direction", Patterns::Tools::to_string(direction), "must not be zero", remedy);
     }
@@ -93,6 +94,7 @@ namespace Touchstone
       std::shared_ptr<const AnalyticSurface>
       surface() const override
       {
+        // The half space on the side of the normal is free, the other one is the obstacle.
         return make_plane(Point<3>(point), normal / normal.norm());
       }
 
@@ -155,6 +157,8 @@ namespace Touchstone
       std::shared_ptr<const AnalyticSurface>
       surface() const override
       {
+        // A cylinder is a cone of slope zero, and infinitely long, like the plane is infinitely
+        // wide.
         return make_cone(Point<3>(point), axis / axis.norm(), round.radius, 0., round.outside());
       }
 

@@ -91,6 +91,8 @@ namespace Touchstone
     MeshFile
     AbaqusReader::read(std::istream &in)
     {
+      // Errors are thrown where they are found, without a line, and get the number of the present
+      // line here.
       for (std::string line; std::getline(in, line);)
         {
           ++line_number;
@@ -150,6 +152,8 @@ namespace Touchstone
     void
     AbaqusReader::read_node(const std::vector<std::string> &words)
     {
+      // Parts of an assembly each number their nodes from one, which a flat file cannot tell
+      // apart; the message says so.
       if (words.size() < 4)
         throw MeshFileError("The file ends, or is damaged, in *NODE.");
       if (!node.insert({whole_number(words[0]), mesh.vertices.size()}).second)
@@ -234,6 +238,8 @@ namespace Touchstone
         throw MeshFileError("Element " + std::to_string(pending[0]) + " of type " + type +
                             " has too many nodes.");
 
+      // Sets refer to elements by their numbers, so two elements of one number would be
+      // ambiguous.
       const auto [known, is_new] = element_line.insert({pending[0], line_of_pending});
       if (!is_new)
         throw MeshFileError("Element " + std::to_string(pending[0]) + " stands in line " +
@@ -268,6 +274,7 @@ namespace Touchstone
     void
     AbaqusReader::add_to_set(const std::string &name, const unsigned long element)
     {
+      // The order of the file gives sets their numbers; a map alone would sort them by name.
       if (std::find(set_names.begin(), set_names.end(), name) == set_names.end())
         set_names.push_back(name);
       sets[name].push_back(element);
@@ -275,6 +282,8 @@ namespace Touchstone
 
 
 
+    /** A set that is named inside another definition must have been defined before. Names of sets
+     * are compared as written. */
     const std::vector<unsigned long> &
     AbaqusReader::known_set(const std::string &name) const
     {
@@ -290,6 +299,8 @@ namespace Touchstone
     void
     AbaqusReader::read_set(const std::vector<std::string> &words)
     {
+      // GENERATE gives first, last and step; otherwise a line lists numbers of elements and names
+      // of other sets. Nodes of an NSET never get here.
       const std::string name = parameters["ELSET"];
       if (parameters.count("GENERATE") > 0)
         {
@@ -330,6 +341,8 @@ namespace Touchstone
       else
         elements = known_set(words[0]);
 
+      // A surface is defined by lines that can each name a set and a face of its elements; all
+      // lines of one name add to the same group.
       const std::string name = parameters["NAME"];
       auto group = std::find_if(mesh.surfaces.begin(), mesh.surfaces.end(), [&](auto &g) {
         return g.name == name;

@@ -69,6 +69,8 @@ namespace Touchstone
     MeshFile
     GmshReader::read()
     {
+      // The sections can be in any order, except that the format comes first, as it decides how
+      // the others are read. Names are attached to the groups at the end for this reason.
       std::set<std::string> sections;
       std::string           word;
       while (text.word(word))
@@ -122,6 +124,8 @@ namespace Touchstone
     void
     GmshReader::read_format()
     {
+      // Version 4.0 has another layout of entities and nodes than 4.1 and is an error, like
+      // binary files.
       const char *what = "$MeshFormat";
       version          = text.real(what);
       if (text.number(what) != 0)
@@ -137,6 +141,9 @@ namespace Touchstone
     void
     GmshReader::read_names()
     {
+      // A name may contain blanks, so the rest of the line is taken between its first and last
+      // quotation mark. Two names for one group, or one name for two groups of the same
+      // dimension, would make the boundary conditions ambiguous.
       const char *what = "$PhysicalNames";
       for (auto left = text.number(what); left > 0; --left)
         {
@@ -200,6 +207,8 @@ namespace Touchstone
 
 
 
+    /** Compare the total number that the head of a section announces with the entries of its
+     * blocks: a damaged block would otherwise pass unnoticed. */
     void
     GmshReader::check_sum(const unsigned long found,
                           const unsigned long announced,
@@ -215,6 +224,8 @@ namespace Touchstone
     void
     GmshReader::read_nodes()
     {
+      // Version 2 has one node per line, version 4 blocks of numbers followed by blocks of
+      // coordinates. Numbers of nodes may have gaps, so vertices are found by a map.
       const char *what = "$Nodes";
       if (version < 3.)
         {
@@ -319,6 +330,8 @@ namespace Touchstone
       std::vector<unsigned int> vertices(known->second);
       for (unsigned int &vertex : vertices)
         {
+          // The nodes must end with the line: with a wrong type or a missing node, numbers of the
+          // next element would be taken for those of this one.
           if (text.at_end_of_line())
             text.fail_in("$Elements");
           const auto number = text.number("$Elements");
@@ -332,6 +345,7 @@ namespace Touchstone
         text.fail("An element of Gmsh's type " + std::to_string(type) + " has more than its " +
                   std::to_string(known->second) + " nodes.");
 
+      // Quadrangles carry the boundary ids; points, lines and triangles have none here.
       const bool is_cell = type == hexahedron;
       if (is_cell)
         mesh.add_cell(vertices, text.line());

@@ -101,7 +101,7 @@ namespace Touchstone
               cell.vertices[v] = vertex({{{c[0] + v % 2, c[1] + v / 2 % 2, c[2] + v / 4}}, 0});
             cells.push_back(cell);
 
-            // On each outer side of the core a stack of cells stands.
+            // A stack of cells on each outer side of the core fills the space up to the surface.
             for (unsigned int d = 0; d < dimensions; ++d)
               for (const int side : {-1, 1})
                 if (c[d] == (side > 0 ? n - 1 : -n))

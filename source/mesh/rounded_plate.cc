@@ -115,6 +115,8 @@ namespace Touchstone
     RoundedPlate::check(const std::string &section) const
     {
       const auto text = [](const auto &x) { return Patterns::Tools::to_string(x); };
+      // The section is meshed in coordinates along both directions, which therefore must be
+      // perpendicular; their lengths do not matter, for they are normalised in create().
       if (first.norm() == 0.)
         throw InputError(section,
                          "First direction",
@@ -176,6 +178,8 @@ namespace Touchstone
       const Tensor<1, 3>     b      = second / second.norm();
       const Tensor<1, 3>     normal = cross_product_3d(a, b);
 
+      // The section is extruded: vertex v of the section in layer k has the number v + k points,
+      // so v % points tells where in the section a vertex of a boundary face lies.
       BodyMesh mesh;
       for (unsigned int k = 0; k <= n; ++k)
         for (const Point<2> &x : section.points)
@@ -222,6 +226,7 @@ namespace Touchstone
                              {"front", front}};
 
       const Point<3> centre = corner + radius * (a + b);
+      // Cells inside have no manifold: refined vertices lie on the cylinder at the fillet only.
       mesh.manifolds[0]     = std::make_shared<CylindricalManifold<3>>(normal, centre);
       mesh.surfaces[fillet] = make_cone(centre, normal, radius, 0., true);
       return mesh;

@@ -79,6 +79,7 @@ namespace Touchstone
       std::array<Vector<double>, 2> x{
         {Vector<double>(points.size()), Vector<double>(points.size())}};
       for (unsigned int i = 0; i < points.size(); ++i)
+        // Rows of prescribed points are those of the identity, so the same factors serve x and y.
         if (prescribed[i])
           {
             matrix.set(i, i, 1.);
@@ -115,6 +116,8 @@ namespace Touchstone
                                      const unsigned int                 rows,
                                      const double                       grading)
   {
+    // A cell of the rows is as high as one of the rounding is long, so cells at the rounding are
+    // about square.
     const double                       arc    = numbers::PI / 4. * radius;
     const double                       height = arc / fillet_half;
     std::array<std::vector<double>, 2> along, block;
@@ -165,6 +168,8 @@ namespace Touchstone
         if (p <= -f)
           place(v, Point<2>(0., radius - arc + along[1][-p]), second_side);
       }
+    // Where the rows end on the far sides they have their full height, and the block takes the
+    // rest of the side.
     for (unsigned int row = 0; row < rows; ++row)
       {
         place(in_row(last, row), Point<2>(lengths[0], row * height), far_second_side);
@@ -175,6 +180,7 @@ namespace Touchstone
     for (unsigned int i = 0; i <= n[0]; ++i)
       place(in_block(i, n[1]), Point<2>(block[0][i], lengths[1]), far_first_side);
 
+    // Sizes of the cells in the undistorted lattice, from which smooth() takes its weights.
     std::vector<std::array<double, 2>> sizes;
     const auto                         add =
       [&](const std::array<unsigned int, 4> &v, const double width, const double high) {

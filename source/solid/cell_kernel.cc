@@ -57,7 +57,7 @@ namespace Touchstone
           }
     }
 
-    /** To @p sum, over the unknowns, add that of @p stress with the gradients. */
+    /** Add the nodal forces stress . grad N_a to @p sum. */
     void
     add_product(const Tensor<2, dim> &stress,
                 const double         *g,

@@ -10,7 +10,7 @@ namespace Touchstone
 {
   namespace
   {
-    /** A number of each of some cells. */
+    /** One value for each of several cells: a SIMD vector, or a scalar for a single cell. */
     template <unsigned int n_cells>
     struct Number
     {

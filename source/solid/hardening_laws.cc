@@ -29,7 +29,7 @@ namespace Touchstone
                        "give zero or more, or 'Hardening = none'");
     }
 
-    /** No hardening, and what others add to. */
+    /** No hardening; the base class of the other laws. */
     class Perfect : public HardeningLaw
     {
     public:

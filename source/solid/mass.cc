@@ -177,7 +177,7 @@ namespace Touchstone
       std::vector<double> lumped;
       std::vector<Index>  dofs;
 
-      /** What massless nodes lose, the others of the cell take. */
+      /** Move the mass of massless nodes to the other nodes of the cell. */
       void
       move()
       {
@@ -208,7 +208,7 @@ namespace Touchstone
      *
      * They are 1 + s_e, with the smallest sum of m_e s_e^2 for masses m_e, and stay
      * at a half or more, so that waves hardly change and no motion has negative kinetic
-     * energy: cells that would fall below are held there.
+     * energy: cells that would fall below are fixed to that bound.
      */
     class DensityFactors
     {

@@ -15,7 +15,7 @@ namespace Touchstone
 
   namespace
   {
-    /** Whether the law called @p name has plastic flow: the law knows. */
+    /** Whether the law called @p name has plastic flow, which an instance of it tells. */
     bool
     has_plasticity(const std::string &name, const MaterialParameters &material)
     {

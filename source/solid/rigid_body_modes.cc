@@ -132,7 +132,7 @@ namespace Touchstone
     Utilities::MPI::sum(gram, solid.communicator, gram);
     Utilities::MPI::sum(own, solid.communicator, own);
 
-    // A body that its own supports hold takes part in no free motion, however few its
+    // A body that its own supports constrain fully takes part in no free motion, however few its
     // supports are beside the many conditions of contact.
     for (unsigned int b = 0; b < n_bodies; ++b)
       {
@@ -273,8 +273,8 @@ namespace Touchstone
           }
         fraction = std::max(fraction, std::abs(work) / (resistance * distance));
       }
-    // Only what takes part in the motion is held back: a body that can turn may still follow
-    // what presses it.
+    // Only what takes part in the motion is held back: a body that can only turn is still free to
+    // be displaced by the bodies that press it.
     for (unsigned int row = 0; row < rigid->body.size(); ++row)
       if (motion.bodies.count(rigid->body[row]) > 0)
         shift.begin()[row] = fraction * stiffness.diagonal(row) * share[row] / largest;

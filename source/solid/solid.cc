@@ -50,7 +50,7 @@ namespace Touchstone
     hanging.close();
     any_hanging = Utilities::MPI::max(hanging.n_constraints(), communicator) > 0;
 
-    // Contact counts nodes, not unknowns: three consecutive unknowns are a node.
+    // Contact counts nodes, not dofs: node k has the dofs 3k, 3k+1, 3k+2.
     std::vector<Index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -61,7 +61,7 @@ namespace Touchstone
                         ExcMessage("The unknowns are not numbered by nodes."));
         }
 
-    // Rows are built from owned and ghost cells, so no rank waits for another.
+    // Rows are built from owned and ghost cells, so that no communication is needed.
     const Index n_nodes = dof_handler.n_dofs() / dim;
     IndexSet    owned_nodes(n_nodes);
     if (!owned.is_empty())

@@ -55,7 +55,7 @@ namespace Touchstone
 
 
 
-    /** What both laws say of their state. */
+    /** What both laws have in common: the scalar history. */
     template <class Law>
     class PlasticLaw : public Law
     {
