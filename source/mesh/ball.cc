@@ -70,6 +70,8 @@ namespace Touchstone
           return std::make_pair(0u, types::manifold_id(0));
         });
 
+        // Boundaries of cuts exist only where there are cuts, so that a condition on a missing
+        // one is an error.
         mesh.boundary_names = {{"surface", 0}};
         for (unsigned int d = 0; d < 3; ++d)
           if (keep[d] != "both")

@@ -94,6 +94,7 @@ namespace Touchstone
                        return x;
                      },
                      {{0, 1, 2, 3, 4, 5}});
+        // The same ids as those of a box, so that a box can be replaced by a block.
         mesh.boundary_names = {
           {"left", 0}, {"right", 1}, {"front", 2}, {"back", 3}, {"bottom", 4}, {"top", 5}};
         return mesh;

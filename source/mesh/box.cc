@@ -39,6 +39,7 @@ namespace Touchstone
       void
       check(const std::string &section) const override
       {
+        // An extent of zero or less would give cells without volume or inside out.
         for (unsigned int d = 0; d < 3; ++d)
           if (!(upper[d] > lower[d]))
             throw InputError(section,
@@ -84,6 +85,8 @@ namespace Touchstone
                        return turned ? Point<3>(lower + turn * (x - lower)) : x;
                      },
                      {{0, 1, 2, 3, 4, 5}});
+        // Ids follow deal.II's order of the faces of a hyper-rectangle: lower before upper side,
+        // x before y before z.
         mesh.boundary_names = {
           {"left", 0}, {"right", 1}, {"front", 2}, {"back", 3}, {"bottom", 4}, {"top", 5}};
         return mesh;

@@ -65,6 +65,8 @@ namespace Touchstone
   unsigned int
   ContactWork::operator()(const Triangulation<dim>::cell_iterator &cell) const
   {
+    // A cell at an edge of the contact surface can have several faces in contact, each of which
+    // counts.
     unsigned int sum = 0;
     for (const auto &face : cell->face_iterators())
       if (face->at_boundary())

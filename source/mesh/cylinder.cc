@@ -95,6 +95,7 @@ namespace Touchstone
     void
     Cylinder::check(const std::string &section) const
     {
+      // Written such that values that are not numbers fail, too.
       if (!(end > start))
         throw InputError(section,
                          "End",
@@ -159,6 +160,8 @@ namespace Touchstone
       if (part == Part::quarter)
         mesh.boundary_names["second cut"] = second_cut;
 
+      // Only the faces of the side are curved: cylindrical coordinates are singular on the axis,
+      // which the core contains, so that cells inside must not be refined by them.
       mesh.manifolds[0]   = std::make_shared<CylindricalManifold<3>>(axes.direction(), origin);
       mesh.surfaces[side] = make_cone(origin, axes.direction(), radius, 0., true);
       return mesh;

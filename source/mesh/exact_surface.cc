@@ -29,6 +29,7 @@ namespace Touchstone
     {
       Tensor<1, n> values;
       for (unsigned int d = 0; d < n; ++d)
+        // Messages name the word whose numbers are missing; the caller adds section and key.
         if (!(in >> values[d]))
           throw std::runtime_error("the word '" + word + "' needs " + std::to_string(n) +
                                    (n == 1 ? " number." : " numbers."));
@@ -103,6 +104,7 @@ namespace Touchstone
   std::map<std::string, ExactSurface>
   parse_exact_surfaces(const std::string &text)
   {
+    // Entries are separated by semicolons, each a name, a colon, and the words of a surface.
     std::map<std::string, ExactSurface> result;
     for (const std::string &entry : Utilities::split_string_list(text, ';'))
       {

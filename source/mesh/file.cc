@@ -96,6 +96,8 @@ namespace Touchstone
     void
     FileGeometry::check(const std::string &section) const
     {
+      // The file itself is opened only when the mesh is made; here are checks of what the input
+      // says.
       const std::string extension = std::filesystem::path(file).extension();
       if (extension != ".msh" && extension != ".inp" && extension != ".vtk")
         throw InputError(section,
@@ -145,6 +147,8 @@ namespace Touchstone
         {
           mark(mesh, mesh_file, vertex_numbers, section);
         }
+      // An InputError of mark() already names section and key; other errors come from the mesh
+      // itself.
       catch (const InputError &)
         {
           throw;

@@ -274,6 +274,7 @@ namespace Touchstone
     if (found != names[body].end())
       return found->second;
 
+    // The message lists the names and numbers that would be accepted.
     std::string available;
     for (const auto &[other, id] : names[body])
       available += (available.empty() ? "'" : ", '") + other + "'";
@@ -346,6 +347,7 @@ namespace Touchstone
   std::shared_ptr<const AnalyticSurface>
   Forest::surface(const types::boundary_id id) const
   {
+    // Null means that contact knows the facets of the mesh alone (doc/theory.md, section 4).
     const auto found = surfaces.find(id);
     return found != surfaces.end() ? found->second : nullptr;
   }

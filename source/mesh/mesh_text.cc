@@ -196,6 +196,8 @@ namespace Touchstone
   std::string
   MeshText::rest_of_line()
   {
+    // The end of the line is not consumed, so that next_line() and the counting of lines stay
+    // right.
     std::streambuf &buffer = *in.rdbuf();
     std::string     text;
     for (int c = buffer.sgetc(); c != std::char_traits<char>::eof() && c != '\n';
@@ -232,6 +234,7 @@ namespace Touchstone
   void
   MeshText::fail(const std::string &problem, const std::string &remedy) const
   {
+    // The line is that of the last word, where the reader found the problem.
     throw MeshFileError(line_of_word,
                         problem,
                         remedy.empty() ? MeshFileError::default_remedy : remedy);

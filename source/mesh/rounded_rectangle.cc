@@ -95,6 +95,8 @@ namespace Touchstone
               matrix.add(row, column, -edge.weight);
             }
 
+      // The prescribed rows make the matrix unsymmetric; the problem is plane and small, and
+      // solved directly.
       SparseDirectUMFPACK solver;
       solver.factorize(matrix);
       for (unsigned int d = 0; d < 2; ++d)

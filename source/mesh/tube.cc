@@ -163,6 +163,8 @@ namespace Touchstone
       const auto fraction = graded_positions(0., 1., n[0], radial_grading);
       const bool closed   = angle == 360.;
 
+      // The directions of the block are radius, angle and axis, which are right-handed in this
+      // order; ids are given for the sides of each of them.
       BodyMesh mesh =
         make_block(n,
                    closed,

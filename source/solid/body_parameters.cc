@@ -28,6 +28,8 @@ namespace Touchstone
   bool
   BodyParameters::supported() const
   {
+    // Whether some displacement is prescribed on the body; this does not tell whether all of its
+    // rigid motions are prevented, which RigidBodyModes::free_motion() decides.
     return !symmetry.empty() || !fixed.empty() ||
            std::any_of(boundaries.begin(), boundaries.end(), [](const auto &entry) {
              const BoundaryParameters &b = entry.second;
@@ -127,6 +129,8 @@ namespace Touchstone
     material.declare(prm, values.in("Material"));
     prm.leave_subsection();
 
+    // The list 'Boundary conditions' names the subsections, so it must have been read before they
+    // can be declared.
     for (const std::string &boundary : conditions)
       {
         prm.enter_subsection("Boundary " + boundary);

@@ -86,6 +86,7 @@ namespace Touchstone
       }
     if (!pressure.empty())
       check_expression(section, "Pressure", pressure);
+    // A key without effect is an error: it shows that the user expects something else.
     if (pressure.empty() && pressure_follows != Follows::automatic)
       throw InputError(section,
                        "Pressure follows",

@@ -21,6 +21,8 @@ namespace Touchstone
     [[noreturn]] void
     throw_negative(const std::string &section, const std::string &key, const double value)
     {
+      // Softening without a length in the material depends on the mesh: the limit of refinement
+      // is no dissipation at all (doc/materials.md, "Keys").
       throw InputError(section,
                        key,
                        Patterns::Tools::to_string(value),
@@ -156,6 +158,9 @@ namespace Touchstone
       YieldStress
       at(const double plastic_strain) const override
       {
+        // k(p) = k_inf - (k_inf - k_0) exp(-rate p) + H p. Its integral has the term (k_inf -
+        // k_0) (exp(-rate p) - 1) / rate, for which expm1 keeps the digits at small plastic
+        // strain.
         const double height = saturation - yield_stress;
         const double rest   = std::exp(-rate * plastic_strain);
         return {saturation - height * rest + modulus * plastic_strain,
@@ -189,6 +194,8 @@ namespace Touchstone
       void
       check(const std::string &section) const override
       {
+        // A curve must begin at plastic strain zero, with the initial yield stress: without that
+        // point the elastic range would be undefined.
         const auto complain = [&](const std::string &problem, const std::string &remedy) {
           throw InputError(
             section, "Yield curve", Patterns::Tools::to_string(points), problem, remedy);

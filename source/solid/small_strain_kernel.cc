@@ -40,6 +40,8 @@ namespace Touchstone
   Tensor<2, dim>
   SmallStrainKernel::deformation(const unsigned int q) const
   {
+    // The spherical part of the gradient is changed such that its trace is the mean dilatation;
+    // its skew part does not matter to the law.
     Tensor<2, dim> gradient = points[q].gradient;
     if (averaged)
       {

@@ -48,6 +48,8 @@ namespace Touchstone
     hanging.reinit(relevant);
     DoFTools::make_hanging_node_constraints(dof_handler, hanging);
     hanging.close();
+    // Whether there are hanging nodes must be known to all ranks alike, as condense() is
+    // collective.
     any_hanging = Utilities::MPI::max(hanging.n_constraints(), communicator) > 0;
 
     // Contact counts nodes, not dofs: node k has the dofs 3k, 3k+1, 3k+2.
@@ -81,6 +83,8 @@ namespace Touchstone
               couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
     nonlinear = std::make_unique<NonlinearCells>(bodies, fe);
+    // The matrix stores one of two transposed blocks where the tangent is symmetric, which the
+    // laws tell; hence the cells of nonlinear bodies are made before it.
     matrix.reinit(owned, couplings, communicator, symmetric());
     nonlinear->reinit(mapping, dof_handler, matrix);
   }
@@ -235,6 +239,8 @@ namespace Touchstone
     const std::function<
       void(unsigned int, const Point<dim> &, const SymmetricTensor<2, dim> &, double)> &visit) const
   {
+    // One kernel per linear body, made once: it evaluates shapes and tables that all cells of the
+    // body share.
     std::vector<std::unique_ptr<ElementKernel>> kernels;
     for (const BodyParameters &body : bodies)
       kernels.push_back(
@@ -330,6 +336,7 @@ namespace Touchstone
   dealii::Vector<double>
   Solid::cell_plastic_strain() const
   {
+    // Means over the reference volumes of the points of each cell.
     const unsigned int     n = dof_handler.get_triangulation().n_active_cells();
     dealii::Vector<double> result(n), volumes(n);
     if (plastic())
@@ -351,6 +358,8 @@ namespace Touchstone
   std::map<unsigned int, double>
   Solid::largest_plastic_strain() const
   {
+    // Plastic bodies get an entry on all ranks, also those that own none of their cells: the
+    // reduction below is collective for each entry.
     std::map<unsigned int, double> result;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (const auto law = history_law(b); law && law->plastic())
