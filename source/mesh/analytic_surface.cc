@@ -6,6 +6,9 @@
 
 #include <cmath>
 
+// Exact surfaces as closest-point maps P(x) with their derivative (doc/theory.md, section 4,
+// equation (8)): plane, sphere and cone, of which the cylinder is the case of slope zero. Contact
+// takes positions and normals from them, so that the facets of the mesh do not enter the gap.
 namespace Touchstone
 {
   using namespace dealii;
@@ -14,11 +17,12 @@ namespace Touchstone
   {
     const Tensor<2, 3> identity = unit_symmetric_tensor<3>();
 
-    /** Any unit vector perpendicular to @p direction: the way out for points on
-     * an axis, where every direction leads to a closest point. */
+    /** Any unit vector perpendicular to @p direction: used for points on an axis, where every
+     * radial direction leads to a closest point. */
     Tensor<1, 3>
     some_perpendicular(const Tensor<1, 3> &direction)
     {
+      // The axis that is farthest from parallel keeps the subtraction below free of cancellation.
       unsigned int smallest = 0;
       for (unsigned int d = 1; d < 3; ++d)
         if (std::abs(direction[d]) < std::abs(direction[smallest]))
@@ -84,6 +88,8 @@ namespace Touchstone
       Tensor<2, 3>
       projection_gradient(const Point<3> &x) const override
       {
+        // A tangential step is scaled by the ratio of the radii, a radial one is lost. At the
+        // centre the map has no derivative; the bound on r keeps it finite there.
         const Tensor<1, 3> e = direction(x);
         const double       r = std::max((x - centre).norm(), tiny());
         return (radius / r) * (identity - outer_product(e, e));
@@ -161,6 +167,9 @@ namespace Touchstone
       Point<3>
       project_with(const Point<3> &x, std::array<Tensor<1, 3>, 2> &directions) const override
       {
+        // Point and derivative from one evaluation of the foot, along the two tangents of a face
+        // alone: this is called for each evaluation of a position in the search for the closest
+        // point.
         const Foot         foot    = find(x);
         const Tensor<1, 3> tangent = (axis + slope * foot.e) / q;
         const Tensor<1, 3> around  = cross_product_3d(axis, foot.e);
@@ -200,6 +209,8 @@ namespace Touchstone
         const double       tiny    = 1e-12 * (std::abs(radius + slope * s) + r);
         const bool         on_axis = r <= tiny;
 
+        // Signed distance from the generator in the half plane through x, whose normal is
+        // (-slope, 1) / q in (s, r).
         const double distance = (r - radius - slope * s) / q;
         return {s + distance * slope / q,
                 r - distance / q,

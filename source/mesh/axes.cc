@@ -12,6 +12,8 @@ namespace Touchstone
 
   namespace
   {
+    /** Cosine of an angle in degrees that is exactly zero at odd multiples of 90: so vertices of
+     * cuts lie exactly in their plane. */
     double
     cosine(const double degrees)
     {
@@ -40,6 +42,8 @@ namespace Touchstone
 
 
 
+  /** The point at @p along on the axis with offsets in the two other directions, in cyclic order
+   * (y and z for axis x), so that the coordinates are right-handed whichever axis is chosen. */
   Point<3>
   Axes::point(const double first, const double second, const double along) const
   {
@@ -52,6 +56,8 @@ namespace Touchstone
 
 
 
+  /** Cylindrical coordinates with the angle in degrees; the sine as the cosine of angle - 90, for
+   * the same exact zeros. */
   Point<3>
   Axes::polar(const double radius, const double angle, const double along) const
   {

@@ -47,6 +47,9 @@ namespace Touchstone
       BodyMesh
       create(const double factor, const std::string &, const std::string &) const override
       {
+        // The lattice is made on the unit ball around the origin, whose coordinates are exactly
+        // zero in the cut planes, so that faces of cuts can be told by comparison with zero; only
+        // the vertices of the mesh are scaled and moved.
         const RoundLattice lattice(
           3, keep, scaled_cells(cells[0], factor), scaled_cells(cells[1], factor), 1);
 
@@ -67,11 +70,15 @@ namespace Touchstone
           return std::make_pair(0u, types::manifold_id(0));
         });
 
+        // Boundaries of cuts exist only where there are cuts, so that a condition on a missing
+        // one is an error.
         mesh.boundary_names = {{"surface", 0}};
         for (unsigned int d = 0; d < 3; ++d)
           if (keep[d] != "both")
             mesh.boundary_names[std::string(1, "xyz"[d]) + " cut"] = 1 + d;
 
+        // New vertices on the surface lie on the sphere by the manifold, contact takes gaps from
+        // the exact surface.
         mesh.manifolds[0] = std::make_shared<SphericalManifold<3>>(centre);
         mesh.surfaces[0]  = make_sphere(centre, radius, true);
         return mesh;

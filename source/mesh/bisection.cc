@@ -15,6 +15,11 @@
 #include <numeric>
 #include <set>
 
+// Partition of meshes that never change by recursive bisection of the coordinates: parts are
+// compact, which keeps the surfaces between ranks small, and balanced by the work of cells and
+// contact faces. The result depends on the mesh alone. If there are enough coarse cells, only
+// these are distributed and each rank refines its own part, so that no rank ever holds the
+// refined mesh.
 namespace Touchstone
 {
   using namespace dealii;
@@ -50,11 +55,14 @@ namespace Touchstone
       for (auto item = begin; item != end; ++item)
         centers.push_back(item->center);
       const BoundingBox<dim> box(centers);
-      unsigned int           axis = 0;
+      // A tolerance decides between equal sides for the first axis, where round-off would decide
+      // at random.
+      unsigned int axis = 0;
       for (unsigned int d = 1; d < dim; ++d)
         if (box.side_length(d) > (1. + 1e-6) * box.side_length(axis))
           axis = d;
-      // Layers stay whole but for one, whatever round-off does to their places.
+      // Positions are rounded, so that round-off does not decide the order within a layer of cells
+      // and all layers but one stay in one part.
       const double unit  = std::max(1e-6 * box.side_length(axis), 1e-300);
       const auto   place = [&](const Item &item) {
         return std::make_pair(std::round((item.center[axis] - box.lower_bound(axis)) / unit),
@@ -64,12 +72,14 @@ namespace Touchstone
       double total = 0.;
       for (auto item = begin; item != end; ++item)
         total += item->work;
+      // The cut is where the sum of work is nearest to the share of the lower ranks: a cell goes
+      // to the lower half if its middle lies below the target. Ranks need not be a power of two.
       const unsigned int n_lower = n_ranks / 2;
       double             sum     = 0.;
       auto               middle  = begin;
       for (; middle != end && sum + 0.5 * middle->work < total * n_lower / n_ranks; ++middle)
         sum += middle->work;
-      // However heavy a cell, no rank goes without if there is one for each.
+      // Each rank gets at least one cell if there are enough, however uneven the work.
       if (const std::ptrdiff_t n_items = end - begin; n_items >= n_ranks)
         middle = begin +
                  std::clamp<std::ptrdiff_t>(middle - begin, n_lower, n_items - (n_ranks - n_lower));
@@ -96,7 +106,9 @@ namespace Touchstone
 
 
 
-    /** The part of a mesh that consists of @p cells. */
+    /** The part of a mesh that consists of @p cells. A boundary face of the whole mesh is kept with
+     * its id if one of the cells has it; faces are compared by their sorted vertices. Faces towards
+     * cells that were left out have no entry, and become boundary faces without an id. */
     BodyMesh
     part_of(const BodyMesh &mesh, const std::vector<unsigned int> &cells)
     {
@@ -155,6 +167,8 @@ namespace Touchstone
       {
         for (unsigned int n = 0; n < n_times; ++n)
           {
+            // Uniform refinement needs no agreement between ranks, hence the function of the
+            // serial class.
             set_all_refine_flags();
             dealii::Triangulation<dim>::execute_coarsening_and_refinement();
           }
@@ -207,6 +221,8 @@ namespace Touchstone
     const bool coarse_cells = whole.n_active_cells() >= enough * n_ranks;
     if (!coarse_cells)
       whole.refine_global(refinements);
+    // If a coarse cell stands for 8^r refined ones, each of its faces stands for 4^r: per unit of
+    // cell work a contact face counts by 4^r / 8^r = 2^-r.
     const double      faces_of_cell = coarse_cells ? std::pow(0.5, refinements) : 1.;
     std::vector<Item> items;
     for (const auto &cell : whole.active_cell_iterators())
@@ -228,7 +244,8 @@ namespace Touchstone
       describe(whole, [&](const auto &cell) { return rank[cell->active_cell_index()]; });
     else
       {
-        // What lies behind the neighbours tells that their outer faces are no boundary.
+        // A second layer of neighbours is needed for the first one to know which of its faces are
+        // at the boundary of the body.
         std::vector<char> marked(mesh.cells.size());
         for (unsigned int c = 0; c < marked.size(); ++c)
           marked[c] = rank[c] == here;

@@ -79,17 +79,22 @@ namespace Touchstone
             positions[d] = graded_positions(0., 1., n[d], grading[d]);
           }
 
+        // The block is meshed on the unit cube, with the grading of each direction, and mapped to
+        // its corners.
         BodyMesh mesh =
           make_block(n,
                      false,
                      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
                        const Point<3> unit(positions[0][i], positions[1][j], positions[2][k]);
-                       Point<3>       x;
+                       // Trilinear interpolation between the corners: edges are straight, faces
+                       // may be warped.
+                       Point<3> x;
                        for (unsigned int v = 0; v < 8; ++v)
                          x += GeometryInfo<3>::d_linear_shape_function(unit, v) * corner(v);
                        return x;
                      },
                      {{0, 1, 2, 3, 4, 5}});
+        // The same ids as those of a box, so that a box can be replaced by a block.
         mesh.boundary_names = {
           {"left", 0}, {"right", 1}, {"front", 2}, {"back", 3}, {"bottom", 4}, {"top", 5}};
         return mesh;

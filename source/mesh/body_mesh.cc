@@ -11,6 +11,9 @@
 #include <stdexcept>
 #include <unistd.h>
 
+// Tools that geometries share to make coarse meshes: structured blocks, graded positions,
+// boundary faces with their ids, and checks of size and orientation. The meshes of all bodies are
+// joined by Forest.
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,6 +35,8 @@ namespace Touchstone
 
 
 
+  /** The number of cells for a refinement factor, at least one; the check comes before the
+   * conversion to an integer, which could overflow. */
   unsigned int
   scaled_cells(const unsigned int n, const double factor)
   {
@@ -41,6 +46,9 @@ namespace Touchstone
 
 
 
+  /** n + 1 positions between the ends such that sizes form a geometric series with the given ratio
+   * of the last to the first. Sums of the series instead of its formula, which is 0/0 for ratio
+   * one. */
   std::vector<double>
   graded_positions(const double lower, const double upper, const unsigned int n, const double ratio)
   {
@@ -64,6 +72,8 @@ namespace Touchstone
              const std::function<Point<3>(unsigned int, unsigned int, unsigned int)> &position,
              const std::array<types::boundary_id, 6>                                 &ids)
   {
+    // A closed block, as a full tube, has its last points in the second direction in common with
+    // the first ones: indices are taken modulo the number of points there.
     const std::array<unsigned int, 3> points{{n[0] + 1, closed ? n[1] : n[1] + 1, n[2] + 1}};
     const auto                        vertex = [&](const std::array<unsigned int, 3> &i) {
       return i[0] + points[0] * (i[1] % points[1] + points[1] * i[2]);
@@ -86,6 +96,8 @@ namespace Touchstone
             mesh.cells.push_back(cell);
           }
 
+    // Boundary faces: on both sides of each direction d, faces over the two other directions; a
+    // closed block has no sides in its second direction.
     for (unsigned int d = 0; d < 3; ++d)
       {
         if (d == 1 && closed)
@@ -113,6 +125,9 @@ namespace Touchstone
 
 
 
+  /** Faces that belong to one cell only. They are compared by their sorted vertices, since
+   * neighbours list the vertices of a common face in different orders; a face of three cells is
+   * no body. */
   std::vector<FaceVertices>
   boundary_faces(const std::vector<CellData<3>> &cells)
   {
@@ -163,6 +178,10 @@ namespace Touchstone
 
 
 
+  /** Count cells with a negative Jacobian at all corners (numbered inside out) and those with a
+   * sign that changes or vanishes (distorted). For trilinear cells the corners are where the
+   * Jacobian is worst in practice; the threshold is relative to the lengths of the edges, as flat
+   * corners give round-off of either sign. */
   Orientation
   orientation(const BodyMesh &mesh)
   {
@@ -200,7 +219,7 @@ namespace Touchstone
     triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.subcells);
 
     // The ids of the faces are there now, but deal.II leaves edges flat, and so
-    // the faces between cells. Boundary faces come last: they know best.
+    // the faces between cells. Boundary faces come last, so that their manifold takes precedence.
     for (const auto &cell : triangulation.cell_iterators_on_level(0))
       if (cell->manifold_id() != numbers::flat_manifold_id)
         {

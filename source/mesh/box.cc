@@ -39,6 +39,7 @@ namespace Touchstone
       void
       check(const std::string &section) const override
       {
+        // An extent of zero or less would give cells without volume or inside out.
         for (unsigned int d = 0; d < 3; ++d)
           if (!(upper[d] > lower[d]))
             throw InputError(section,
@@ -60,6 +61,7 @@ namespace Touchstone
             positions[d] = graded_positions(lower[d], upper[d], n[d], grading[d]);
           }
 
+        // Rotations about fixed axes, the first applied first, hence from the left.
         Tensor<2, 3> turn = unit_symmetric_tensor<3>();
         for (unsigned int d = 0; d < 3; ++d)
           if (rotation[d] != 0.)
@@ -78,9 +80,13 @@ namespace Touchstone
                      false,
                      [&](const unsigned int i, const unsigned int j, const unsigned int k) {
                        const Point<3> x(positions[0][i], positions[1][j], positions[2][k]);
+                       // A box that is not rotated gets its coordinates without the round-off of
+                       // a product.
                        return turned ? Point<3>(lower + turn * (x - lower)) : x;
                      },
                      {{0, 1, 2, 3, 4, 5}});
+        // Ids follow deal.II's order of the faces of a hyper-rectangle: lower before upper side,
+        // x before y before z.
         mesh.boundary_names = {
           {"left", 0}, {"right", 1}, {"front", 2}, {"back", 3}, {"bottom", 4}, {"top", 5}};
         return mesh;

@@ -6,6 +6,9 @@
 
 #include <cmath>
 
+// A block with a curved face for contact of Hertz's type: equal small cells around the apex,
+// where the pressure is, and cells that grow from there to the sides and the far face, which
+// should be many contact radii away.
 namespace Touchstone
 {
   using namespace dealii;
@@ -73,6 +76,8 @@ namespace Touchstone
         for (unsigned int d = 0; d < 2; ++d)
           {
             gradient[d][d] = 1.;
+            // The slope of the surface is x/(R - sag): at the depth fraction z it is attenuated
+            // by 1 - z.
             if (radius > 0. && d < curved)
               gradient[2][d] = direction * (1. - chart[2]) * chart[d] / (radius - s);
           }
@@ -82,7 +87,7 @@ namespace Touchstone
 
     private:
       const Point<3> apex;
-      /** Directions in which the face is curved: x, or x and y. */
+      /** The number of directions in which the face is curved: x, or x and y. */
       const unsigned int curved;
       const double       radius, height, direction;
     };
@@ -213,6 +218,9 @@ namespace Touchstone
 
 
 
+    /** Conditions under which the map of CapManifold is invertible: the contact face stays below
+     * the equator and does not meet the far face. The margins keep the cells at the corner from
+     * degenerating. */
     void
     Cap::check(const std::string &section) const
     {
@@ -271,6 +279,9 @@ namespace Touchstone
           x += size *= growth;
         return x;
       };
+      // The growth factor by bisection of the monotone function reached(growth): for n cells it
+      // is the root of a polynomial without a formula. At the upper end already the first of the
+      // outer cells reaches beyond the end.
       double low = 0., high = (end - fine) / h + 1.;
       for (unsigned int step = 0; step < 200; ++step)
         {
@@ -284,6 +295,7 @@ namespace Touchstone
       double size = h;
       for (unsigned int i = 0; i < n_outer; ++i)
         positions.push_back(positions.back() + (size *= low));
+      // Without the round-off of the bisection, so that sides are exactly plane.
       positions.back() = end;
       return positions;
     }
@@ -293,6 +305,8 @@ namespace Touchstone
     BodyMesh
     Cap::create(const double factor, const std::string &, const std::string &) const
     {
+      // The plan is meshed for the quarter with x, y >= 0 and mirrored for the whole, so that the
+      // mesh is symmetric to the last digit and symmetric problems have symmetric solutions.
       std::vector<double> plan = fine_then_growing(fine,
                                                    scaled_cells(fine_cells, factor),
                                                    width,
@@ -302,6 +316,7 @@ namespace Touchstone
                                                    height,
                                                    scaled_cells(outer_layers, factor));
 
+      // A cylinder has equal cells along its axis (y), a sphere the same positions in x and y.
       std::vector<double> across;
       if (is_cylinder())
         across = graded_positions(0., depth, scaled_cells(depth_cells, factor), 1.);
@@ -346,6 +361,8 @@ namespace Touchstone
 
       if (radius > 0.)
         {
+          // All cells have the manifold, not just the surface, so that refinement keeps the
+          // layers parallel to the curved face near it.
           mesh.manifolds[0] = manifold;
           for (CellData<3> &cell : mesh.cells)
             cell.manifold_id = 0;

@@ -10,7 +10,8 @@ namespace Touchstone
 
   namespace
   {
-    /** Reaches as far as it is long: surfaces may be curved, and move. */
+    /** The bounding box of a face, extended by half of its diagonal on all sides, as surfaces may
+     * be curved, and move. */
     BoundingBox<dim>
     wide_box(const std::vector<Point<dim>> &vertices)
     {
@@ -21,6 +22,7 @@ namespace Touchstone
       return box;
     }
 
+    /** The widened boxes of all coarse faces of the given boundaries. */
     std::vector<BoundingBox<dim>>
     boxes(const BodyMesh &mesh, const std::set<types::boundary_id> &boundaries)
     {
@@ -44,12 +46,15 @@ namespace Touchstone
                         const std::set<types::boundary_id> &slaves,
                         const std::set<types::boundary_id> &masters)
   {
+    // Work is counted only for faces near the other surface, as the partition is made for the
+    // initial position. Where the surfaces are nowhere near each other, an empty tree makes all
+    // their faces count.
     const std::vector<Box> of_slaves = boxes(mesh, slaves), of_masters = boxes(mesh, masters);
     const auto             tree = pack_rtree(of_masters);
     const bool any = std::any_of(of_slaves.begin(), of_slaves.end(), [&](const Box &box) {
       return tree.qbegin(boost::geometry::index::intersects(box)) != tree.qend();
     });
-    // Bodies that are apart come together no one knows where.
+    // Where bodies that are apart will meet is not known in advance.
     sides.push_back({slaves, slave_face, any ? tree : RTree<Box>()});
     if (!masters.empty())
       sides.push_back({masters, master_face, any ? pack_rtree(of_slaves) : RTree<Box>()});
@@ -60,6 +65,8 @@ namespace Touchstone
   unsigned int
   ContactWork::operator()(const Triangulation<dim>::cell_iterator &cell) const
   {
+    // A cell at an edge of the contact surface can have several faces in contact, each of which
+    // counts.
     unsigned int sum = 0;
     for (const auto &face : cell->face_iterators())
       if (face->at_boundary())

@@ -10,6 +10,8 @@
 
 #include <cmath>
 
+// A solid cylinder from a lattice with a square core, without the degenerate cells that a polar
+// mesh has on its axis.
 namespace Touchstone
 {
   using namespace dealii;
@@ -93,6 +95,7 @@ namespace Touchstone
     void
     Cylinder::check(const std::string &section) const
     {
+      // Written such that values that are not numbers fail, too.
       if (!(end > start))
         throw InputError(section,
                          "End",
@@ -112,6 +115,8 @@ namespace Touchstone
     BodyMesh
     Cylinder::create(const double factor, const std::string &, const std::string &) const
     {
+      // The section's first direction is mirrored unless it is a quarter, the second unless it is
+      // a half or quarter.
       const std::vector<std::string> keep = {part == Part::quarter ? "+" : "both",
                                              part == Part::full ? "both" : "+"};
       const unsigned int layers = scaled_cells(cells[2], factor);
@@ -126,6 +131,8 @@ namespace Touchstone
         mesh.vertices.push_back(
           axes.point(radius * x[0], radius * x[1], along[std::lround(x[2] * layers)]));
 
+      // Lattice coordinates are exactly 0 or 1 on flat faces, so comparisons need no tolerance;
+      // what is left is the side.
       add_boundary_faces(mesh, [&](const FaceVertices &face) {
         const auto all = [&](const unsigned int d, const double value) {
           for (const unsigned int v : face)
@@ -153,6 +160,8 @@ namespace Touchstone
       if (part == Part::quarter)
         mesh.boundary_names["second cut"] = second_cut;
 
+      // Only the faces of the side are curved: cylindrical coordinates are singular on the axis,
+      // which the core contains, so that cells inside must not be refined by them.
       mesh.manifolds[0]   = std::make_shared<CylindricalManifold<3>>(axes.direction(), origin);
       mesh.surfaces[side] = make_cone(origin, axes.direction(), radius, 0., true);
       return mesh;

@@ -4,6 +4,8 @@
 #include <touchstone/base/parameter_checks.h>
 #include <touchstone/mesh/discretisation_parameters.h>
 
+// Keys of the section 'Discretisation', common to all bodies: degree of the elements, refinement,
+// and the distribution of the mesh over the ranks.
 namespace Touchstone
 {
   using dealii::ParameterHandler;

@@ -29,6 +29,7 @@ namespace Touchstone
     {
       Tensor<1, n> values;
       for (unsigned int d = 0; d < n; ++d)
+        // Messages name the word whose numbers are missing; the caller adds section and key.
         if (!(in >> values[d]))
           throw std::runtime_error("the word '" + word + "' needs " + std::to_string(n) +
                                    (n == 1 ? " number." : " numbers."));
@@ -37,6 +38,7 @@ namespace Touchstone
 
 
 
+    /** A unit vector from 'x', 'y', 'z' or three numbers; the next character decides which. */
     Tensor<1, 3>
     direction(std::istream &in)
     {
@@ -56,6 +58,9 @@ namespace Touchstone
 
 
 
+    /** One surface from its words, in any order, with the manifold by which its mesh is refined. A
+     * cone is refined in cylindrical coordinates: these average radius and position along the
+     * axis, and the mean of two points of a cone is on the cone. */
     ExactSurface
     parse_one(const std::string &text)
     {
@@ -69,6 +74,8 @@ namespace Touchstone
       Tensor<1, 3> axis({0., 0., 1.});
       double       radius = 0., slope = 0.;
       bool         outside = true;
+      // A word that another shape would need, as 'slope' for a cylinder, is an error like an
+      // unknown one.
       for (std::string word; in >> word;)
         if (word == "axis" && shape != "sphere")
           axis = direction(in);
@@ -97,6 +104,7 @@ namespace Touchstone
   std::map<std::string, ExactSurface>
   parse_exact_surfaces(const std::string &text)
   {
+    // Entries are separated by semicolons, each a name, a colon, and the words of a surface.
     std::map<std::string, ExactSurface> result;
     for (const std::string &entry : Utilities::split_string_list(text, ';'))
       {

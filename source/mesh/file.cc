@@ -16,6 +16,10 @@
 #include <fstream>
 #include <set>
 
+// A body from a mesh file: cells of one volume of the file are selected, checked and oriented,
+// their boundary faces get ids from the surfaces that the file marks, and exact surfaces are
+// attached. The formats are read elsewhere (read_gmsh.cc, read_abaqus.cc, read_vtk.cc) into the
+// common MeshFile.
 namespace Touchstone
 {
   using namespace dealii;
@@ -92,6 +96,8 @@ namespace Touchstone
     void
     FileGeometry::check(const std::string &section) const
     {
+      // The file itself is opened only when the mesh is made; here are checks of what the input
+      // says.
       const std::string extension = std::filesystem::path(file).extension();
       if (extension != ".msh" && extension != ".inp" && extension != ".vtk")
         throw InputError(section,
@@ -121,6 +127,8 @@ namespace Touchstone
                          const std::string &section,
                          const std::string &folder) const
     {
+      // Powers of two were taken out of the factor before (Forest::make): what is left cannot be
+      // had from given cells.
       if (factor != 1.)
         throw InputError("Discretisation",
                          "Refinement factor",
@@ -139,6 +147,8 @@ namespace Touchstone
         {
           mark(mesh, mesh_file, vertex_numbers, section);
         }
+      // An InputError of mark() already names section and key; other errors come from the mesh
+      // itself.
       catch (const InputError &)
         {
           throw;
@@ -157,6 +167,8 @@ namespace Touchstone
 
 
 
+    /** Size and checksum of the file, by which a run that resumes from a checkpoint notices that
+     * the mesh has changed. */
     std::string
     FileGeometry::fingerprint(const std::string &folder) const
     {
@@ -194,6 +206,8 @@ namespace Touchstone
             throw MeshFileError("The file has no hexahedra.");
           return mesh;
         }
+      // A damaged number of entries can ask for any amount of memory; that is an error of the
+      // file, not of the program.
       catch (const std::bad_alloc &)
         {
           throw InputError(section,
@@ -214,11 +228,15 @@ namespace Touchstone
 
 
 
+    /** Only vertices that the selected cells use are taken, in the order of their first use: a
+     * vertex without a cell would be invalid in deal.II. */
     BodyMesh
     FileGeometry::select(const MeshFile                       &mesh_file,
                          std::map<unsigned int, unsigned int> &vertex_numbers,
                          const std::string                    &section) const
     {
+      // A volume can be called by its name or by its number; if several groups match, all of them
+      // are taken.
       std::vector<CellData<3>> cells;
       if (volume.empty())
         cells = mesh_file.cells;
@@ -280,11 +298,16 @@ namespace Touchstone
                            " inverted or distorted: the Jacobian is not positive at each "
                            "corner",
                          "repair the mesh in the program that made it");
+      // deal.II needs edges whose directions agree between neighbouring cells, which files do not
+      // guarantee.
       GridTools::consistently_order_cells(mesh.cells);
     }
 
 
 
+    /** Give each boundary face the id of the surface of the file to which it belongs. Faces are
+     * compared by sorted vertices. Faces of the file between two cells, or of other volumes, are
+     * ignored. */
     void
     FileGeometry::mark(BodyMesh                                   &mesh,
                        const MeshFile                             &mesh_file,
@@ -295,6 +318,7 @@ namespace Touchstone
       types::boundary_id                                   next = unmarked + 1;
       for (const MeshFile::Group &group : mesh_file.surfaces)
         {
+          // Ids for shared faces begin behind the highest number of the file.
           next = std::max(next, group.number + 1);
           for (const unsigned int f : group.members)
             {
@@ -335,6 +359,8 @@ namespace Touchstone
       for (const MeshFile::Group &group : mesh_file.surfaces)
         if (used.count(group.number) > 0 && !group.name.empty())
           mesh.boundary_names[group.name] = group.number;
+      // Names from the input for formats that have numbers only, checked like those of the file:
+      // they must exist, and must not rename another boundary.
       for (const auto &[name, number] : extra_names)
         {
           if (used.count(number) == 0)
@@ -362,6 +388,9 @@ namespace Touchstone
     void
     FileGeometry::attach_exact_surfaces(BodyMesh &mesh, const std::string &section) const
     {
+      // Each exact surface becomes the manifold of its faces, for refinement, and the surface
+      // from which contact takes gaps. Vertices are moved to it; a vertex farther away than 1e-3
+      // of the size of a face tells of wrong parameters, not of rounding in the file.
       types::manifold_id next = 0;
       for (const auto &[name, shape] : parse_exact_surfaces(exact))
         {
@@ -393,7 +422,7 @@ namespace Touchstone
                     face.manifold_id = next;
                     for (const unsigned int v : face.vertices)
                       {
-                        // Files have few digits; what the formula says counts.
+                        // Files round coordinates to few digits; the formula is exact.
                         Point<3>      &x     = mesh.vertices[v];
                         const Point<3> exact = shape.surface->project(x);
                         farthest             = std::max(farthest, exact.distance(x));

@@ -12,6 +12,10 @@
 #include <cmath>
 #include <set>
 
+// The mesh of all bodies as one triangulation: coarse meshes are made by their geometries, joined
+// without common vertices, partitioned and refined. Boundaries have ids that are unique over all
+// bodies; users refer to them by names, which are translated here with messages that list what
+// there is.
 namespace Touchstone
 {
   using namespace dealii;
@@ -59,6 +63,8 @@ namespace Touchstone
                   const unsigned int              level,
                   const DiscretisationParameters &parameters)
     {
+      // Counted in cells of degree 1: a cell of degree 2 has about eight times as many dofs, and
+      // each refinement eight times the cells.
       try
         {
           check_number_of_cells(cells * std::pow(8., level) * std::pow(parameters.degree, 3));
@@ -86,6 +92,8 @@ namespace Touchstone
       for (const CellData<2> &face : all.subcells.boundary_quads)
         next_boundary = std::max(next_boundary, face.boundary_id + 1);
 
+      // Geometries number boundaries and manifolds from zero each; here they are moved behind
+      // those in use. The body is kept as the material id of its cells.
       std::map<types::manifold_id, types::manifold_id> manifold_ids;
       for (const auto &[id, manifold] : body.manifolds)
         {
@@ -144,6 +152,8 @@ namespace Touchstone
     BodyMesh all;
     for (unsigned int body = 0; body < input.bodies.size(); ++body)
       {
+        // Errors of a geometry are reported with the section of its body, since geometries do not
+        // know for whom they work.
         const std::string section = "Body " + input.bodies[body].name + "/Geometry";
 
         const BodyMesh mesh = create(*input.bodies[body].geometry, factor, section, scene_folder);
@@ -151,6 +161,8 @@ namespace Touchstone
         const auto ids = append(mesh, body, all);
 
         names.emplace_back();
+        // A face of a mesh file can belong to several boundaries; such faces have an id of their
+        // own, which each of those boundaries includes. So a boundary is a set of ids.
         std::map<types::boundary_id, BoundaryIds> ids_of;
         for (const auto &[own, id] : ids)
           if (const auto shared = mesh.shared.find(own); shared != mesh.shared.end())
@@ -169,6 +181,8 @@ namespace Touchstone
       }
     check_refined(all.cells.size(), level, input.discretisation);
 
+    // Work per cell and per contact face, by which parts are balanced. Bodies of equal work count
+    // by one, so that partitions do not depend on the law that all have in common.
     const auto contact_work = std::make_shared<ContactWork>();
     for (const ForestInput::Pair &pair : input.pairs)
       contact_work->add_pair(
@@ -189,10 +203,12 @@ namespace Touchstone
     };
     const DiscretisationParameters &parameters = input.discretisation;
     using Partitioner                          = DiscretisationParameters::Partitioner;
-    const Partitioner partitioner              = parameters.partitioner != Partitioner::automatic
-                                                   ? Partitioner(parameters.partitioner)
-                                                 : input.refines ? Partitioner::p4est
-                                                                 : Partitioner::coordinates;
+    // Only p4est can change a mesh while it is distributed; meshes that stay are cut by
+    // coordinates, into parts of equal work. On one rank there is nothing to cut.
+    const Partitioner partitioner = parameters.partitioner != Partitioner::automatic
+                                      ? Partitioner(parameters.partitioner)
+                                    : input.refines ? Partitioner::p4est
+                                                    : Partitioner::coordinates;
     if (partitioner != Partitioner::p4est && Utilities::MPI::n_mpi_processes(communicator) == 1)
       return whole_mesh(all, level, communicator);
     if (partitioner == Partitioner::coordinates)
@@ -208,6 +224,8 @@ namespace Touchstone
 
 
 
+  /** Refine to a mesh that the run had before, level by level: marked are the cells that have
+   * children in that mesh, and their children may be marked in turn once they exist. Collective. */
   void
   Forest::refine(const std::set<CellId::binary_type> &cells)
   {
@@ -256,6 +274,7 @@ namespace Touchstone
     if (found != names[body].end())
       return found->second;
 
+    // The message lists the names and numbers that would be accepted.
     std::string available;
     for (const auto &[other, id] : names[body])
       available += (available.empty() ? "'" : ", '") + other + "'";
@@ -274,6 +293,7 @@ namespace Touchstone
                      const std::string              &section,
                      const std::string              &key) const
   {
+    // The same boundary under two names would get two conditions or be in contact twice.
     std::vector<BoundaryIds>           result;
     std::map<BoundaryIds, std::string> seen;
     for (const std::string &name : names)
@@ -309,6 +329,7 @@ namespace Touchstone
 
 
 
+  /** The name of a boundary id for messages and output. */
   std::string
   Forest::boundary_name(const types::boundary_id id) const
   {
@@ -326,6 +347,7 @@ namespace Touchstone
   std::shared_ptr<const AnalyticSurface>
   Forest::surface(const types::boundary_id id) const
   {
+    // Null means that contact knows the facets of the mesh alone (doc/theory.md, section 4).
     const auto found = surfaces.find(id);
     return found != surfaces.end() ? found->second : nullptr;
   }

@@ -10,6 +10,8 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  /** File formats number the vertices of a hexahedron around its faces, deal.II in lexicographic
+   * order. */
   void
   MeshFile::add_cell(const std::vector<unsigned int> &v, const unsigned int line)
   {
@@ -39,6 +41,8 @@ namespace Touchstone
     std::vector<unsigned int>
     first_copies(const std::vector<CellData<3>> &cells)
     {
+      // Sorting the cells by their sorted vertices brings copies next to each other, in the order
+      // of the file: n log n instead of n^2 comparisons.
       std::vector<std::vector<unsigned int>> sorted(cells.size());
       for (unsigned int c = 0; c < cells.size(); ++c)
         {
@@ -60,6 +64,9 @@ namespace Touchstone
 
 
 
+  /** Gmsh 2.2 writes an element once for each physical group that has it. With @p
+   * one_for_each_volume such copies are joined to one cell that is a member of all their volumes;
+   * any other two cells with the same vertices are an error, because they would overlap. */
   void
   MeshFile::join_copies(const bool one_for_each_volume)
   {
@@ -83,6 +90,9 @@ namespace Touchstone
         volume.members = members;
       }
 
+    // A copy is legitimate only if each copy stands for a volume of its own and lists its
+    // vertices in the same order, as Gmsh writes it; else the mesh really has two cells in one
+    // place.
     std::vector<unsigned int> number(cells.size()), lines;
     std::vector<CellData<3>>  kept;
     for (unsigned int c = 0; c < cells.size(); ++c)

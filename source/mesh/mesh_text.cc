@@ -5,6 +5,9 @@
 #include <charconv>
 #include <cmath>
 
+// Words and numbers of mesh files with the line where they stand, for messages that lead to the
+// damage. The characters come straight from the stream buffer, as formatted input of streams is
+// slow and lenient.
 namespace Touchstone
 {
   using namespace dealii;
@@ -81,6 +84,7 @@ namespace Touchstone
 
 
 
+  /** Skip white space and count the lines; the next character stays in the stream. */
   int
   MeshText::next_character()
   {
@@ -96,6 +100,8 @@ namespace Touchstone
   bool
   MeshText::word(std::string &text)
   {
+    // The line of a word is kept apart from the current one: the latter has moved on when an
+    // error of the word is found.
     std::streambuf &buffer = *in.rdbuf();
     constexpr int   end    = std::char_traits<char>::eof();
     text.clear();
@@ -134,6 +140,7 @@ namespace Touchstone
   long
   MeshText::signed_number(const char *what)
   {
+    // Gmsh gives a negative sign to groups and entities of reversed orientation.
     const std::string next  = text(what);
     long              value = 0;
     if (!parse(next, value))
@@ -146,6 +153,7 @@ namespace Touchstone
   double
   MeshText::real(const char *what)
   {
+    // Infinite numbers and NaN parse, but make no mesh.
     const std::string next  = text(what);
     double            value = 0.;
     if (!parse(next, value) || !std::isfinite(value))
@@ -166,11 +174,14 @@ namespace Touchstone
 
 
 
+  /** A number of entries that is about to be allocated. Each entry takes at least two characters,
+   * a digit and a blank, so that damaged numbers are found before memory is exhausted. */
   unsigned int
   MeshText::announced(const char *what)
   {
-    const unsigned long n    = number(what);
-    const auto          here = in.tellg();
+    const unsigned long n = number(what);
+    // The bound comes from the number of bytes to the end of the file.
+    const auto here = in.tellg();
     in.seekg(0, std::ios::end);
     const auto left = in.tellg() - here;
     in.seekg(here);
@@ -185,6 +196,8 @@ namespace Touchstone
   std::string
   MeshText::rest_of_line()
   {
+    // The end of the line is not consumed, so that next_line() and the counting of lines stay
+    // right.
     std::streambuf &buffer = *in.rdbuf();
     std::string     text;
     for (int c = buffer.sgetc(); c != std::char_traits<char>::eof() && c != '\n';
@@ -205,6 +218,7 @@ namespace Touchstone
 
 
 
+  /** Whether only blanks are left on the line; blanks are skipped. */
   bool
   MeshText::at_end_of_line()
   {
@@ -220,6 +234,7 @@ namespace Touchstone
   void
   MeshText::fail(const std::string &problem, const std::string &remedy) const
   {
+    // The line is that of the last word, where the reader found the problem.
     throw MeshFileError(line_of_word,
                         problem,
                         remedy.empty() ? MeshFileError::default_remedy : remedy);

@@ -5,6 +5,8 @@
 #include <touchstone/mesh/obstacle_parameters.h>
 #include <touchstone/mesh/obstacle_shape.h>
 
+// Keys of a section 'Obstacle NAME': the shape with keys of its own, known as soon as the early
+// values give its type, and the rigid translation as a function of time.
 namespace Touchstone
 {
   using dealii::ParameterHandler;

@@ -3,6 +3,8 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/mesh/obstacle_shape.h>
 
+// The shapes of rigid obstacles: keys of the input and the exact surface that they describe. The
+// normal points to the side of the bodies, as that of a master surface does.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -24,6 +26,7 @@ namespace Touchstone
                     const std::string  &remedy)
     {
       if (direction.norm() == 0.)
+        // A vector of length zero has no direction; any other length is normalised later.
         throw InputError(
           section, "Direction", Patterns::Tools::to_string(direction), "must not be zero", remedy);
     }
@@ -91,6 +94,7 @@ namespace Touchstone
       std::shared_ptr<const AnalyticSurface>
       surface() const override
       {
+        // The half space on the side of the normal is free, the other one is the obstacle.
         return make_plane(Point<3>(point), normal / normal.norm());
       }
 
@@ -153,6 +157,8 @@ namespace Touchstone
       std::shared_ptr<const AnalyticSurface>
       surface() const override
       {
+        // A cylinder is a cone of slope zero, and infinitely long, like the plane is infinitely
+        // wide.
         return make_cone(Point<3>(point), axis / axis.norm(), round.radius, 0., round.outside());
       }
 

@@ -19,6 +19,9 @@
 #  include <metis.h>
 #endif
 
+// Three ways of distributing the mesh, apart from that by coordinates (bisection.cc): the whole
+// mesh on one rank, the space-filling curve of p4est, which alone can adapt the mesh, and METIS,
+// which minimises the faces between parts.
 namespace Touchstone
 {
   using namespace dealii;
@@ -37,6 +40,8 @@ namespace Touchstone
       // METIS does not want connections of a cell with itself, which the pattern has.
       DynamicSparsityPattern connected;
       GridTools::get_face_connectivity_of_cells(triangulation, connected);
+      // The graph in the compressed row format of METIS: neighbours of cell c are those from
+      // first[c] to first[c + 1].
       std::vector<idx_t> first(1, 0), neighbours;
       for (unsigned int c = 0; c < connected.n_rows(); ++c)
         {
@@ -50,7 +55,9 @@ namespace Touchstone
       for (const auto &cell : triangulation.active_cell_iterators())
         any = any || (balance_contact && contact_work(cell) > 0);
       // Without any weight in it a constraint cannot be met.
-      idx_t              n_constraints = any ? 2 : 1;
+      idx_t n_constraints = any ? 2 : 1;
+      // Two weights per cell, its own work and that of contact, which METIS balances as separate
+      // constraints: ranks wait for each other in assembly and in contact search alike.
       std::vector<idx_t> weights;
       for (const auto &cell : triangulation.active_cell_iterators())
         {
@@ -61,6 +68,7 @@ namespace Touchstone
 
       idx_t options[METIS_NOPTIONS];
       METIS_SetDefaultOptions(options);
+      // A fixed seed makes runs reproducible.
       options[METIS_OPTION_SEED] = 1;
       // Largest piece over the mean: contact comes in larger lumps.
       std::vector<real_t> tolerances{1.03, 1.1};
@@ -126,7 +134,7 @@ namespace Touchstone
   {
     using Mesh = parallel::distributed::Triangulation<dim>;
     // Cells and unknowns are numbered by the mesh alone, and not by how it came about:
-    // a run that goes on from a checkpoint makes it another way.
+    // a run that resumes from a checkpoint makes the same mesh in other steps.
     auto triangulation = std::make_unique<Mesh>(communicator,
                                                 Mesh::limit_level_difference_at_vertices,
                                                 Mesh::mesh_reconstruction_after_repartitioning);
@@ -152,6 +160,9 @@ namespace Touchstone
 
 
 
+  /** One rank of each group makes the whole refined mesh, calls METIS and sends the others their
+   * parts; with a single group of all ranks that is the first rank. Memory for the whole mesh is
+   * needed there. Collective. */
   std::unique_ptr<parallel::TriangulationBase<dim>>
   partition_by_graph(const BodyMesh    &mesh,
                      const unsigned int refinements,
@@ -161,7 +172,8 @@ namespace Touchstone
                      const MPI_Comm     communicator)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    // Of the first rank; thrown only when all know, or the others would wait for ever.
+    // Of the first rank; the exception is thrown after all ranks have been told, as they would wait
+    // for ever otherwise.
     int        failed = 0;
     const auto description =
       TriangulationDescription::Utilities::create_description_from_triangulation_in_groups<dim,

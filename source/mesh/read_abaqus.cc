@@ -9,6 +9,9 @@
 #include <set>
 #include <sstream>
 
+// Meshes from Abaqus input files (.inp): *NODE, *ELEMENT with C3D8 and quadrilaterals, *ELSET and
+// *SURFACE; other keywords are skipped. Sets of elements become volumes or surfaces,
+// element-based surfaces become surfaces.
 namespace Touchstone
 {
   using namespace dealii;
@@ -88,6 +91,8 @@ namespace Touchstone
     MeshFile
     AbaqusReader::read(std::istream &in)
     {
+      // Errors are thrown where they are found, without a line, and get the number of the present
+      // line here.
       for (std::string line; std::getline(in, line);)
         {
           ++line_number;
@@ -103,6 +108,8 @@ namespace Touchstone
       if (!pending.empty())
         throw MeshFileError(line_of_pending, "The file ends, or is damaged, in *ELEMENT.");
 
+      // Groups are made at the end only, as sets may be defined before the elements that they
+      // name. A set with cells and faces gives a volume and a surface of the same name.
       for (const std::string &name : set_names)
         for (const auto &[groups, elements] :
              {std::make_pair(&mesh.volumes, &cell), std::make_pair(&mesh.surfaces, &face)})
@@ -145,6 +152,8 @@ namespace Touchstone
     void
     AbaqusReader::read_node(const std::vector<std::string> &words)
     {
+      // Parts of an assembly each number their nodes from one, which a flat file cannot tell
+      // apart; the message says so.
       if (words.size() < 4)
         throw MeshFileError("The file ends, or is damaged, in *NODE.");
       if (!node.insert({whole_number(words[0]), mesh.vertices.size()}).second)
@@ -159,6 +168,9 @@ namespace Touchstone
 
 
 
+    /** A keyword line rules the data lines up to the next one. Keywords and names of parameters
+     * are compared in capitals, as Abaqus does; blanks around commas and equal signs do not
+     * count. */
     void
     AbaqusReader::read_keyword(const std::string &line)
     {
@@ -183,6 +195,8 @@ namespace Touchstone
     void
     AbaqusReader::read_element(const std::vector<std::string> &words)
     {
+      // Solid elements of another shape are an error, since the body would have holes without
+      // them; elements that carry no volume are skipped.
       const std::string type    = upper(parameters["TYPE"]);
       const bool        is_cell = type.compare(0, 4, "C3D8") == 0;
       const bool is_face = type.compare(0, 2, "S4") == 0 || type.compare(0, 4, "CPS4") == 0 ||
@@ -211,6 +225,8 @@ namespace Touchstone
           return; // beams, springs and the like
         }
 
+      // An element may go on over several lines: its numbers are collected until there are
+      // enough.
       if (pending.empty())
         line_of_pending = line_number;
       for (const std::string &word : words)
@@ -222,6 +238,8 @@ namespace Touchstone
         throw MeshFileError("Element " + std::to_string(pending[0]) + " of type " + type +
                             " has too many nodes.");
 
+      // Sets refer to elements by their numbers, so two elements of one number would be
+      // ambiguous.
       const auto [known, is_new] = element_line.insert({pending[0], line_of_pending});
       if (!is_new)
         throw MeshFileError("Element " + std::to_string(pending[0]) + " stands in line " +
@@ -256,6 +274,7 @@ namespace Touchstone
     void
     AbaqusReader::add_to_set(const std::string &name, const unsigned long element)
     {
+      // The order of the file gives sets their numbers; a map alone would sort them by name.
       if (std::find(set_names.begin(), set_names.end(), name) == set_names.end())
         set_names.push_back(name);
       sets[name].push_back(element);
@@ -263,6 +282,8 @@ namespace Touchstone
 
 
 
+    /** A set that is named inside another definition must have been defined before. Names of sets
+     * are compared as written. */
     const std::vector<unsigned long> &
     AbaqusReader::known_set(const std::string &name) const
     {
@@ -278,6 +299,8 @@ namespace Touchstone
     void
     AbaqusReader::read_set(const std::vector<std::string> &words)
     {
+      // GENERATE gives first, last and step; otherwise a line lists numbers of elements and names
+      // of other sets. Nodes of an NSET never get here.
       const std::string name = parameters["ELSET"];
       if (parameters.count("GENERATE") > 0)
         {
@@ -285,6 +308,7 @@ namespace Touchstone
             throw MeshFileError("The file ends, or is damaged, in *ELSET.");
           const unsigned long step  = words.size() > 2 ? whole_number(words[2]) : 1;
           const unsigned long first = whole_number(words[0]), last = whole_number(words[1]);
+          // The bound keeps damaged numbers from filling the memory.
           if (step == 0 || last < first || (last - first) / step > 100000000ul)
             throw MeshFileError("The file is damaged in *ELSET, GENERATE.");
           for (unsigned long e = first; e <= last; e += step)
@@ -317,6 +341,8 @@ namespace Touchstone
       else
         elements = known_set(words[0]);
 
+      // A surface is defined by lines that can each name a set and a face of its elements; all
+      // lines of one name add to the same group.
       const std::string name = parameters["NAME"];
       auto group = std::find_if(mesh.surfaces.begin(), mesh.surfaces.end(), [&](auto &g) {
         return g.name == name;

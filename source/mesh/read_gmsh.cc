@@ -7,6 +7,10 @@
 #include <map>
 #include <set>
 
+// Meshes of Gmsh (.msh) in ASCII, versions 2.2 and 4.1. In version 2 elements name their physical
+// groups themselves; in version 4 they name an entity, whose groups are listed in $Entities. Each
+// section is checked to end where it should, for a wrong number of entries shifts all that
+// follows.
 namespace Touchstone
 {
   using namespace dealii;
@@ -65,6 +69,8 @@ namespace Touchstone
     MeshFile
     GmshReader::read()
     {
+      // The sections can be in any order, except that the format comes first, as it decides how
+      // the others are read. Names are attached to the groups at the end for this reason.
       std::set<std::string> sections;
       std::string           word;
       while (text.word(word))
@@ -97,6 +103,7 @@ namespace Touchstone
                         " has more entries than it announces, or is damaged.",
                       "save the mesh again, or correct the number at the head of " + section +
                         " if you know all of its lines to be right");
+          // Sections that this reader does not know are skipped up to their end.
           while (word != end)
             if (!text.word(word))
               text.fail("The file ends before " + end + ".");
@@ -104,6 +111,7 @@ namespace Touchstone
       if (sections.count("$Elements") == 0)
         throw MeshFileError("The file has no $Elements.");
 
+      // Only version 2 writes an element again for each of its physical groups.
       mesh.join_copies(version < 3.);
       for (auto *groups : {&mesh.surfaces, &mesh.volumes})
         for (MeshFile::Group &group : *groups)
@@ -116,6 +124,8 @@ namespace Touchstone
     void
     GmshReader::read_format()
     {
+      // Version 4.0 has another layout of entities and nodes than 4.1 and is an error, like
+      // binary files.
       const char *what = "$MeshFormat";
       version          = text.real(what);
       if (text.number(what) != 0)
@@ -131,6 +141,9 @@ namespace Touchstone
     void
     GmshReader::read_names()
     {
+      // A name may contain blanks, so the rest of the line is taken between its first and last
+      // quotation mark. Two names for one group, or one name for two groups of the same
+      // dimension, would make the boundary conditions ambiguous.
       const char *what = "$PhysicalNames";
       for (auto left = text.number(what); left > 0; --left)
         {
@@ -152,6 +165,8 @@ namespace Touchstone
 
 
 
+    /** Physical groups of the entities, by dimension. Bounding boxes and the entities of their
+     * boundaries are read over. The sign of a group tells its orientation only. */
     void
     GmshReader::read_entities()
     {
@@ -192,6 +207,8 @@ namespace Touchstone
 
 
 
+    /** Compare the total number that the head of a section announces with the entries of its
+     * blocks: a damaged block would otherwise pass unnoticed. */
     void
     GmshReader::check_sum(const unsigned long found,
                           const unsigned long announced,
@@ -207,6 +224,8 @@ namespace Touchstone
     void
     GmshReader::read_nodes()
     {
+      // Version 2 has one node per line, version 4 blocks of numbers followed by blocks of
+      // coordinates. Numbers of nodes may have gaps, so vertices are found by a map.
       const char *what = "$Nodes";
       if (version < 3.)
         {
@@ -247,6 +266,8 @@ namespace Touchstone
 
 
 
+    /** Version 4 lists elements in blocks of one entity and type; points and lines are read to be
+     * checked, and dropped. */
     void
     GmshReader::read_elements()
     {
@@ -309,6 +330,8 @@ namespace Touchstone
       std::vector<unsigned int> vertices(known->second);
       for (unsigned int &vertex : vertices)
         {
+          // The nodes must end with the line: with a wrong type or a missing node, numbers of the
+          // next element would be taken for those of this one.
           if (text.at_end_of_line())
             text.fail_in("$Elements");
           const auto number = text.number("$Elements");
@@ -322,6 +345,7 @@ namespace Touchstone
         text.fail("An element of Gmsh's type " + std::to_string(type) + " has more than its " +
                   std::to_string(known->second) + " nodes.");
 
+      // Quadrangles carry the boundary ids; points, lines and triangles have none here.
       const bool is_cell = type == hexahedron;
       if (is_cell)
         mesh.add_cell(vertices, text.line());

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <set>
 
+// Meshes from legacy VTK files: hexahedra become cells and quadrilaterals faces; a scalar field
+// of the cells numbers volumes and boundaries. CELLS, CELL_TYPES and CELL_DATA come one after the
+// other in the file, so cells are kept as they are and translated at the end.
 namespace Touchstone
 {
   using namespace dealii;
@@ -60,6 +63,8 @@ namespace Touchstone
     void
     VtkReader::read_header()
     {
+      // Line 1 tells the format, line 2 is a free title, line 3 the encoding, line 4 the kind of
+      // data.
       if (text.rest_of_line().find("vtk DataFile") == std::string::npos)
         throw MeshFileError("The first line does not say 'vtk DataFile'.");
       text.next_line();
@@ -87,10 +92,13 @@ namespace Touchstone
     void
     VtkReader::read_cells()
     {
+      // CELLS announces the number of cells and the sum of numbers that follow, one more per cell
+      // than its points; the second is checked against what was read.
       cells.resize(text.announced("CELLS"));
       const unsigned long announced = text.number("CELLS");
       const unsigned int  head      = text.line();
       unsigned long       found     = 0;
+      // Version 5 of the format has another layout of CELLS, with offsets.
       if (text.next_character() == 'O')
         text.fail("CELLS has OFFSETS; save the file as version 4.2 or earlier.");
       for (VtkCell &cell : cells)
@@ -136,6 +144,7 @@ namespace Touchstone
     {
       const std::string name = text.text("SCALARS");
       text.text("SCALARS"); // type
+      // The number of components is optional, and one if it is missing.
       const bool one_component = text.at_end_of_line() || text.number("SCALARS") == 1;
       if (text.text("SCALARS") != "LOOKUP_TABLE")
         text.fail_in("SCALARS");
@@ -143,6 +152,7 @@ namespace Touchstone
       if (!has_cell_data || has_numbers || !one_component)
         return false;
       for (VtkCell &cell : cells)
+        // Ids have no sign: negative numbers count as 0.
         cell.number = std::max(0., text.real("SCALARS"));
       has_numbers = name == "MaterialID" || name == "CellEntityIds";
       return true;
@@ -153,6 +163,8 @@ namespace Touchstone
     void
     VtkReader::add(const VtkCell &cell)
     {
+      // Codes of the VTK manual. Lower-dimensional cells are dropped, other solids are an error,
+      // for the body would have holes without them.
       constexpr unsigned int quad = 9, hexahedron = 12, first_solid = 10;
       if (cell.type == quad || cell.type == hexahedron)
         {
@@ -185,6 +197,9 @@ namespace Touchstone
     MeshFile
     VtkReader::read()
     {
+      // Keywords are read one after the other; unknown ones and their numbers are skipped word by
+      // word. Only after a section whose length is known must the next word be a keyword, i.e.
+      // begin with a letter.
       read_header();
       std::set<std::string> sections;
       // The section whose numbers have all been read.

@@ -70,6 +70,8 @@ namespace Touchstone
       if (size > 0.)
         direction /= direction.norm();
 
+      // Inside the core a blend of the square lattice and circles; outside of it straight lines
+      // from the side of the core to the surface.
       const Tensor<1, 3> inside =
         core_width * ((1. - core_bulge) * straight + core_bulge * size * direction);
       const double fraction = static_cast<double>(key.ring) / rings;
@@ -79,6 +81,8 @@ namespace Touchstone
       return x;
     };
 
+    // Points are numbered by integer keys, so common points of neighbouring stacks are found
+    // without comparing coordinates.
     std::map<Key, unsigned int> numbers;
     const auto                  vertex = [&](const Key &key) {
       const auto [where, is_new] = numbers.insert({key, points.size()});
@@ -97,7 +101,7 @@ namespace Touchstone
               cell.vertices[v] = vertex({{{c[0] + v % 2, c[1] + v / 2 % 2, c[2] + v / 4}}, 0});
             cells.push_back(cell);
 
-            // On each outer side of the core a stack of cells stands.
+            // A stack of cells on each outer side of the core fills the space up to the surface.
             for (unsigned int d = 0; d < dimensions; ++d)
               for (const int side : {-1, 1})
                 if (c[d] == (side > 0 ? n - 1 : -n))

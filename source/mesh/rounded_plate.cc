@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
+// A plate of constant thickness with one rounded corner: the plane section is meshed by
+// RoundedRectangle and extruded.
 namespace Touchstone
 {
   using namespace dealii;
@@ -113,6 +115,8 @@ namespace Touchstone
     RoundedPlate::check(const std::string &section) const
     {
       const auto text = [](const auto &x) { return Patterns::Tools::to_string(x); };
+      // The section is meshed in coordinates along both directions, which therefore must be
+      // perpendicular; their lengths do not matter, for they are normalised in create().
       if (first.norm() == 0.)
         throw InputError(section,
                          "First direction",
@@ -156,6 +160,7 @@ namespace Touchstone
     BodyMesh
     RoundedPlate::create(const double factor, const std::string &, const std::string &) const
     {
+      // An upper bound of the cells of a section, times layers, before anything is allocated.
       check_number_of_cells(
         (scaled_cells(cells[0], factor) + 2. * scaled_cells(fillet_half, factor)) *
         (scaled_cells(cells[1], factor) + 2. * scaled_cells(fillet_half, factor)) *
@@ -173,6 +178,8 @@ namespace Touchstone
       const Tensor<1, 3>     b      = second / second.norm();
       const Tensor<1, 3>     normal = cross_product_3d(a, b);
 
+      // The section is extruded: vertex v of the section in layer k has the number v + k points,
+      // so v % points tells where in the section a vertex of a boundary face lies.
       BodyMesh mesh;
       for (unsigned int k = 0; k <= n; ++k)
         for (const Point<2> &x : section.points)
@@ -194,6 +201,8 @@ namespace Touchstone
         const auto on = [&](const std::set<unsigned int> &side) {
           return all([&](const unsigned int v) { return side.count(v % points) > 0; });
         };
+        // The fillet comes before the sides, whose first vertices are the ends of the rounding.
+        // Only the fillet is curved.
         using Ids = std::pair<types::boundary_id, types::manifold_id>;
         if (all([&](const unsigned int v) { return v < points; }))
           return Ids(back, numbers::flat_manifold_id);
@@ -217,6 +226,7 @@ namespace Touchstone
                              {"front", front}};
 
       const Point<3> centre = corner + radius * (a + b);
+      // Cells inside have no manifold: refined vertices lie on the cylinder at the fillet only.
       mesh.manifolds[0]     = std::make_shared<CylindricalManifold<3>>(normal, centre);
       mesh.surfaces[fillet] = make_cone(centre, normal, radius, 0., true);
       return mesh;

@@ -11,6 +11,10 @@
 
 #include <cmath>
 
+// Plane mesh of a rectangle with one rounded corner: rows of cells follow the two sides and the
+// rounding between them, behind them is a block of rows and columns. Points of the outline are
+// prescribed, those inside follow from a discrete Laplace equation, which spreads the distortion
+// beside the rounding over the section.
 namespace Touchstone
 {
   using namespace dealii;
@@ -47,6 +51,9 @@ namespace Touchstone
         unsigned int a, b;
         double       weight;
       };
+      // The weight of an edge is the conductance of a rectangle in its direction, width over
+      // length, half of it for each of the two cells at the edge: on a graded rectangular grid
+      // the solution is that grid itself.
       std::vector<Edge> edges;
       for (unsigned int c = 0; c < cells.size(); ++c)
         {
@@ -72,6 +79,7 @@ namespace Touchstone
       std::array<Vector<double>, 2> x{
         {Vector<double>(points.size()), Vector<double>(points.size())}};
       for (unsigned int i = 0; i < points.size(); ++i)
+        // Rows of prescribed points are those of the identity, so the same factors serve x and y.
         if (prescribed[i])
           {
             matrix.set(i, i, 1.);
@@ -87,6 +95,8 @@ namespace Touchstone
               matrix.add(row, column, -edge.weight);
             }
 
+      // The prescribed rows make the matrix unsymmetric; the problem is plane and small, and
+      // solved directly.
       SparseDirectUMFPACK solver;
       solver.factorize(matrix);
       for (unsigned int d = 0; d < 2; ++d)
@@ -108,6 +118,8 @@ namespace Touchstone
                                      const unsigned int                 rows,
                                      const double                       grading)
   {
+    // A cell of the rows is as high as one of the rounding is long, so cells at the rounding are
+    // about square.
     const double                       arc    = numbers::PI / 4. * radius;
     const double                       height = arc / fillet_half;
     std::array<std::vector<double>, 2> along, block;
@@ -158,6 +170,8 @@ namespace Touchstone
         if (p <= -f)
           place(v, Point<2>(0., radius - arc + along[1][-p]), second_side);
       }
+    // Where the rows end on the far sides they have their full height, and the block takes the
+    // rest of the side.
     for (unsigned int row = 0; row < rows; ++row)
       {
         place(in_row(last, row), Point<2>(lengths[0], row * height), far_second_side);
@@ -168,6 +182,7 @@ namespace Touchstone
     for (unsigned int i = 0; i <= n[0]; ++i)
       place(in_block(i, n[1]), Point<2>(block[0][i], lengths[1]), far_first_side);
 
+    // Sizes of the cells in the undistorted lattice, from which smooth() takes its weights.
     std::vector<std::array<double, 2>> sizes;
     const auto                         add =
       [&](const std::array<unsigned int, 4> &v, const double width, const double high) {

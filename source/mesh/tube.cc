@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+// Tubes, sectors of tubes and cones as a structured block in cylindrical coordinates.
 namespace Touchstone
 {
   using namespace dealii;
@@ -42,6 +43,8 @@ namespace Touchstone
       double
       inner(const double s) const
       {
+        // Radius at the distance s from the origin of the axis, so that tubes that share an axis
+        // can share the same formula of their common cone, wherever each of them starts.
         return inner_radius + inner_slope * s;
       }
 
@@ -110,6 +113,9 @@ namespace Touchstone
                          Patterns::Tools::to_string(end),
                          "the tube ends before it starts",
                          "make it larger than 'Start' (" + Patterns::Tools::to_string(start) + ")");
+      // Radii are linear along the axis, so the two ends tell for the whole tube.
+      // The radii are linear along the axis, so if they are admissible at both ends they are so
+      // between.
       for (const double s : {start, end})
         {
           const std::string where = " at the position " + Patterns::Tools::to_string(s);
@@ -149,12 +155,16 @@ namespace Touchstone
       std::array<unsigned int, 3> n;
       for (unsigned int d = 0; d < 3; ++d)
         n[d] = scaled_cells(cells[d], factor);
+      // A factor below one must not leave cells wider than check() allows.
+      // A factor below one must not leave cells wider than check() allows.
       n[1] = std::max<unsigned int>(n[1], std::ceil(angle / widest_cell));
 
       const Axes axes(axis, origin);
       const auto fraction = graded_positions(0., 1., n[0], radial_grading);
       const bool closed   = angle == 360.;
 
+      // The directions of the block are radius, angle and axis, which are right-handed in this
+      // order; ids are given for the sides of each of them.
       BodyMesh mesh =
         make_block(n,
                    closed,

@@ -11,6 +11,9 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  /** The axis-parallel bounding box of each body in the reference state (length), from the
+   * vertices of all cells. A rank may own no cell of a body, so it starts from an inverted box,
+   * which the reduction over all ranks leaves without effect. Collective. */
   std::vector<BoundingBox<dim>>
   body_boxes(const Solid &solid)
   {
@@ -45,6 +48,8 @@ namespace Touchstone
 
 
 
+  /** The body of each locally owned dof, in the order of the rows of the matrix. No node belongs to
+   * two bodies, since bodies share no vertices. */
   std::vector<unsigned int>
   bodies_of_unknowns(const Solid &solid)
   {

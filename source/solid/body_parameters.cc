@@ -8,6 +8,10 @@
 
 #include <algorithm>
 
+// Keys of the section 'Body NAME': element, supports, loads, initial values, geometry and
+// material. What can be judged without a mesh is checked here, by key and section, before
+// anything is computed; conditions that depend on the mesh (is a symmetry boundary plane?) are
+// checked by BoundaryConditions.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -24,6 +28,8 @@ namespace Touchstone
   bool
   BodyParameters::supported() const
   {
+    // Whether some displacement is prescribed on the body; this does not tell whether all of its
+    // rigid motions are prevented, which RigidBodyModes::free_motion() decides.
     return !symmetry.empty() || !fixed.empty() ||
            std::any_of(boundaries.begin(), boundaries.end(), [](const auto &entry) {
              const BoundaryParameters &b = entry.second;
@@ -33,6 +39,10 @@ namespace Touchstone
 
 
 
+  /** The element that neither locks nor fails for the law and degree in question (doc/theory.md
+   * 2.1 and 2.2). Degree 2 hardly locks, so the displacement element is kept. Plastic flow keeps
+   * the volume, so that elastoplastic material needs a mean dilatation; linear elastic bodies
+   * get incompatible modes, which do not lock in bending. */
   ElementType
   BodyParameters::automatic_element(const unsigned int degree) const
   {
@@ -96,6 +106,9 @@ namespace Touchstone
 
     prm.enter_subsection("Geometry");
     {
+      // The keys of a geometry are known only once its type is: the type is read first from the
+      // early values, then the object is made and declares keys of its own, so that a key of
+      // another geometry is an error.
       geometry_type.declare_key(prm,
                                 values.in("Geometry"),
                                 "Type",
@@ -116,6 +129,8 @@ namespace Touchstone
     material.declare(prm, values.in("Material"));
     prm.leave_subsection();
 
+    // The list 'Boundary conditions' names the subsections, so it must have been read before they
+    // can be declared.
     for (const std::string &boundary : conditions)
       {
         prm.enter_subsection("Boundary " + boundary);
@@ -143,6 +158,8 @@ namespace Touchstone
             check_expression(section(), key + letter, *expression, variables);
       }
 
+    // Lists are compared by the names that were given; that a name and a number mean the same
+    // boundary shows only with the mesh, where BoundaryConditions checks once more.
     // Where nothing can move in some direction nothing can be pushed in it.
     std::map<std::string, std::string> held;
     for (const auto &[key, list] :

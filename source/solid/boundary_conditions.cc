@@ -9,6 +9,12 @@
 
 #include <set>
 
+// Displacements, supports, tractions, pressures and body forces of all bodies. The constructor
+// translates the boundary names of the input to nodes and faces of the mesh; afterwards
+// prescribe() gives the displacements to the ConstraintGraph, external_force() integrates the
+// loads at time t, and reactions() attributes the unbalanced forces of supported nodes to their
+// supports. The stiffness matrix knows none of this: it is assembled without conditions
+// (doc/theory.md, sections 2.1 and 7).
 namespace Touchstone
 {
   using namespace dealii;
@@ -64,6 +70,9 @@ namespace Touchstone
   {
     for (unsigned int b = 0; b < solid.bodies.size(); ++b)
       {
+        // The order of the conditions of a body is their precedence, for the ConstraintGraph
+        // drops a condition that earlier ones of the same node already imply: fixed boundaries,
+        // then symmetry, then displacements.
         const BodyParameters &body    = solid.bodies[b];
         const std::string     section = "Body " + body.name;
         // Each list once, under whatever name: a name and a number can mean the same.
@@ -91,6 +100,8 @@ namespace Touchstone
                                "this boundary is also in the list 'Fixed'",
                                "name it once: a fixed boundary needs no symmetry");
             supports.push_back({body.name, name, Tensor<1, dim>()});
+            // Pairing mirrors the normals of a contact surface at nodes on symmetry planes, so
+            // the planes of each node are kept.
             const std::size_t before = prescribed.size();
             planes[id]               = plane_normal(id, section, name);
             prescribe_on(id, planes[id], nullptr, b, supports.size() - 1);
@@ -121,6 +132,8 @@ namespace Touchstone
                 prescribe_on(id, axis(d), displacement[d], b, supports.size() - 1);
             const auto pressure = parse("Pressure", condition.pressure);
             const bool follows  = pressure && condition.follows(body.material);
+            // A pressure on the deformed surface depends on the displacement and has a stiffness
+            // (doc/theory.md 2.3); one on the reference surface is a dead load.
             if (follows)
               following.add(id, pressure);
             const Load load{id,
@@ -135,6 +148,7 @@ namespace Touchstone
                                 formulas.add(section, "Body force y", body.body_force[1]),
                                 formulas.add(section, "Body force z", body.body_force[2])}});
       }
+    // Without any body force an empty list saves the loop over all cells at each evaluation.
     if (std::none_of(body_forces.begin(), body_forces.end(), [](const auto &force) {
           return force[0] || force[1] || force[2];
         }))
@@ -143,6 +157,10 @@ namespace Touchstone
 
 
 
+  /** The unit outward normal of a boundary that must be plane. The integral of the normal is as
+   * long as the area only if all normals agree, by the triangle inequality; a relative deviation
+   * of 1e-8 admits round-off of the mesh, e.g. of coordinates read from a file, and corresponds
+   * to angles of about 1e-4. Collective. */
   Tensor<1, dim>
   BoundaryConditions::plane_normal(const BoundaryIds &boundary,
                                    const std::string &section,
@@ -185,6 +203,10 @@ namespace Touchstone
 
 
 
+  /** Prescribe the displacement along @p direction for all locally owned nodes of a boundary.
+   * Ghost cells are visited, too, since a rank can own a node whose boundary face belongs to a
+   * cell of another rank. A hanging node follows its parents, which lie on the same boundary, and
+   * gets no condition of its own: it would be a second, dependent one. */
   void
   BoundaryConditions::prescribe_on(const BoundaryIds    &boundary,
                                    const Tensor<1, dim> &direction,
@@ -240,10 +262,16 @@ namespace Touchstone
 
 
 
+  /** Give the conditions at time t to the graph, as increments that are missing from displacement
+   * u: direction . du = value(t) - direction . u. Returns the largest accepted increment on all
+   * ranks (length), by which the caller judges whether u meets the conditions already. Collective.
+   */
   double
   BoundaryConditions::prescribe(const double t, const Vector &u, ConstraintGraph &graph) const
   {
-    // Before the graph takes what is no number.
+    // All formulas are evaluated first and an error of any rank is reported on all ranks:
+    // otherwise one rank would throw while others wait in the collective calls of the graph, and
+    // the graph would receive values that are not numbers.
     std::vector<double> values;
     for (const Prescribed &p : prescribed)
       values.push_back(p.displacement(t));
@@ -270,6 +298,9 @@ namespace Touchstone
 
 
 
+  /** Consistent nodal forces of all loads at time t (force). Tractions, dead pressures and body
+   * forces are integrated over the reference state; only the follower pressure depends on u.
+   * Collective. */
   void
   BoundaryConditions::external_force(const double t, const Vector &u, Vector &force) const
   {
@@ -282,6 +313,10 @@ namespace Touchstone
 
 
 
+  /** f_i = int N_i (traction - p n) dA over the reference surface. Ranks integrate ghost cells as
+   * well and keep what belongs to their own dofs, so that nothing need be sent. The quadrature
+   * has one point per direction more than the element needs, as tractions are arbitrary functions
+   * of position. */
   void
   BoundaryConditions::add_tractions(const double t, Vector &force) const
   {
@@ -320,6 +355,8 @@ namespace Touchstone
 
 
 
+  /** f_i = int N_i b dV over the reference volume, b a force per reference volume; own dofs from
+   * owned and ghost cells as for tractions. */
   void
   BoundaryConditions::add_body_forces(const double t, Vector &force) const
   {
@@ -364,6 +401,8 @@ namespace Touchstone
         Tensor<1, dim> direction = p.direction;
         for (const Tensor<1, dim> &earlier : taken[p.node])
           direction -= (direction * earlier) * earlier;
+        // Earlier directions span this one, but for an angle of a thousandth: it has no share of
+        // its own, and normalising the remainder would amplify round-off.
         if (direction.norm() < 1e-3)
           continue;
         direction /= direction.norm();

@@ -4,6 +4,8 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/solid/boundary_parameters.h>
 
+// Keys of a section 'Boundary NAME' of a body: prescribed displacements and loads, all as
+// formulas in x, y, z and t.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -41,6 +43,9 @@ namespace Touchstone
 
 
 
+  /** All entries that are formulas, with their keys, for checks that concern each of them. The
+   * pressure comes first: BodyParameters::check() relies on it, as only the pressure always acts
+   * across a symmetry plane. */
   std::vector<std::pair<std::string, std::string>>
   BoundaryParameters::formulas() const
   {
@@ -58,6 +63,8 @@ namespace Touchstone
   void
   BoundaryParameters::check(const std::string &section) const
   {
+    // A load on a component that is prescribed changes the reaction and nothing else; as it is
+    // most likely a mistake, it is an error here.
     const std::string *displacements[] = {&displacement_x, &displacement_y, &displacement_z};
     const std::string *tractions[]     = {&traction_x, &traction_y, &traction_z};
     bool               all_moved       = true;
@@ -79,6 +86,7 @@ namespace Touchstone
       }
     if (!pressure.empty())
       check_expression(section, "Pressure", pressure);
+    // A key without effect is an error: it shows that the user expects something else.
     if (pressure.empty() && pressure_follows != Follows::automatic)
       throw InputError(section,
                        "Pressure follows",

@@ -7,6 +7,10 @@
 
 #include <algorithm>
 
+// Force and stiffness of one cell from an arbitrary material law, with or without averaging of
+// the volume change over the cell (B-bar at small strain, F-bar at finite strain; doc/theory.md
+// 2.1 and 2.2). What depends on the strain measure is left to SmallStrainKernel and
+// FiniteStrainKernel; NonlinearCells loops over the cells.
 namespace Touchstone
 {
   using namespace dealii;
@@ -29,12 +33,18 @@ namespace Touchstone
               for (unsigned int l = 0; l < dim; ++l)
                 left[l] = weight * (g[0][a] * A[i][0][k][l] + g[1][a] * A[i][1][k][l] +
                                     g[2][a] * A[i][2][k][l]);
+              // The index b of the inner loop is contiguous in memory for shape gradients and
+              // blocks, so that it is vectorised by the compiler.
               double *block = blocks + ((a * dim + i) * dim + k) * n;
               for (unsigned int b = symmetric ? a : 0; b < n; ++b)
                 block[b] += left[0] * g[0][b] + left[1] * g[1][b] + left[2] * g[2][b];
             }
     }
 
+    /** Replace A by its part with major symmetry, A_iJkL = A_kLiJ. Solvers for symmetric systems
+     * use it where the tangent is unsymmetric (recovery of the back stress, doc/materials.md):
+     * Newton's method may then take more iterations, but the solution is the same, for the residual
+     * is unchanged. */
     void
     symmetrise(Tensor<4, dim> &A)
     {
@@ -47,7 +57,7 @@ namespace Touchstone
           }
     }
 
-    /** To @p sum, over the unknowns, add that of @p stress with the gradients. */
+    /** Add the nodal forces stress . grad N_a to @p sum. */
     void
     add_product(const Tensor<2, dim> &stress,
                 const double         *g,
@@ -80,6 +90,8 @@ namespace Touchstone
     , left(dim * n_nodes)
     , right(dim * n_nodes)
   {
+    // Shapes and gradients on the unit cell are the same for all cells and are tabulated once.
+    // Gradients are stored by direction first, with nodes contiguous, as add_point() needs them.
     const QGauss<dim> quadrature(degree + 1);
     const FE_Q<dim>   fe(degree);
     unit_weights = quadrature.get_weights();
@@ -106,6 +118,10 @@ namespace Touchstone
 
 
 
+  /** Set the geometry and the displacement of a cell: shape gradients with respect to reference
+   * coordinates, displacement gradients and integration weights. Returns the smallest det F of
+   * its points, 1 at small strain, by which the caller recognises inverted cells. Without
+   * committed state the cell is in its virgin state. */
   double
   CellKernel::reinit(const double *positions, const double *displacement, const double *committed)
   {
@@ -144,6 +160,9 @@ namespace Touchstone
 
 
 
+  /** Evaluate the law at all points from the committed state. The committed state is not touched,
+   * so any number of evaluations gives the same answer: line search and repeated iterations leave
+   * no trace in the history. */
   void
   CellKernel::respond(const Demand demand)
   {
@@ -162,6 +181,8 @@ namespace Touchstone
 
 
 
+  /** The energy whose derivative is force(): stored energy and, with plasticity, the plastic work
+   * of the step (doc/materials.md, "Equations"); energy. */
   double
   CellKernel::energy()
   {
@@ -186,6 +207,10 @@ namespace Touchstone
 
 
 
+  /** Internal forces of the nodes, f = int P : grad N dV. With averaging the mean volume change
+   * theta of the cell is a variable of its own that depends on all nodes: points contribute to
+   * the derivative by F at fixed theta, and the sum of their pressures multiplies d theta/du,
+   * doc/theory.md 2.2, equation (1). */
   const std::vector<double> &
   CellKernel::force()
   {
@@ -208,6 +233,11 @@ namespace Touchstone
 
 
 
+  /** The derivative of force(). With averaging it is, in the notation of doc/theory.md 2.2, the
+   * sum of the blocks (F, F), (F, theta) and (theta, theta): the first is local to each point,
+   * the others are products of the vector d theta/du ('mean_gradient') with point sums ('left',
+   * 'right') and a scalar ('second'), and so are added after the loop over points instead of in
+   * each of them. */
   const std::vector<double> &
   CellKernel::stiffness(const bool symmetric)
   {
@@ -220,6 +250,8 @@ namespace Touchstone
         set_mean_gradient();
         std::fill(left.begin(), left.end(), 0.);
         std::fill(right.begin(), right.end(), 0.);
+        // The second derivative of theta is multiplied by the pressure of the whole cell, so all
+        // point pressures are summed before any tangent is modified.
         for (unsigned int q = 0; q < n_points; ++q)
           point_stress(q, pressure);
         second = mean_curvature(pressure);
@@ -242,6 +274,8 @@ namespace Touchstone
                                       : (mirrored ? add_point<27, true> : add_point<27, false>);
         add(g, weight, A, blocks.data());
       }
+    // The blocks are reordered to a matrix by rows; where it is symmetric only node pairs a <= b
+    // were computed.
     const unsigned int n = n_dofs();
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int b = mirrored ? a : 0; b < n_nodes; ++b)

@@ -7,6 +7,10 @@
 #include <algorithm>
 #include <cmath>
 
+// Linear elastic cells of small strain with the choice of elements of doc/theory.md 2.1: full
+// integration, B-bar, incompatible modes. This class evaluates geometry and stresses of a cell
+// with FEValues; the sums of its stiffness are done by ElementStiffness, for eight cells at
+// once.
 namespace Touchstone
 {
   using namespace dealii;
@@ -33,6 +37,8 @@ namespace Touchstone
     , mean_gradients(n_nodes)
     , own(type, material, n_nodes, n_modes, n_points)
   {
+    // Inside the kernel dofs are ordered by nodes, dim * node + component, whatever the order of
+    // the FESystem is.
     for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
       {
         const auto [component, node]     = fe.system_to_component_index(i);
@@ -42,6 +48,7 @@ namespace Touchstone
 
 
 
+  /** Gradients of the shapes and of the incompatible modes at the quadrature points of a cell. */
   void
   ElementKernel::reinit(const typename DoFHandler<dim>::active_cell_iterator &cell)
   {
@@ -54,6 +61,8 @@ namespace Touchstone
           gradients[q][a] = values.shape_grad(a, q);
         cell_volume += values.JxW(q);
       }
+    // B-bar: the divergence of a shape function is replaced by its mean over the cell,
+    // volume-weighted.
     if (type == ElementType::b_bar)
       for (unsigned int a = 0; a < n_nodes; ++a)
         {
@@ -89,6 +98,8 @@ namespace Touchstone
   {
     for (unsigned int q = 0; q < n_points; ++q)
       {
+        // Gradients are scaled by the root of the integration weight, so that the stiffness is a
+        // plain sum of products of two gradients without a third factor in its innermost loop.
         const double factor = std::sqrt(values.JxW(q));
         for (unsigned int a = 0; a < n_nodes + n_modes; ++a)
           for (unsigned int i = 0; i < dim; ++i)
@@ -124,6 +135,10 @@ namespace Touchstone
 
 
 
+  /** Set the nodal displacements by which stresses are evaluated. The amplitudes of incompatible
+   * modes are not dofs of the system; they follow from the nodal displacements by the condition
+   * that the cell is in equilibrium with respect to them, and so are recovered from the condensed
+   * stiffness. */
   void
   ElementKernel::set_displacement(const std::vector<double> &u)
   {
@@ -141,6 +156,9 @@ namespace Touchstone
 
 
 
+  /** Cauchy stress at a quadrature point by Hooke's law, from the strain that the element uses in
+   * its stiffness: with modes or mean dilatation. The plain displacement gradient would show the
+   * oscillating pressures that these elements are there to avoid. */
   SymmetricTensor<2, dim>
   ElementKernel::stress(const unsigned int q) const
   {

@@ -3,11 +3,14 @@
 #include <touchstone/base/vectorised.h>
 #include <touchstone/solid/element_stiffness.h>
 
+// The stiffness matrix of linear elastic cells, and the static condensation of incompatible modes
+// (doc/theory.md 2.1). Eight cells are computed at once, one in each lane of the SIMD registers,
+// since cells are independent of each other while the loops inside one cell are short.
 namespace Touchstone
 {
   namespace
   {
-    /** A number of each of some cells. */
+    /** One value for each of several cells: a SIMD vector, or a scalar for a single cell. */
     template <unsigned int n_cells>
     struct Number
     {
@@ -51,6 +54,10 @@ namespace Touchstone
     const Values *const mean     = reinterpret_cast<const Values *>(this->mean.data());
     Values *const       matrix   = reinterpret_cast<Values *>(this->matrix.data());
 
+    // With G_ab = sum_q w grad N_a (x) grad N_b isotropic elasticity is K_ab = (kappa - 2/3 mu)
+    // G_ab + mu G_ab^T + mu (tr G_ab) I: nine sums for each pair of nodes instead of a product
+    // with the 6 x 6 elasticity matrix. With B-bar the volumetric term kappa is taken from the
+    // mean gradients instead.
     const double own = (b_bar ? 0. : bulk) - 2. / 3. * mu;
     for (unsigned int a = 0; a < n; a += dim)
       for (unsigned int b = a; b < n; b += dim)
@@ -81,6 +88,7 @@ namespace Touchstone
                 matrix[n * (a + i) + b + j] = k;
               }
         }
+    // Static condensation by Gaussian elimination of the modes.
     // The last mode first. Its row over what comes before it stays below the diagonal.
     for (unsigned int k = n; k-- > n_kept;)
       {
@@ -125,6 +133,9 @@ namespace Touchstone
   void
   ElementStiffness<1>::recover_modes(std::vector<double> &displacement) const
   {
+    // Back substitution in the reverse order of the elimination: the row of mode k refers to the
+    // nodes and to the modes before it, as those after it had been eliminated when the row was
+    // stored.
     for (unsigned int k = n_kept; k < n; ++k)
       {
         double sum = 0.;

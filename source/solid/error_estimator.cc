@@ -9,10 +9,15 @@
 #include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/numerics/error_estimator.h>
 
+// Error indicators per cell for adaptive meshes (doc/theory.md, section 11, "Estimators"), as
+// squares (energy); drive/refinement marks cells by them.
 namespace Touchstone
 {
   using namespace dealii;
 
+  /** Kelly's estimator from the jumps of the displacement gradient across faces. deal.II's class
+   * returns the root of h/24 int |[du/dn]|^2; Young's modulus of the body makes bodies of
+   * different stiffness comparable. */
   dealii::Vector<double>
   jump_errors(const Solid &solid, const Vector &u)
   {
@@ -34,6 +39,9 @@ namespace Touchstone
 
 
 
+  /** The energy of the difference between the discontinuous stress of the elements and a
+   * continuous stress field sigma* that is recovered from it [31]. Bodies share no nodes, so
+   * sigma* is continuous within each body only. Collective. */
   dealii::Vector<double>
   recovery_errors(const Solid &solid, const Vector &u)
   {
@@ -72,6 +80,8 @@ namespace Touchstone
                             point_stress.push_back(sigma);
                             point_volume.push_back(v);
                           });
+    // Both loops over the cells visit points in the same order as for_each_stress(), so a running
+    // index suffices.
     std::size_t            at = 0;
     dealii::Vector<double> local(node_fe.n_dofs_per_cell());
     for (const auto &cell : nodes.active_cell_iterators())
@@ -103,6 +113,9 @@ namespace Touchstone
         field.update_ghost_values();
       }
 
+    // (sigma* - sigma) : C^-1 : (sigma* - sigma) with the isotropic compliance, e : C^-1 : e =
+    // ((1 + nu) e : e - nu (tr e)^2) / E. It is that of the elastic law at small strain for all
+    // materials, as an indicator needs no more.
     dealii::Vector<double>           result(triangulation.n_active_cells());
     std::vector<std::vector<double>> recovered(n_components, std::vector<double>(n_points));
     at = 0;

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <limits>
 
+// Cells of finite strain, total Lagrangian: full integration or F-bar in its form with an energy
+// (doc/theory.md 2.2, equation (1)), in which the tangent is symmetric. Loops and sums are those
+// of CellKernel; here are the deformation that the law is given at each point and the derivatives
+// of the mean dilatation.
 namespace Touchstone
 {
   using namespace dealii;
@@ -40,6 +44,8 @@ namespace Touchstone
       const std::shared_ptr<HyperelasticLaw> law;
     };
 
+    /** Laws with history are registered as MaterialLaw, hyperelastic ones by their energy alone;
+     * the kernel sees both through the same interface. */
     std::shared_ptr<const MaterialLaw>
     make_law(const MaterialParameters &material)
     {
@@ -62,6 +68,10 @@ namespace Touchstone
 
 
 
+  /** Kinematics of all points from the displacement gradient: F, J, and with F-bar the modified
+   * gradient F_bar = (J_mean / J)^(1/3) F, J_mean the present volume of the cell over that in the
+   * reference state. Returns the smallest J: if it is not positive, the cell is inverted at that
+   * point and no law is evaluated. */
   double
   FiniteStrainKernel::deform()
   {
@@ -95,6 +105,7 @@ namespace Touchstone
   void
   FiniteStrainKernel::set_mean_gradient()
   {
+    // d theta/du of equation (1), with theta = ln J_mean:
     // v = sum_q w J and dJ = J H : dF.
     std::fill(mean_gradient.begin(), mean_gradient.end(), 0.);
     for (unsigned int q = 0; q < n_points; ++q)
@@ -114,6 +125,8 @@ namespace Touchstone
   Tensor<2, dim>
   FiniteStrainKernel::point_stress(const unsigned int q, double &pressure) const
   {
+    // Stress at fixed theta, alpha P - p H of equation (1); the point's share w p of the sum that
+    // multiplies d theta/du is added to @p pressure.
     // dFbar = alpha dF + Fbar (d ln Jbar - d ln J) / 3.
     const Tensor<2, dim> &P = points[q].response.stress;
     if (!averaged)
@@ -166,6 +179,9 @@ namespace Touchstone
 
 
 
+  /** Cauchy stress P_bar F_bar^T / J_bar. It is that of the modified deformation, which the law
+   * has seen: the pressure of the unmodified one would oscillate from point to point in nearly
+   * incompressible material. */
   SymmetricTensor<2, dim>
   FiniteStrainKernel::stress(const unsigned int q)
   {

@@ -4,10 +4,17 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
+// Pressure on the deformed surface of bodies at finite strain (doc/theory.md 2.3, equation (2)):
+// nodal forces by Nanson's formula and their derivatives, as terms of rank one that are added to
+// the system beside the stiffness matrix.
 namespace Touchstone
 {
   using namespace dealii;
 
+  /** Visit all quadrature points of loaded faces with two tangents of the reference surface,
+   * orthonormal, so that dA is the reference area, and the same tangents after the deformation, F
+   * t_a. With ghosts each rank sees all faces of its own nodes and needs to send nothing; without
+   * them each face is visited once over all ranks. */
   void
   FollowerPressure::for_each_point(const double                                     t,
                                    const Vector                                    &u,
@@ -59,6 +66,8 @@ namespace Touchstone
 
 
 
+  /** Add f_i = -int N_i p (F t_1 x F t_2) dA (force): the cross product is the present normal
+   * times the ratio of present to reference area. Collective. */
   void
   FollowerPressure::add_force(const double t, const Vector &u, Vector &force) const
   {
@@ -81,6 +90,9 @@ namespace Touchstone
 
 
 
+  /** Append -df_i/du_j. Each term is added by one rank only, as a term may have entries on several
+   * ranks, so ghost faces are left out here. With @p symmetric each product l r^T is replaced by
+   * half of l r^T + r l^T, the symmetric part, for solvers that need it. */
   void
   FollowerPressure::add_stiffness(const double              t,
                                   const Vector             &u,

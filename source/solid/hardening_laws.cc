@@ -8,6 +8,9 @@
 #include <utility>
 #include <vector>
 
+// The isotropic hardening laws of doc/materials.md, "Keys": yield stress k(p) over the equivalent
+// plastic strain p, its derivative, and its integral, the plastic work per reference volume that
+// isotropic hardening stores or dissipates. Curves that fall are refused for all laws.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -18,6 +21,8 @@ namespace Touchstone
     [[noreturn]] void
     throw_negative(const std::string &section, const std::string &key, const double value)
     {
+      // Softening without a length in the material depends on the mesh: the limit of refinement
+      // is no dissipation at all (doc/materials.md, "Keys").
       throw InputError(section,
                        key,
                        Patterns::Tools::to_string(value),
@@ -26,7 +31,7 @@ namespace Touchstone
                        "give zero or more, or 'Hardening = none'");
     }
 
-    /** No hardening, and what others add to. */
+    /** No hardening; the base class of the other laws. */
     class Perfect : public HardeningLaw
     {
     public:
@@ -90,6 +95,7 @@ namespace Touchstone
       YieldStress
       at(const double plastic_strain) const override
       {
+        // Value, derivative, integral over the plastic strain, as in all laws here.
         return {yield_stress + modulus * plastic_strain,
                 modulus,
                 (yield_stress + 0.5 * modulus * plastic_strain) * plastic_strain};
@@ -152,6 +158,9 @@ namespace Touchstone
       YieldStress
       at(const double plastic_strain) const override
       {
+        // k(p) = k_inf - (k_inf - k_0) exp(-rate p) + H p. Its integral has the term (k_inf -
+        // k_0) (exp(-rate p) - 1) / rate, for which expm1 keeps the digits at small plastic
+        // strain.
         const double height = saturation - yield_stress;
         const double rest   = std::exp(-rate * plastic_strain);
         return {saturation - height * rest + modulus * plastic_strain,
@@ -185,6 +194,8 @@ namespace Touchstone
       void
       check(const std::string &section) const override
       {
+        // A curve must begin at plastic strain zero, with the initial yield stress: without that
+        // point the elastic range would be undefined.
         const auto complain = [&](const std::string &problem, const std::string &remedy) {
           throw InputError(
             section, "Yield curve", Patterns::Tools::to_string(points), problem, remedy);
@@ -212,6 +223,9 @@ namespace Touchstone
       YieldStress
       at(const double plastic_strain) const override
       {
+        // Work is the integral of all complete lines and of the part of the line that holds the
+        // strain; the slope is that of this line, so at a point of the table that of the line
+        // which begins there.
         double work = 0.;
         for (unsigned int k = 1; k < points.size(); ++k)
           {

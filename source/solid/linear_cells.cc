@@ -4,6 +4,9 @@
 
 namespace Touchstone
 {
+  /** Add a cell to the batch. Stiffness matrices are computed for eight cells at once, so cells
+   * are collected until a batch is full. Ghost cells without any row of this rank would
+   * contribute nothing and are skipped; their entries in the lists are removed again. */
   void
   LinearCells::add(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
                    Matrix                                                       &matrix)
@@ -31,6 +34,8 @@ namespace Touchstone
 
 
 
+  /** Compute the batch, full or not, and add its cells to the rows of this rank. Lanes beyond the
+   * last cell hold a copy of the first cell, with finite numbers, and their result is ignored. */
   void
   LinearCells::finish(Matrix &matrix)
   {

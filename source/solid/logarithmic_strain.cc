@@ -5,6 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+// Logarithmic strain E = 1/2 ln C and its first two derivatives by C, in the frame of the
+// eigenvectors of C (doc/materials.md, "Finite strain"). There the derivatives are divided
+// differences of 1/2 ln x over the eigenvalues, which stay finite where eigenvalues are equal;
+// the usual formulas with 1/(b - a) do not.
 namespace Touchstone
 {
   using namespace dealii;
@@ -19,6 +23,8 @@ namespace Touchstone
       return x == 0. ? 0.5 / a : 0.5 * std::log1p(x) / (x * a);
     }
 
+    /** Divided difference of 1/2 ln x over three eigenvalues; symmetric in them, so they are
+     * sorted first, and the denominator is the largest distance. */
     double
     second_difference(double a, double b, double c)
     {
@@ -38,6 +44,8 @@ namespace Touchstone
       return (-0.25 - (x * x + y * y + z * z) / 16. + x * y * z / 10.) / (m * m);
     }
 
+    /** The symmetric tensor with the given eigenvalues; the columns of @p frame are the
+     * eigenvectors. */
     SymmetricTensor<2, dim>
     assemble(const std::array<double, dim> &value, const Tensor<2, dim> &frame)
     {
@@ -49,6 +57,9 @@ namespace Touchstone
       return result;
     }
 
+    /** Eigenvalues and eigenvectors by Jacobi's method: for equal or nearly equal eigenvalues, as
+     * in the undeformed state, its eigenvectors are orthogonal to round-off, on which all
+     * formulas here rely. */
     void
     decompose(const SymmetricTensor<2, dim> &tensor,
               std::array<double, dim>       &value,
@@ -119,6 +130,7 @@ namespace Touchstone
 
 
 
+  /** DE(C) : H, i.e. e[a, b] H_ab in the frame (theorem of Daleckii and Krein). */
   SymmetricTensor<2, dim>
   LogarithmicStrain::derivative(const SymmetricTensor<2, dim> &H) const
   {
@@ -131,6 +143,8 @@ namespace Touchstone
 
 
 
+  /** The tensor that represents G -> T : D^2E(C)(H, G): with T the stress conjugate to E it is the
+   * geometric part of the tangent. */
   SymmetricTensor<2, dim>
   LogarithmicStrain::curvature(const SymmetricTensor<2, dim> &T,
                                const SymmetricTensor<2, dim> &H) const

@@ -16,6 +16,10 @@
 #include <cmath>
 #include <numeric>
 
+// The mass matrix: consistent, lumped, or integrated with points that depend on the Courant
+// number. Contact nodes can be made massless, so that their contact forces do not oscillate in
+// time; their mass goes to the other nodes of the cell, and factors on the densities of the cells
+// restore the mass, centre and, as far as possible, the inertia of each body.
 namespace Touchstone
 {
   using namespace dealii;
@@ -27,6 +31,8 @@ namespace Touchstone
     constexpr unsigned int n_moments = 10;
     using Moments                    = std::array<double, n_moments>;
 
+    /** Add the moments of a mass between two nodes at x and y, symmetrised: entry (a, b) of a
+     * consistent mass matrix couples two positions. */
     void
     add_moments(const double mass, const Point<dim> &x, const Point<dim> &y, Moments &sum)
     {
@@ -53,6 +59,8 @@ namespace Touchstone
                               const Triangulation<dim>::active_cell_iterator &cell,
                               const double                                    step)
     {
+      // The speed of plane longitudinal waves, sqrt((kappa + 4/3 mu) / rho), the fastest of the
+      // material.
       const double modulus = material.bulk_modulus() + 4. / 3. * material.shear_modulus();
       const double wave    = std::sqrt(modulus / material.density);
       Point<dim>   xi;
@@ -129,7 +137,9 @@ namespace Touchstone
           if (solid.fe.system_to_component_index(i).first == 0)
             nodes[solid.fe.system_to_component_index(i).second] = dofs[i];
         const unsigned int n = nodes.size();
-        complete             = 0.;
+        // Row sums give the lumped mass. It is needed for every kind, as the key by which the
+        // mass of massless nodes is distributed.
+        complete = 0.;
         std::fill(lumped.begin(), lumped.end(), 0.);
         for (const unsigned int q : values.quadrature_point_indices())
           for (unsigned int a = 0; a < n; ++a)
@@ -167,10 +177,13 @@ namespace Touchstone
       std::vector<double> lumped;
       std::vector<Index>  dofs;
 
-      /** What massless nodes lose, the others of the cell take. */
+      /** Move the mass of massless nodes to the other nodes of the cell. */
       void
       move()
       {
+        // Entries between a massless node and another one vanish, too, for the matrix must not
+        // couple a massless node to accelerations. Their sum is added to the diagonal of the
+        // other nodes in proportion to their lumped mass, so that the mass of the cell is kept.
         moved       = complete;
         double kept = 0., lost = 0.;
         for (unsigned int a = 0; a < nodes.size(); ++a)
@@ -195,7 +208,7 @@ namespace Touchstone
      *
      * They are 1 + s_e, with the smallest sum of m_e s_e^2 for masses m_e, and stay
      * at a half or more, so that waves hardly change and no motion has negative kinetic
-     * energy: cells that would fall below are held there.
+     * energy: cells that would fall below are fixed to that bound.
      */
     class DensityFactors
     {
@@ -213,6 +226,10 @@ namespace Touchstone
       bool
       find(const dealii::Vector<double> &wanted, const unsigned int n)
       {
+        // Minimise sum_e m_e s_e^2 subject to sum_e s_e moments_e = wanted: s_e = sum_k c_k
+        // moments_ek / m_e, with c from the Gram matrix of the moments. Cells below the bound are
+        // fixed to it and the rest is solved again; the set of fixed cells only grows, so the
+        // loop ends.
         constexpr double  least = 0.5;
         std::vector<bool> held(cells.size(), false);
         for (bool again = true; again;)
@@ -236,6 +253,8 @@ namespace Touchstone
             for (unsigned int k = 0; k < n; ++k)
               rest(k) += wanted(k);
             const dealii::Vector<double> c = solve(gram, rest);
+            // The residual shows whether the remaining cells can provide the moments at all; the
+            // matrix may be singular, e.g. for a body of one layer of cells.
             if (rest.l2_norm() > 1e-10 * total)
               return false;
             again = false;
@@ -257,7 +276,9 @@ namespace Touchstone
       std::vector<double>         factors;
 
     private:
-      /** Solve with a matrix that may be singular; @p rhs becomes what is left of it. */
+      /** Solve with a matrix that may be singular, by its pseudo-inverse with iterative
+       * refinement, which removes the error that grows with the condition number. @p rhs becomes
+       * the residual. */
       static dealii::Vector<double>
       solve(const FullMatrix<double> &matrix, dealii::Vector<double> &rhs)
       {
@@ -292,6 +313,7 @@ namespace Touchstone
     for (const Index node : massless)
       flag(node) = 1.;
     flag.compress(VectorOperation::insert);
+    // Cells need the flags of their ghost nodes as well.
     const Vector              no_mass = solid.ghosted(flag);
     const std::vector<double> factors = density_factors(kind, solid, massless, no_mass, step);
     if (!diagonal)
@@ -300,6 +322,8 @@ namespace Touchstone
     const unsigned int        n = mass.nodes.size();
     std::vector<int>          rows(n);
     std::vector<unsigned int> nodes(n);
+    // Ghost cells are integrated by each rank that has rows of them, as for the stiffness;
+    // densities of ghost cells were exchanged, so that ranks agree.
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       {
         if (cell->is_artificial())
@@ -325,6 +349,8 @@ namespace Touchstone
       }
     if (!diagonal)
       {
+        // Row sums by a product with ones: the mass of each node, which the sums over the cells
+        // of other ranks include.
         Vector ones(nodal);
         ones = 1.;
         matrix.vmult(nodal, ones);
@@ -341,6 +367,8 @@ namespace Touchstone
                         const double           step)
   {
     std::vector<double> result(solid.dof_handler.get_triangulation().n_active_cells(), 1.);
+    // Factors are found per body from the moments that the move of mass inside cells has changed;
+    // without massless nodes on any rank there is nothing to correct.
     if (Utilities::MPI::max(massless.size(), solid.communicator) == 0)
       return result;
     Vector coordinates(solid.owned, solid.communicator);

@@ -6,6 +6,8 @@
 #include <touchstone/solid/material_law.h>
 #include <touchstone/solid/material_parameters.h>
 
+// Keys of the section 'Material' of a body (doc/materials.md, "Keys"): elastic constants, density
+// and damping for all laws, and the subsection 'Plasticity' for laws with plastic flow.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -13,7 +15,7 @@ namespace Touchstone
 
   namespace
   {
-    /** Whether the law called @p name has plastic flow: the law knows. */
+    /** Whether the law called @p name has plastic flow, which an instance of it tells. */
     bool
     has_plasticity(const std::string &name, const MaterialParameters &material)
     {
@@ -29,6 +31,7 @@ namespace Touchstone
   bool
   MaterialParameters::finite_strain() const
   {
+    // All laws that are neither linear nor registered for small strain are for finite strain.
     return !linear() && !SmallStrainRegistry::knows(law.name);
   }
 
@@ -67,6 +70,8 @@ namespace Touchstone
                       "Damping force per elastic force of the same velocity field, with the "
                       "stiffness of the undeformed body: it also resists finite rotations. [time]",
                       Patterns::Double(0.));
+    // The subsection exists for plastic laws only, so that its keys are an error with an elastic
+    // law.
     law.declare_own_keys(prm);
     if (!has_plasticity(law.chosen(), *this))
       return;

@@ -9,6 +9,11 @@
 #include <algorithm>
 #include <limits>
 
+// Cells of bodies with a nonlinear law: their nodes, positions and history in contiguous arrays,
+// and the loops over them for forces, tangent and energies. Linear bodies are not here, as their
+// stiffness is assembled once (doc/theory.md 2.1). The rows of both kinds in the one stiffness
+// matrix are disjoint, for bodies share no nodes: so rows of nonlinear bodies can be cleared and
+// assembled anew while the others stay.
 namespace Touchstone
 {
   using namespace dealii;
@@ -36,6 +41,9 @@ namespace Touchstone
 
 
 
+  /** Collect the cells of nonlinear bodies on a new mesh, with virgin history. All owned cells are
+   * needed, for energies and history, and of the ghost cells those with a row of this rank: these
+   * are assembled here as well, so that forces and stiffness need no communication. */
   void
   NonlinearCells::reinit(const MappingQ<dim>   &mapping,
                          const DoFHandler<dim> &dof_handler,
@@ -80,6 +88,9 @@ namespace Touchstone
               if (!known[row])
                 node_rows.push_back(row);
               known[row] = 1;
+              // The length scale of round_off_length(): at finite strain F = I + grad u is known
+              // to the round-off of its unit part, which counts like that of a displacement of
+              // the size of the cell.
               if (kernel.finite_strain())
                 for (unsigned int d = 0; d < dim; ++d)
                   size[row + d] = std::max(size[row + d], cell->diameter() / fe.degree);
@@ -100,6 +111,8 @@ namespace Touchstone
 
 
 
+  /** Set the kernel of the body of cell @p c to this cell and displacement @p u. A body has one
+   * kernel for all its cells, so the reference is valid until the next call. */
   CellKernel &
   NonlinearCells::go_to(const std::size_t c, const Vector &u, double &determinant)
   {
@@ -115,6 +128,9 @@ namespace Touchstone
 
 
 
+  /** Add the tangent of all cells at @p u to the stiffness matrix, whose rows of these bodies are
+   * cleared before. Returns false if the law of any point on this rank failed; the loop goes on
+   * nevertheless, for the caller must learn of it on all ranks together. */
   bool
   NonlinearCells::assemble(const Vector &u, const bool symmetric_part, Matrix &stiffness)
   {
@@ -139,6 +155,10 @@ namespace Touchstone
 
 
 
+  /** Replace the entries of these bodies in @p force, which the product with the stiffness matrix
+   * has filled with K u, by the internal forces. This alone sets the present state of history, by
+   * which a step is committed (doc/materials.md, "State"): the last residual of a step is that of
+   * its solution. */
   bool
   NonlinearCells::internal_force(const Vector &u, Vector &force)
   {
@@ -165,6 +185,8 @@ namespace Touchstone
 
 
 
+  /** Stored energy of the cells of this rank (energy); ghost cells are left out, as the caller
+   * sums over all ranks. */
   double
   NonlinearCells::elastic_energy(const Vector &u)
   {
@@ -177,6 +199,8 @@ namespace Touchstone
 
 
 
+  /** Smallest det F at the quadrature points of this rank, by which Newton's method shortens
+   * increments that would invert a cell (doc/theory.md 2.2). */
   double
   NonlinearCells::smallest_determinant(const Vector &u)
   {
@@ -215,6 +239,8 @@ namespace Touchstone
 
 
 
+  /** Set committed and present state of a cell, on a new mesh or from a checkpoint. Values for
+   * cells that this rank does not keep are ignored: exchange between ghosts sends those, too. */
   void
   NonlinearCells::set_state(const unsigned int cell, const std::vector<double> &values)
   {
@@ -238,6 +264,8 @@ namespace Touchstone
 
 
 
+  /** Visit the present state of all points of this rank. Only the reference volumes of the points
+   * are needed of the kernel, so it is set to zero displacement. */
   void
   NonlinearCells::for_each_state(
     const std::function<void(unsigned int, unsigned int, double, const double *)> &visit)

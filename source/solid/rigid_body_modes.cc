@@ -13,6 +13,9 @@
 #include <cmath>
 #include <sstream>
 
+// Bodies that only contact holds (doc/theory.md, section 9): which rigid motions the conditions
+// leave free, and the diagonal shift that stabilises the tangent against them. The same six
+// motions per node are the near-null space of multigrid (section 8).
 namespace Touchstone
 {
   using namespace dealii;
@@ -55,6 +58,9 @@ namespace Touchstone
     , centres(solid.bodies.size())
     , sizes(solid.bodies.size())
   {
+    // Each body has a centre and half a diagonal of its own, by which positions are divided: so
+    // rotations displace its nodes by about one, like translations, and thresholds on both are
+    // comparable.
     const std::vector<BoundingBox<dim>> boxes = body_boxes(solid);
     for (unsigned int b = 0; b < boxes.size(); ++b)
       {
@@ -68,6 +74,8 @@ namespace Touchstone
         sizes[b] = 0.5 * std::sqrt(diagonal);
       }
 
+    // Multigrid takes six columns for all bodies, about the centre of the first: restricted to
+    // any body they span its rigid motions just as well.
     Epetra_MultiVector &modes = rigid->columns;
     std::vector<Index>  dofs(solid.fe.n_dofs_per_cell());
     std::vector<char>   known(modes.MyLength());
@@ -92,6 +100,10 @@ namespace Touchstone
 
 
 
+  /** The rigid motions of all bodies that no condition resists: the null space of the Gram matrix
+   * R^T B^T B R of section 9. A condition of one body gives a row over its six motions; one of
+   * contact a row over those of both bodies, with opposite signs. The matrix is tiny and the same
+   * on all ranks. Collective. */
   FreeMotion
   RigidBodyModes::free_motion(const std::vector<Condition> &conditions) const
   {
@@ -120,7 +132,7 @@ namespace Touchstone
     Utilities::MPI::sum(gram, solid.communicator, gram);
     Utilities::MPI::sum(own, solid.communicator, own);
 
-    // A body that its own supports hold takes part in no free motion, however few its
+    // A body that its own supports constrain fully takes part in no free motion, however few its
     // supports are beside the many conditions of contact.
     for (unsigned int b = 0; b < n_bodies; ++b)
       {
@@ -222,6 +234,9 @@ namespace Touchstone
       return result;
     };
 
+    // The shift alpha diag(K) is to limit the free motion under the unbalanced forces f to about
+    // @p distance: along a free mode r, alpha = |r.f| / (r.diag(K) r distance), with the
+    // resistance estimated from the mean diagonal of each body.
     // Work of the unbalanced forces on the modes of each body; sum of diagonals.
     const unsigned int  n = 6 * solid.bodies.size();
     std::vector<double> sums(n + solid.bodies.size(), 0.);
@@ -258,8 +273,8 @@ namespace Touchstone
           }
         fraction = std::max(fraction, std::abs(work) / (resistance * distance));
       }
-    // Only what takes part in the motion is held back: a body that can turn may still follow
-    // what presses it.
+    // Only what takes part in the motion is held back: a body that can only turn is still free to
+    // be displaced by the bodies that press it.
     for (unsigned int row = 0; row < rigid->body.size(); ++row)
       if (motion.bodies.count(rigid->body[row]) > 0)
         shift.begin()[row] = fraction * stiffness.diagonal(row) * share[row] / largest;

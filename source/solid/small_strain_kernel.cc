@@ -4,6 +4,9 @@
 
 #include <algorithm>
 
+// Cells of small strain with an arbitrary law, e.g. plasticity: full integration or B-bar
+// (doc/theory.md 2.1), as the linear case of the same scheme that FiniteStrainKernel uses, with
+// the mean dilatation t for theta.
 namespace Touchstone
 {
   using namespace dealii;
@@ -20,6 +23,8 @@ namespace Touchstone
 
 
 
+  /** The mean of div u over the cell, by which B-bar replaces the dilatation of each point. Cells
+   * of small strain cannot be inverted, hence 1 for the determinant. */
   double
   SmallStrainKernel::deform()
   {
@@ -35,6 +40,8 @@ namespace Touchstone
   Tensor<2, dim>
   SmallStrainKernel::deformation(const unsigned int q) const
   {
+    // The spherical part of the gradient is changed such that its trace is the mean dilatation;
+    // its skew part does not matter to the law.
     Tensor<2, dim> gradient = points[q].gradient;
     if (averaged)
       {
@@ -47,6 +54,7 @@ namespace Touchstone
 
 
 
+  /** dt/du: the volume-weighted mean of the shape gradients. */
   void
   SmallStrainKernel::set_mean_gradient()
   {
@@ -60,6 +68,8 @@ namespace Touchstone
 
 
 
+  /** Stress at fixed t: only its deviator does work on the displacements of the point; a third of
+   * its trace does work on t, and is summed up over the cell. */
   Tensor<2, dim>
   SmallStrainKernel::point_stress(const unsigned int q, double &pressure) const
   {

@@ -13,6 +13,10 @@
 #include <cmath>
 #include <limits>
 
+// The discretised bodies: dofs, hanging nodes, the stiffness matrix over all of them, internal
+// forces, energies, stresses and history. Linear bodies contribute K u with a matrix assembled
+// once; the rows of nonlinear bodies are assembled and evaluated anew by NonlinearCells.
+// Conditions of supports and contact are applied elsewhere (doc/theory.md, section 7).
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,6 +36,8 @@ namespace Touchstone
 
 
 
+  /** Distribute dofs and allocate all that depends on the mesh, at the start and after each
+   * refinement. Collective. */
   void
   Solid::reinit()
   {
@@ -42,9 +48,11 @@ namespace Touchstone
     hanging.reinit(relevant);
     DoFTools::make_hanging_node_constraints(dof_handler, hanging);
     hanging.close();
+    // Whether there are hanging nodes must be known to all ranks alike, as condense() is
+    // collective.
     any_hanging = Utilities::MPI::max(hanging.n_constraints(), communicator) > 0;
 
-    // Contact counts nodes, not unknowns: three consecutive unknowns are a node.
+    // Contact counts nodes, not dofs: node k has the dofs 3k, 3k+1, 3k+2.
     std::vector<Index> dofs(fe.n_dofs_per_cell());
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -55,7 +63,7 @@ namespace Touchstone
                         ExcMessage("The unknowns are not numbered by nodes."));
         }
 
-    // Rows are built from owned and ghost cells, so no rank waits for another.
+    // Rows are built from owned and ghost cells, so that no communication is needed.
     const Index n_nodes = dof_handler.n_dofs() / dim;
     IndexSet    owned_nodes(n_nodes);
     if (!owned.is_empty())
@@ -75,12 +83,17 @@ namespace Touchstone
               couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
     nonlinear = std::make_unique<NonlinearCells>(bodies, fe);
+    // The matrix stores one of two transposed blocks where the tangent is symmetric, which the
+    // laws tell; hence the cells of nonlinear bodies are made before it.
     matrix.reinit(owned, couplings, communicator, symmetric());
     nonlinear->reinit(mapping, dof_handler, matrix);
   }
 
 
 
+  /** Move the forces on hanging nodes to the nodes that they follow, f_p += C_hp f_h, and leave
+   * zero (doc/theory.md, section 11, "Hanging nodes"). A parent can belong to another rank, which
+   * the compress() covers. Collective. */
   void
   Solid::condense(Vector &force) const
   {
@@ -116,6 +129,8 @@ namespace Touchstone
 
 
 
+  /** Assemble the stiffness of the linear bodies, once per mesh, and the tangent of the others at
+   * rest. */
   void
   Solid::assemble()
   {
@@ -135,6 +150,8 @@ namespace Touchstone
 
 
 
+  /** Turn the failure of a material law on any rank into an exception on all of them; it cuts the
+   * step. Laws without history cannot fail, so elastic runs are spared the reduction. */
   void
   Solid::check_solved(const bool solved) const
   {
@@ -155,6 +172,8 @@ namespace Touchstone
 
 
 
+  /** The product writes the forces of linear bodies and, for the others, numbers without meaning
+   * (tangent times u), which the loop over nonlinear cells replaces. */
   void
   Solid::internal_force(const Vector &u, Vector &force) const
   {
@@ -165,6 +184,9 @@ namespace Touchstone
 
 
 
+  /** Elastic energy: u.Ku / 2 over the rows of linear bodies, and the integrals over the cells of
+   * the others. Rows of nonlinear bodies are set to zero first, so that the product counts linear
+   * bodies alone. Collective. */
   double
   Solid::strain_energy(const Vector &u) const
   {
@@ -180,6 +202,8 @@ namespace Touchstone
 
 
 
+  /** Whether det F > 0 at all points of all ranks (doc/theory.md 2.2); always true for linear
+   * bodies. Collective. */
   bool
   Solid::admissible(const Vector &u) const
   {
@@ -189,6 +213,9 @@ namespace Touchstone
 
 
 
+  /** An estimate of the round-off in the norm of the internal forces (force): the machine
+   * precision times the sums of absolute values that cancel in them. A residual below it cannot
+   * be expected of Newton's method. Collective. */
   double
   Solid::round_off(const Vector &u) const
   {
@@ -212,6 +239,8 @@ namespace Touchstone
     const std::function<
       void(unsigned int, const Point<dim> &, const SymmetricTensor<2, dim> &, double)> &visit) const
   {
+    // One kernel per linear body, made once: it evaluates shapes and tables that all cells of the
+    // body share.
     std::vector<std::unique_ptr<ElementKernel>> kernels;
     for (const BodyParameters &body : bodies)
       kernels.push_back(
@@ -243,6 +272,8 @@ namespace Touchstone
 
 
 
+  /** Mean stress of each cell for output, with equal weights of its points; for_each_stress()
+   * visits the points of a cell one after the other, so the counter tells the cell. */
   std::vector<SymmetricTensor<2, dim>>
   Solid::cell_stress(const Vector &u) const
   {
@@ -266,6 +297,8 @@ namespace Touchstone
 
 
 
+  /** Ranks assemble their ghost cells as well, so history of a cell must be known to all of these.
+   * Collective. */
   void
   Solid::exchange_cell_states()
   {
@@ -283,6 +316,8 @@ namespace Touchstone
 
 
 
+  /** Plastic work since the start over all bodies (energy; doc/materials.md, "Output").
+   * Collective. */
   double
   Solid::dissipation() const
   {
@@ -301,6 +336,7 @@ namespace Touchstone
   dealii::Vector<double>
   Solid::cell_plastic_strain() const
   {
+    // Means over the reference volumes of the points of each cell.
     const unsigned int     n = dof_handler.get_triangulation().n_active_cells();
     dealii::Vector<double> result(n), volumes(n);
     if (plastic())
@@ -322,6 +358,8 @@ namespace Touchstone
   std::map<unsigned int, double>
   Solid::largest_plastic_strain() const
   {
+    // Plastic bodies get an entry on all ranks, also those that own none of their cells: the
+    // reduction below is collective for each entry.
     std::map<unsigned int, double> result;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (const auto law = history_law(b); law && law->plastic())

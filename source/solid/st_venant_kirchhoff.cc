@@ -42,6 +42,8 @@ namespace Touchstone
       Tensor<4, dim>
       tangent(const Tensor<2, dim> &F) const override
       {
+        // P = F S: material part F C F from the derivative of S, isotropic elasticity in E, and
+        // the geometric part S.
         const Tensor<2, dim> S = second_stress(F);
         const Tensor<2, dim> b = F * transpose(F);
         Tensor<4, dim>       A;

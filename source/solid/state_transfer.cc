@@ -8,6 +8,9 @@
 
 #include <algorithm>
 
+// History of material points when the mesh changes (doc/materials.md, "State"). Only p4est meshes
+// can change; cells carry their states through refinement, coarsening and repartitioning as data
+// of variable size.
 namespace Touchstone
 {
   using namespace dealii;
@@ -19,8 +22,11 @@ namespace Touchstone
     if (!solid.has_history() || !forest)
       return;
     const QGauss<dim> quadrature(solid.fe.degree + 1);
-    const auto        n_children = GeometryInfo<dim>::max_children_per_cell;
-    weights                      = quadrature.get_weights();
+    // Which points correspond depends on the reference cell alone, so both tables are made once:
+    // the parent's nearest point for each point of a child, and the children that contain each
+    // point of the parent, which are several if it lies on a face between them (degree 2).
+    const auto n_children = GeometryInfo<dim>::max_children_per_cell;
+    weights               = quadrature.get_weights();
     nearest.assign(n_children, std::vector<unsigned int>(quadrature.size()));
     containing.resize(quadrature.size());
     for (unsigned int c = 0; c < n_children; ++c)
@@ -55,6 +61,8 @@ namespace Touchstone
 
 
 
+  /** Children copy the state of the nearest point: interpolation would give states off the yield
+   * surface, while a copy is one that the law has produced. */
   StateTransfer::States
   StateTransfer::refine(const State &parent) const
   {
@@ -68,6 +76,9 @@ namespace Touchstone
 
 
 
+  /** The volume average over the child that contains the point, so that means, e.g. of the plastic
+   * work, are kept as far as possible. An average of F_p^-1 does not have determinant one, which
+   * restore() repairs. */
   StateTransfer::State
   StateTransfer::coarsen(const Cell &parent, const States &children) const
   {
@@ -96,6 +107,7 @@ namespace Touchstone
 
 
 
+  /** Take over the states on the new mesh, and send those of ghost cells. Collective. */
   void
   StateTransfer::finish()
   {

@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+// Return mapping of von Mises plasticity with isotropic and kinematic hardening by the backward
+// Euler method (doc/materials.md, "Equations"). It serves small strain and, with the logarithmic
+// strain, finite strain; the laws in von_mises_laws.cc add history and kinematics.
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,6 +35,10 @@ namespace Touchstone
 
 
 
+  /** Solve the scalar equation g = 0 for the increment of the equivalent plastic strain by
+   * Newton's method inside a bracket. Newton's method alone can diverge for hardening curves with
+   * kinks or saturation; the bracket halves then, so that a step of any size is answered. Returns
+   * false for a law that gives no finite numbers. */
   bool
   VonMises::solve(const SymmetricTensor<2, dim> &trial_stress,
                   const double                   plastic_strain,
@@ -91,6 +98,8 @@ namespace Touchstone
     result.plastic_work   = 0.;
     result.stress         = trial_stress + pressure * identity;
 
+    // Elastic predictor: the step is elastic if the trial stress is inside the yield surface of
+    // the last step.
     const YieldStress before  = hardening->at(plastic_strain);
     const double      excess  = root_3_2 * (trial_stress - back_stress).norm() - before.value;
     const bool        plastic = !(excess <= yield_tolerance * before.value); // also if NaN
@@ -98,6 +107,9 @@ namespace Touchstone
     if (plastic)
       {
         result.solved = solve(trial_stress, plastic_strain, back_stress, result.increment, slope);
+        // Plastic corrector. Stress and back stress both change along s - theta X_n, so that this
+        // is the direction of their difference at the end of the step, too, and one scalar
+        // equation for its length remains.
         const double                  x         = result.increment;
         const double                  theta     = 1. / (1. + recovery * x);
         const SymmetricTensor<2, dim> relative  = trial_stress - theta * back_stress;
@@ -113,6 +125,10 @@ namespace Touchstone
         result.plastic_work = hardening->at(result.plastic_strain).work - before.work +
                               0.5 * ((back_stress + result.back_stress) * result.plastic_increment);
 
+        // The consistent tangent, the derivative of this algorithm by the trial strain: the
+        // change of direction (beta), and the change of the increment, dx = -(dg/dtrial)/slope.
+        // Recovery of the back stress changes the direction by the increment, too, which makes
+        // the tangent unsymmetric.
         if (with_tangent)
           {
             const double beta = 2. * mu * root_3_2 * x / norm;

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+// The two registered von Mises laws, small and finite strain: they keep the history of a point in
+// a flat array of numbers, prepare the trial elastic strain, call VonMises for the return
+// mapping, and transform stress and tangent to what the kernels ask for.
 namespace Touchstone
 {
   using namespace dealii;
@@ -52,7 +55,7 @@ namespace Touchstone
 
 
 
-    /** What both laws say of their state. */
+    /** What both laws have in common: the scalar history. */
     template <class Law>
     class PlasticLaw : public Law
     {
@@ -227,6 +230,9 @@ namespace Touchstone
         response.stress                 = F_e * S * transposed;
         if (demand == Demand::stress)
           return;
+        // The tangent column by column: for a unit change of F_kl, that of C_e = F_e^T F_e, of E,
+        // of T by the return mapping, of S by the product rule (the second derivative of E is its
+        // geometric part), and of P.
         for (unsigned int k = 0; k < dim; ++k)
           for (unsigned int l = 0; l < dim; ++l)
             {

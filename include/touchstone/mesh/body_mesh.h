@@ -13,7 +13,7 @@
 
 /**
  * @file
- * What geometries share in making meshes.
+ * Functions that geometries share for making meshes.
  */
 
 namespace Touchstone

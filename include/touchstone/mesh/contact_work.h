@@ -20,8 +20,8 @@ namespace Touchstone
    * @brief The work that contact makes for a cell, in whole numbers: 4 for each face that
    * is a slave, 1 for each that is a master.
    *
-   * The nodes of a slave face look for partners, project on several faces and make rows; a
-   * master face has its normals averaged and is sent. A face that has no face of
+   * The nodes of a slave face search for master faces, are projected on several of them and get
+   * contact rows; a master face has its normals averaged and is sent. A face that has no face of
    * the other side near it when the run begins counts nothing, unless all are such:
    * it is left out after one look at a box.
    */

@@ -34,7 +34,7 @@ namespace Touchstone
       std::string              section;
       unsigned int             slave_body = 0;
       std::vector<std::string> slave_boundaries;
-      /** Where there are no master boundaries this means nothing. */
+      /** Without meaning if there are no master boundaries. */
       unsigned int             master_body = 0;
       std::vector<std::string> master_boundaries;
     };
@@ -60,7 +60,7 @@ namespace Touchstone
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
     unsigned int                                                                 level = 0;
     bool has_weights                                                                   = false;
-    /** Which class it is, the partitioner decides. */
+    /** Its class depends on the partitioner. */
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>> mesh;
 
   public:
@@ -83,14 +83,14 @@ namespace Touchstone
     void
     refine(const std::set<dealii::CellId::binary_type> &cells);
 
-    /** @brief Whether p4est's pieces have the same sum of weights that cells differ in. */
+    /** @brief Whether p4est balances weights that differ between cells. */
     bool
     weighted() const
     {
       return has_weights;
     }
 
-    /** @brief Share the present cells out to the ranks, whatever they came from. Collective. */
+    /** @brief Repartition the present cells. Collective. */
     void
     repartition();
 

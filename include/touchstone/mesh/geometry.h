@@ -57,7 +57,7 @@ namespace Touchstone
     create(double factor, const std::string &section, const std::string &folder) const = 0;
 
     /**
-     * @brief What tells whether a mesh that is not made from parameters alone is the same:
+     * @brief A fingerprint of a mesh that is not made from parameters alone:
      * size and checksum of its file; empty if parameters say all.
      * @param folder Folder of the scene file.
      */

@@ -50,7 +50,7 @@ namespace Touchstone
     static Group &
     group(std::vector<Group> &groups, unsigned int number);
 
-    /** @brief Refuse two cells with the same nodes, which would fill their place twice.
+    /** @brief Refuse two cells with the same nodes, which would overlap.
      * @param one_for_each_volume Whether cells of different volumes may be copies, which become
      *   one cell of several volumes: so Gmsh's version 2 writes physical volumes that overlap.
      * @throws MeshFileError that names both lines */

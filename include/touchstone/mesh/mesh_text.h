@@ -59,7 +59,7 @@ namespace Touchstone
     point(const char *what);
 
     /** @brief How many entries follow. Each takes two bytes and more: a damaged file
-     * must not make the program ask for memory without end. */
+     * must not make the program exhaust the memory. */
     unsigned int
     announced(const char *what);
 

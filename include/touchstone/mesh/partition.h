@@ -13,13 +13,13 @@
 
 /**
  * @file
- * How the cells of the forest are spread over ranks.
+ * How the cells of the forest are distributed over the ranks.
  */
 
 namespace Touchstone
 {
   /**
-   * @brief What a cell asks for, in whole numbers.
+   * @brief The work of a cell, in whole numbers.
    *
    * By itself: 1, and 3 if it is integrated anew in each Newton iteration and others
    * are not (measured on prm/plate_drop.prm: 2 with MUMPS, 6 with Belos CG). For contact:
@@ -27,7 +27,7 @@ namespace Touchstone
    */
   using CellWork = std::function<unsigned int(const dealii::Triangulation<dim>::cell_iterator &)>;
 
-  /** @brief The mesh on one rank, which is made once and not handed out. It cannot be refined
+  /** @brief The mesh on one rank, which is not distributed. It cannot be refined
    * later. */
   std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
   whole_mesh(const BodyMesh &mesh, unsigned int refinements, MPI_Comm communicator);
@@ -52,8 +52,8 @@ namespace Touchstone
    *
    * Two constraints of one k-way partition: Karypis and Kumar (1998), Multilevel
    * algorithms for multi-constraint graph partitioning, SC98. The first rank makes
-   * the whole refined mesh and its partition, and hands the pieces out; the result cannot be
-   * refined later. Collective.
+   * the whole refined mesh and its partition, and sends the parts to the others; the result cannot
+   * be refined later. Collective.
    * @throws std::runtime_error if METIS fails, on all ranks.
    */
   std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
@@ -67,13 +67,12 @@ namespace Touchstone
   /**
    * @brief The same mesh cut across its longest side into two pieces of about the same work,
    * these again, and so on: bodies that lie in each other share ranks where they touch, so
-   * that contact stays at home.
+   * that contact needs little communication.
    *
-   * Work as for partition_by_curve(). Coarse cells are handed out where there are many of
-   * them, and each rank refines only its own and those around; refined ones where
-   * there are few, and each rank makes all. The result cannot be refined later. Needs no
-   * messages; collective.
-   * Berger and Bokhari (1987), IEEE Trans. Comput. C-36.
+   * Work as for partition_by_curve(). Coarse cells are distributed where there are many of them,
+   * and each rank refines only its own and those around; refined ones where there are few, and each
+   * rank makes all. The result cannot be refined later. Needs no messages; collective. Berger and
+   * Bokhari (1987), IEEE Trans. Comput. C-36.
    */
   std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
   partition_by_coordinates(const BodyMesh &mesh,

@@ -16,7 +16,7 @@ namespace Touchstone
   std::vector<dealii::BoundingBox<dim>>
   body_boxes(const Solid &solid);
 
-  /** @brief Number of the body of each owned unknown, in their order. */
+  /** @brief Index of the body of each locally owned dof, in the order of the dofs. */
   std::vector<unsigned int>
   bodies_of_unknowns(const Solid &solid);
 } // namespace Touchstone

@@ -57,7 +57,7 @@ namespace Touchstone
     }
 
     /**
-     * @brief Offer the prescribed displacements at time @p t, as increments from
+     * @brief Add the prescribed displacements at time @p t, as increments from
      * @p u, to the constraint graph.
      * @return the largest amount by which @p u misses them, length. Collective.
      * @throws InputError if a formula is not finite.

@@ -57,7 +57,7 @@ namespace Touchstone
       step_length = length;
     }
 
-    /** @brief Numbers of history of a cell: those of its points one after the other. */
+    /** @brief Number of history variables of a cell; those of its points follow one another. */
     unsigned int
     n_state() const
     {
@@ -69,13 +69,13 @@ namespace Touchstone
     start(double *state) const;
 
     /**
-     * @brief Go to a cell and a displacement.
+     * @brief Set the cell and its displacement.
      * @param positions    Reference positions of the nodes, length.
      * @param displacement Displacements of the nodes, length.
      * @param committed    State of the cell at the end of the last step; is not copied.
      *                     Null for virgin material.
      * @return the smallest det F of the quadrature points; 1 for small strain. Unless it is
-     *         positive nothing else can be asked for.
+     * positive no other function may be called.
      */
     double
     reinit(const double *positions, const double *displacement, const double *committed = nullptr);
@@ -138,7 +138,7 @@ namespace Touchstone
       return present_state;
     }
 
-    /** @brief Whether the material could answer in the last of these. */
+    /** @brief Whether the material law succeeded at all points in the last of these evaluations. */
     bool
     solved() const
     {
@@ -187,20 +187,20 @@ namespace Touchstone
     virtual double
     deform() = 0;
 
-    /** What the law sees at point @p q. */
+    /** The deformation that the law is evaluated for at point @p q. */
     virtual dealii::Tensor<2, dim>
     deformation(unsigned int q) const = 0;
 
     virtual void
     set_mean_gradient() = 0;
 
-    /** The stress that does work on the displacement gradient of point @p q with the averaged
-     * dilatation held; adds to @p pressure what does work on that, times volume. */
+    /** The stress that does work on the displacement gradient of point @p q at fixed averaged
+     * dilatation; adds to @p pressure the stress that does work on that dilatation, times volume.
+     */
     virtual dealii::Tensor<2, dim>
     point_stress(unsigned int q, double &pressure) const = 0;
 
-    /** Turn the law's tangent at point @p q into the derivative with the averaged
-     * dilatation held. */
+    /** Turn the law's tangent at point @p q into the derivative at fixed averaged dilatation. */
     virtual MeanTerms
     modify_tangent(unsigned int q, double pressure, dealii::Tensor<4, dim> &A) const = 0;
 

@@ -38,11 +38,11 @@ namespace Touchstone
                   ElementType                       type,
                   const MaterialParameters         &material);
 
-    /** @brief Go to a cell. */
+    /** @brief Set the cell. */
     void
     reinit(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell);
 
-    /** @brief Number of displacement unknowns of a cell. */
+    /** @brief Number of displacement dofs of a cell. */
     unsigned int
     n_dofs() const
     {
@@ -60,12 +60,12 @@ namespace Touchstone
       return {type, material, n_nodes, n_modes, n_points};
     }
 
-    /** @brief Let this cell be number @p k of eight; as the first it stands for all until
-     * others come. */
+    /** @brief Copy this cell's gradients to SIMD lane @p k of eight; lane 0 initialises all lanes.
+     */
     void
     become(unsigned int k, ElementStiffness<8> &cells) const;
 
-    /** @brief Go to a displacement, in the order node-component: for stress(). */
+    /** @brief Set the nodal displacements for stress(), in the order node-component. */
     void
     set_displacement(const std::vector<double> &u);
 

@@ -72,9 +72,9 @@ namespace Touchstone
     const unsigned int n_points;
     /** Unknowns of the nodes, and of all. */
     const unsigned int n_kept, n;
-    /** Numbers of all cells stand beside each other. */
+    /** Values of all cells are contiguous: the index of the cell runs fastest. */
     std::vector<double> weighted, mean;
-    /** Entries of a mode are those of what is left by the modes after it. */
+    /** The row of a mode is that after elimination of the modes after it. */
     std::vector<double> matrix;
 
     /** To be called from functions with versions for several processors. */

@@ -8,12 +8,11 @@
 namespace Touchstone
 {
   /**
-   * @brief Where the energy of a scene is, and where it went since time 0; force times
-   * length.
+   * @brief The energy balance of a scene since time 0; force times length.
    *
-   * What the bodies have and what they lost is what they began with and what was put
-   * in, up to balance_error(): kinetic + strain + plastic + contact + friction +
-   * damping = initial + external.
+   * Present and dissipated energy are equal to initial energy and external work, up to
+   * balance_error(): kinetic + strain + plastic + contact + friction + damping = initial +
+   * external.
    */
   struct Energies
   {
@@ -44,30 +43,30 @@ namespace Touchstone
       archive &k &s &p &c &f &d &e &first &most;
     }
 
-    /** @brief What the bodies have. */
+    /** @brief Kinetic and strain energy of the bodies. */
     double
     present() const
     {
       return kinetic + strain;
     }
 
-    /** @brief Energy that came from nowhere, negative if it is missing: numerical
-     * damping takes energy. */
+    /** @brief Error of the balance: positive if energy was generated numerically, negative if it is
+     * missing, as by numerical damping. */
     double
     balance_error() const
     {
       return present() + plastic + contact + friction + damping - initial - external;
     }
 
-    /** @brief Energy that nothing explains: it came from nowhere, or from contact, which
-     * cannot have any but what its springs have stored. */
+    /** @brief Energy without a physical source: generated numerically, or released by contact
+     * beyond what its springs have stored. */
     double
     gain() const
     {
       return std::max(0., balance_error()) + std::max(0., -contact);
     }
 
-    /** @brief Take note of the size of the energies. */
+    /** @brief Update the largest energy. */
     void
     update_largest()
     {

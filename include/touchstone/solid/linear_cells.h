@@ -23,12 +23,12 @@ namespace Touchstone
     {
     }
 
-    /** @brief Take a cell, if it has rows of this rank; its stiffness is written with those
-     * of seven others. */
+    /** @brief Add a cell to the batch, if it has rows of this rank; matrices are computed and added
+     * for eight cells at once. */
     void
     add(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell, Matrix &matrix);
 
-    /** @brief Write what has not been written yet. */
+    /** @brief Add the cells of an incomplete batch. */
     void
     finish(Matrix &matrix);
 
@@ -37,7 +37,7 @@ namespace Touchstone
     ElementStiffness<8> stiffness;
     unsigned int        n_waiting = 0;
     std::vector<Index>  dofs;
-    /** Of the cells that wait, as Matrix takes them. */
+    /** Rows and nodes of the cells in the batch, as Matrix::add() expects them. */
     std::vector<int>          rows;
     std::vector<unsigned int> nodes;
   };

@@ -12,7 +12,7 @@ namespace Touchstone
 {
   struct MaterialParameters;
 
-  /** @brief What a material is asked at one quadrature point. */
+  /** @brief Input of a material law at one quadrature point. */
   struct MaterialInput
   {
     /** Finite strain: deformation gradient F, det F > 0. Small strain: the displacement
@@ -25,7 +25,7 @@ namespace Touchstone
     double step_length;
   };
 
-  /** @brief What it answers. */
+  /** @brief Output of a material law at one quadrature point. */
   struct MaterialResponse
   {
     /** Potential of the stress per reference volume, up to a constant of the step: the stress
@@ -42,7 +42,8 @@ namespace Touchstone
     bool solved = true;
   };
 
-  /** @brief What is asked of a material: each includes the state, and the last the stress. */
+  /** @brief Which quantities a material law must compute: each includes the state, and the last the
+   * stress. */
   enum class Demand
   {
     energy,
@@ -62,7 +63,7 @@ namespace Touchstone
   public:
     virtual ~MaterialLaw() = default;
 
-    /** @brief How many numbers of history a point has. */
+    /** @brief Number of history variables of a point. */
     virtual unsigned int
     n_state() const
     {
@@ -75,7 +76,7 @@ namespace Touchstone
     {
     }
 
-    /** @brief Make a state that is an average of several one that the law admits. */
+    /** @brief Turn an average of several states into an admissible one. */
     virtual void
     restore(double * /*state*/) const
     {

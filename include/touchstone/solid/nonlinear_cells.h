@@ -114,7 +114,7 @@ namespace Touchstone
 
     /** @name History */
     /** @{ */
-    /** @brief Keep the present state. */
+    /** @brief Make the present state the committed one. */
     void
     commit()
     {

@@ -16,7 +16,7 @@
 
 namespace Touchstone
 {
-  /** @brief What the bodies can do without resistance under given conditions. */
+  /** @brief The rigid motions that given conditions do not resist. */
   struct FreeMotion
   {
     /** Dimension of the space of free rigid motions. */
@@ -56,12 +56,11 @@ namespace Touchstone
 
     /**
      * @brief Diagonal terms that keep free motions finite: a fraction of the
-     * diagonal of the stiffness, on the unknowns that take part, as the square of their part.
+     * diagonal of the stiffness, times the square of each dof's share of the motion.
      *
-     * Added to the tangent but not to the residual, they slow the way to
-     * equilibrium and do not change it (a proximal point step). The fraction is
-     * such that the free motion under @p unbalanced is about @p distance, and at
-     * least @p smallest.
+     * Added to the tangent but not to the residual, they slow the convergence to equilibrium and do
+     * not change it (a proximal point step). The fraction is such that the free motion under @p
+     * unbalanced is about @p distance, and at least @p smallest.
      */
     Vector
     stabilisation(const FreeMotion &motion,

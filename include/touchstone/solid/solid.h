@@ -22,10 +22,10 @@
 namespace Touchstone
 {
   /**
-   * @brief The bodies as a discretised continuum: unknowns, stiffness, internal
+   * @brief The bodies as a discretised continuum: dofs, stiffness, internal
    * forces and stresses, without any boundary condition.
    *
-   * The three displacement components of node k are the unknowns 3k, 3k+1, 3k+2.
+   * The three displacement components of node k are the dofs 3k, 3k+1, 3k+2.
    */
   class Solid
   {
@@ -42,26 +42,26 @@ namespace Touchstone
     const dealii::MappingQ<dim>        mapping;
     dealii::DoFHandler<dim>            dof_handler;
     dealii::IndexSet                   owned;
-    /** Owned unknowns and those of ghost cells. */
+    /** Locally relevant dofs: owned ones and those of ghost cells. */
     dealii::IndexSet relevant;
     const MPI_Comm   communicator;
-    /** Nodes on edges and faces of larger neighbours, which follow these. */
+    /** Constraints of hanging nodes, on edges and faces of larger neighbours. */
     dealii::AffineConstraints<double> hanging;
 
-    /** @brief Begin anew after the mesh has changed: unknowns and matrix; assemble()
+    /** @brief Set up dofs and matrix after the mesh has changed; assemble()
      * comes next. Collective. */
     void
     reinit();
 
-    /** @brief Whether a node of any rank hangs. */
+    /** @brief Whether any rank has a hanging node. */
     bool
     has_hanging_nodes() const
     {
       return any_hanging;
     }
 
-    /** @brief Hand nodal forces on hanging nodes over to the nodes that these
-     * follow: only there do forces balance. @p force has no ghosts; collective. */
+    /** @brief Move the forces on hanging nodes to the nodes that constrain them: only there do
+     * forces balance. @p force has no ghosts; collective. */
     void
     condense(Vector &force) const;
 
@@ -99,7 +99,7 @@ namespace Touchstone
       return matrix;
     }
 
-    /** @brief A vector over the unknowns, with ghosts. Collective. */
+    /** @brief A vector over the dofs, with ghosts. Collective. */
     Vector
     ghosted(const Vector &u) const;
 
@@ -118,7 +118,7 @@ namespace Touchstone
     bool
     admissible(const Vector &u) const;
 
-    /** @brief Norm of the error that round-off makes in the internal forces of
+    /** @brief Norm of the round-off error of the internal forces of
      * @p u: no residual can fall below it. Force; collective. */
     double
     round_off(const Vector &u) const;
