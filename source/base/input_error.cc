@@ -7,6 +7,7 @@ namespace Touchstone
   namespace
   {
     /** With exactly one full stop or question mark at the end. */
+    /** The sentence with exactly one full stop at its end, or its question mark. */
     std::string
     ended(std::string sentence)
     {
@@ -17,6 +18,9 @@ namespace Touchstone
       return sentence;
     }
 
+    /**
+     * One line for all input errors: where (section, key, value), what is wrong, and what to do.
+     */
     std::string
     message(const std::string &section,
             const std::string &key,

@@ -106,8 +106,8 @@ namespace Touchstone
   int
   Refinement::finest_level() const
   {
-    // Levels count from the cells of the coarse mesh of the forest, of which the initial mesh may
-    // be a refinement already.
+    // "Maximum level" counts from the mesh that the scene asks for, levels from the coarse cells of
+    // the forest.
     return std::min<int>(10, forest.first_level() + parameters.maximum_level);
   }
 

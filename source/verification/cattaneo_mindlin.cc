@@ -10,6 +10,14 @@
 #include <cmath>
 #include <cstdio>
 
+/**
+ * @file
+ * Partial slip of two cylinders (Cattaneo 1938, Mindlin 1949; Johnson, Contact Mechanics, chapter
+ * 7, doc/theory.md reference 14). All forces are per length along the axes. The exact solution is
+ * evaluated at the forces that were computed, so that errors of the profile are not mixed with
+ * those of the load.
+ */
+
 namespace Touchstone
 {
   namespace
@@ -90,6 +98,8 @@ namespace Touchstone
                                     const double peak) const
   {
     // Of first loading, Q* - Q = 0, the formula is that of the peak itself.
+    // First loading: c/a = sqrt(1 - Q/(mu P)). Unloading from the peak Q*: the zone of reverse slip
+    // grows from the edge as for a load of half the drop, c'/a = sqrt(1 - (Q* - Q)/(2 mu P)).
     const double drop = std::abs(peak - tangential), limit = friction * normal;
     const double fraction = drop == 0. ? std::abs(peak) / limit : drop / (2. * limit);
     return half_width(normal) * std::sqrt(1. - fraction);
@@ -103,6 +113,9 @@ namespace Touchstone
                                   const double tangential,
                                   const double peak) const
   {
+    // Shear traction of first loading: full slip, q = mu p, over the width a, less the same ellipse
+    // over the stick zone c. Unloading adds, with opposite sign and twice the coefficient, that of
+    // the reverse slip.
     const double a    = half_width(normal);
     const auto   from = [&](const double c) {
       return friction * peak_pressure(normal) *
@@ -132,7 +145,8 @@ namespace Touchstone
     const double a = half_width(normal), p0 = peak_pressure(normal);
     const double c      = stick_half_width(normal, tangential, peak);
     const double c_peak = stick_half_width(normal, peak, peak);
-    const double sign   = std::copysign(1., peak);
+    // Everything below is for a positive peak.
+    const double sign = std::copysign(1., peak);
 
     EdgeFit contact_edge, stick_edge;
     double  p_error = 0., p_size = 0., q_error = 0., q_size = 0., active = 0., stick = 0.;
@@ -150,12 +164,15 @@ namespace Touchstone
         if (point.status < ContactStatus::slip)
           continue;
         active += point.area;
+        // Nodes beside the edge are left out of the fit: there an element covers both contact and
+        // gap, and its pressure is not that of the half ellipse.
         if (std::abs(x) < 0.98 * a)
           contact_edge.add(point.area, x, p);
         if (point.status != ContactStatus::stick)
           continue;
         stick += point.area;
-        // What the traction lacks to slip is half an ellipse over the strip.
+        // What the traction lacks to the limit of friction is half an ellipse over the stick zone:
+        // the same fit of squares as for the pressure (EdgeFit) gives the edge of stick.
         stick_edge.add(point.area,
                        x,
                        tangential == peak

@@ -10,6 +10,13 @@
 #include <cmath>
 #include <cstdio>
 
+/**
+ * @file
+ * Hertz contact of spheres (doc/theory.md 10, reference 14): a = (3 P R / 4 E*)^(1/3), p_0 = 3 P /
+ * (2 pi a^2), at the computed force P. A quarter model has a quarter of the force: "symmetry
+ * factor".
+ */
+
 namespace Touchstone
 {
   namespace
@@ -36,6 +43,7 @@ namespace Touchstone
     , symmetry_factor(values.number("symmetry factor", 1.))
     , pair(pair)
   {
+    // 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2; a rigid body has no second term.
     double compliance =
       (1. - std::pow(values.number("poisson ratio"), 2)) / values.positive_number("young modulus");
     const double second_nu = values.number("second poisson ratio", 0.);
@@ -78,7 +86,8 @@ namespace Touchstone
   Hertz::distance(const ContactPoint &point, const unsigned int axis) const
   {
     dealii::Tensor<1, dim> r = dealii::Tensor<1, dim>(point.reference_position) - centre;
-    r[axis]                  = 0.;
+    // Distance from the axis of the load.
+    r[axis] = 0.;
     return r.norm();
   }
 
@@ -97,6 +106,8 @@ namespace Touchstone
         total += point.area * point.traction;
         highest = std::max(highest, point.pressure);
       }
+    // The axis of contact is that of the largest component of the force: the scene need not name
+    // it.
     total             = dealii::Utilities::MPI::sum(total, input.communicator);
     highest           = dealii::Utilities::MPI::max(highest, input.communicator);
     unsigned int axis = 0;
@@ -120,6 +131,8 @@ namespace Touchstone
         if (point.status < ContactStatus::slip)
           continue;
         active_area += point.area;
+        // Nodes beside the edge are left out of the fit: their pressures are averages over contact
+        // and gap.
         if (r < 0.98 * a)
           fit.add(point.area, r, p);
       }

@@ -8,6 +8,13 @@
 #include <cmath>
 #include <cstdio>
 
+/**
+ * @file
+ * Shrink fit of two tubes in plane strain (doc/theory.md 10, "Interference fit"). The exact
+ * solution keeps the forces of both surfaces in balance; their radii differ by the overlap, and so
+ * do the pressures. Textbooks set the pressures equal, whose value is printed for comparison.
+ */
+
 namespace Touchstone
 {
   namespace
@@ -85,6 +92,7 @@ namespace Touchstone
   double
   InterferenceFit::pressure(const double radius) const
   {
+    // Force per angle and length q = p r is the same on both surfaces; delta = q (C_i + C_o).
     const double force_per_angle =
       (skin_radius - bore_radius) / (inner_compliance + outer_compliance);
     return force_per_angle / radius;
@@ -117,7 +125,8 @@ namespace Touchstone
             area += point.area;
           }
         deviation = std::max(deviation, std::abs(point.pressure - exact));
-        // Each surface gives way along the normal of the other body.
+        // The displacement of the slave surface along the master normal is positive away from the
+        // other body, for the inner and the outer tube alike.
         displacement_deviation =
           std::max(displacement_deviation,
                    std::abs(point.displacement * point.normal - exact_displacement));

@@ -42,6 +42,8 @@ namespace Touchstone
   ReferenceComparison
   PointDisplacement::compare(const ReferenceInput &input) const
   {
+    // The nodes of the cell serve as quadrature points, so that the displacement is evaluated at
+    // nodes without a search for the point: it is compared where the mesh has a node.
     const Solid                  &solid = *input.solid;
     const dealii::Quadrature<dim> nodes(
       dealii::FE_Q<dim>(solid.fe.degree).get_unit_support_points());
@@ -70,7 +72,8 @@ namespace Touchstone
             }
         }
 
-    // The lowest rank among those whose node is nearest tells the others.
+    // A node on the border of partitions is found by several ranks: the lowest of those with the
+    // smallest distance broadcasts its value, so that all have the same.
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(input.communicator);
     const double       best = dealii::Utilities::MPI::min(nearest, input.communicator);
     const unsigned int root =
