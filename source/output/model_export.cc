@@ -10,14 +10,24 @@
 
 #include <cmath>
 
+/**
+ * @file
+ * Option --export-model: mesh, supports, loads and contact surfaces as JSON, for comparison with
+ * other programs. Nodes are numbered as in the solver (dof / 3), so that results can be compared
+ * node by node. One rank only: the numbering of several would depend on the partition.
+ */
+
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** For each node of a cell in lexicographic order its unknown of component 0
-     * among those of the cell. */
+    /**
+     * For each node of a cell in lexicographic order the index of its first dof within the cell:
+     * deal.II numbers vertices first, then lines, faces and the interior, an order that other
+     * programs do not share.
+     */
     std::vector<unsigned int>
     lexicographic_nodes(const FiniteElement<dim> &fe)
     {
@@ -37,7 +47,7 @@ namespace Touchstone
 
 
 
-    /** Positions of all nodes, and the cells of each body. */
+    /** Reference positions of all nodes, and the cells of each body as lists of nodes. */
     void
     export_mesh(const Scene &scene, const Solid &solid, Json &model)
     {
@@ -79,6 +89,10 @@ namespace Touchstone
 
 
 
+    /**
+     * The faces of the named boundaries as lists of nodes; without the exact geometry, for the
+     * other program has none.
+     */
     Json
     export_faces(const Scene                    &scene,
                  const Forest                   &forest,
@@ -104,6 +118,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Contact pairs with their coefficient of friction. The friction law is asked for the slope of
+     * its limit at a sliding node of unit force and area: mu of Coulomb's law.
+     */
     Json
     export_pairs(const Scene &scene, const Forest &forest, const Solid &solid)
     {
@@ -133,7 +151,10 @@ namespace Touchstone
 
 
 
-    /** The components that are more than round-off of @p scale; -0 is none. */
+    /**
+     * A row [node, x, y, z]. Components below 1e-14 of @p scale are round-off, which would differ
+     * between machines, and become zero.
+     */
     Json
     node_entry(const Index node, const Tensor<1, dim> &vector, const double scale)
     {
@@ -149,6 +170,7 @@ namespace Touchstone
     Json
     export_step(const BoundaryConditions &conditions, const Solid &solid, const double time)
     {
+      // Prescribed displacements by the support that they belong to.
       std::map<std::string, Json> lists;
       for (const PrescribedDisplacement &p : conditions.displacements(time))
         lists.emplace(p.support, Json::array())
@@ -158,7 +180,8 @@ namespace Touchstone
         displacements.set(support, list);
 
       Vector force(solid.owned, solid.communicator);
-      // Of the reference configuration: other programs apply pressures themselves.
+      // Loads of the reference configuration (zero displacement): for pressure that follows the
+      // surface, doc/theory.md 2.3, the other program has to do that itself.
       conditions.external_force(time, Vector(solid.owned, solid.communicator), force);
       const double largest = force.linfty_norm();
       Json         forces  = Json::array();
@@ -211,6 +234,7 @@ namespace Touchstone
       steps.append(
         export_step(conditions, solid, scene.load_stepping.end_time * (double(step) / n)));
     model.set("steps", steps);
+    // Sixteen digits: mesh and loads are to be the same numbers there.
     write_file_atomically(path, model.print(16));
   }
 } // namespace Touchstone

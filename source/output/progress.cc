@@ -59,6 +59,7 @@ namespace Touchstone
   void
   Progress::iteration(const IterationRecord &record)
   {
+    // The header is repeated for each attempt of a step.
     if (header_due)
       log.line("  iteration   residual        gap   active  changes   linear");
     header_due = false;
@@ -81,6 +82,8 @@ namespace Touchstone
     const double elapsed = timer.wall_time();
     std::string  text =
       format("  converged in %u iterations, ", newton_iterations) + readable_duration(elapsed);
+    // Linear extrapolation of the time so far over the time t of the scene, without what a resumed
+    // run did before.
     if (time < end_time && time > start_time)
       text +=
         ", about " + readable_duration(elapsed * (end_time - time) / (time - start_time)) + " left";

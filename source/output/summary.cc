@@ -8,14 +8,22 @@
 #include <ostream>
 #include <sstream>
 
+/**
+ * @file
+ * Output of the summary: JSON for programs and a printed form for people and tests. Printed numbers
+ * are rounded so that runs with other solvers, ranks or machines print the same text.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** Relative size of what is taken for round-off. */
+    /** Relative size below which printed digits are taken for round-off. */
     constexpr double round_off = 1e-9;
-    /** Solutions count as converged with penetrations of this fraction of a face;
-     * the figure itself is then chance. */
+    /**
+     * Penetrations are converged to this fraction of a face (doc/theory.md 5, equation (13)); below
+     * it the figure is arbitrary.
+     */
     constexpr double gap_round_off = 1e-8;
 
     double
@@ -35,6 +43,7 @@ namespace Touchstone
         return "none";
       if (scale > 0.)
         {
+          // The quantum is a power of ten: the same for all values of about the same scale.
           const double quantum = tolerance * std::pow(10., std::ceil(std::log10(scale)));
           value                = std::round(value / quantum) * quantum;
         }
@@ -58,6 +67,7 @@ namespace Touchstone
 
 
 
+    /** A registered quantity: whole number, number or vector. */
     Json
     to_json(const StepValue &value)
     {
@@ -215,6 +225,8 @@ namespace Touchstone
   void
   RunSummary::print_results(std::ostream &out, const bool with_iterations) const
   {
+    // Scales of round-off are the largest components of all forces and of all moments: a lateral
+    // force that is zero by symmetry is round-off relative to the normal one.
     double force_scale = 0., moment_scale = 0.;
     for (const auto &[name, result] : contact)
       {

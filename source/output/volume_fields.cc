@@ -5,13 +5,20 @@
 
 #include <cmath>
 
+/**
+ * @file
+ * The fields of the VTU output of the bodies, one class for each, registered by name. Stresses are
+ * nodal averages that VolumeOutput::node_stress() has made; fields only take their components and
+ * invariants.
+ */
+
 namespace Touchstone
 {
   using dealii::SymmetricTensor;
 
   namespace
   {
-    /** A vector over the unknowns, node by node. */
+    /** The owned entries of a vector over the dofs, node by node. */
     void
     copy_owned(const Solid &solid, const Vector &field, std::vector<double> &values)
     {
@@ -71,7 +78,7 @@ namespace Touchstone
 
 
 
-    /** A function of the stress. */
+    /** A scalar function of the nodal Cauchy stress. */
     template <unsigned int number>
     class StressField : public VolumeField
     {
@@ -103,6 +110,7 @@ namespace Touchstone
       }
     };
 
+    // Equivalent stress of von Mises, sqrt(3/2) |dev sigma|.
     class VonMisesStress : public StressField<6>
     {
       double
@@ -112,6 +120,7 @@ namespace Touchstone
       }
     };
 
+    // Pressure -tr(sigma)/3: positive in compression.
     class HydrostaticPressure : public StressField<7>
     {
       double
@@ -167,6 +176,7 @@ namespace Touchstone
       }
     };
 
+    // The partition, to judge the balance of load.
     class RankNumber : public CellField<2>
     {
     public:

@@ -8,6 +8,13 @@
 #include <algorithm>
 #include <list>
 
+/**
+ * @file
+ * VTU output of the bodies. Scalar nodal fields have a numbering of their own, with one dof per
+ * node. It is made at the first output after each change of the mesh (reinit()). Only owned cells
+ * are written by a rank.
+ */
+
 namespace Touchstone
 {
   VolumeOutput::VolumeOutput(const Solid &solid, const OutputFolder &folder)
@@ -35,6 +42,9 @@ namespace Touchstone
     const dealii::IndexSet &owned = node_dofs.locally_owned_dofs();
     std::vector<Index>      nodes(node_fe.n_dofs_per_cell()), dofs(solid.fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      // Ghost cells are visited, too: an owned node of the scalar numbering may belong to ghost
+      // cells only. The volumes, in contrast, are summed over owned cells and then added up over
+      // the ranks.
       if (!cell->is_artificial())
         {
           const dealii::DoFHandler<dim>::active_cell_iterator node_cell(
@@ -47,6 +57,8 @@ namespace Touchstone
               if (cell->is_locally_owned())
                 node_volume(nodes[a]) += volume;
               if (owned.is_element(nodes[a]))
+                // Index of the node among the owned nodes of the solid: both numberings have the
+                // same owner for each node, but not the same order.
                 node_in_solid[owned.index_within_set(nodes[a])] =
                   solid.owned.index_within_set(dofs[solid.fe.component_to_system_index(0, a)]) /
                   dim;
@@ -75,6 +87,8 @@ namespace Touchstone
     std::array<NodeField, n> sums;
     for (NodeField &sum : sums)
       sum = make_node_field();
+    // Nodal stress as the mean of the cells at the node, weighted with their volumes: for one node
+    // sum_K V_K sigma_K / sum_K V_K.
     const auto         cell_stress = solid.cell_stress(displacement);
     std::vector<Index> nodes(node_fe.n_dofs_per_cell());
     for (const auto &cell : node_dofs.active_cell_iterators())
@@ -88,6 +102,7 @@ namespace Touchstone
               sums[c](node) += volume * stress.access_raw_entry(c);
         }
     for (NodeField &sum : sums)
+      // Contributions of cells of other ranks.
       sum.compress(dealii::VectorOperation::add);
 
     std::vector<dealii::SymmetricTensor<2, dim>> result(node_in_solid.size());
@@ -135,7 +150,8 @@ namespace Touchstone
     const std::size_t n_nodes = node_in_solid.size();
     const std::size_t n_cells = node_dofs.get_triangulation().n_active_cells();
 
-    // The writer keeps pointers to these.
+    // DataOut keeps pointers to the vectors until the patches are built; the elements of a list do
+    // not move when further ones are added.
     std::list<NodeField>              scalars;
     std::list<Vector>                 vectors;
     std::list<dealii::Vector<double>> cells;
@@ -169,8 +185,9 @@ namespace Touchstone
         }
 
     dealii::DataOutBase::VtkFlags flags;
-    flags.time                     = time;
-    flags.cycle                    = step;
+    flags.time  = time;
+    flags.cycle = step;
+    // Output of equal runs is equal byte by byte.
     flags.print_date_and_time      = false;
     flags.compression_level        = dealii::DataOutBase::VtkFlags::best_speed;
     flags.write_higher_order_cells = (solid.fe.degree > 1);
