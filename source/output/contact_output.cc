@@ -19,6 +19,7 @@ namespace Touchstone
 {
   namespace
   {
+    /** Nodes of a face of FE_Q: (degree + 1)^2. */
     unsigned int
     nodes_per_face(const ContactFace &face)
     {
@@ -65,6 +66,7 @@ namespace Touchstone
                         const std::vector<ContactPoint> &points,
                         const MPI_Comm                   communicator)
   {
+    // Keyed by pair and node: a node can be slave of several pairs and has results in each.
     using Key = ContactNodeMap::key_type;
     ContactNodeMap map;
     for (const ContactPoint &point : points)
@@ -134,7 +136,8 @@ namespace Touchstone
           continue;
 
         dealii::DataOutBase::Patch<2, 3> patch;
-        patch.patch_index          = patches.size();
+        patch.patch_index = patches.size();
+        // Degree 2 has three nodes per direction, i.e. two subdivisions.
         patch.n_subdivisions       = face.degree;
         patch.reference_cell       = dealii::ReferenceCells::get_hypercube<2>();
         patch.points_are_available = (face.degree > 1);
@@ -202,6 +205,7 @@ namespace Touchstone
                            dealii::DataComponentInterpretation::DataComponentInterpretation>>
       ranges;
     for (const ContactFieldList::Entry &entry : fields.entries())
+      // Three components are a vector to the viewer, which can then show arrows.
       if (entry.field->n_components() == dim)
         ranges.emplace_back(entry.first,
                             entry.first + dim - 1,

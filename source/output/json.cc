@@ -111,6 +111,7 @@ namespace Touchstone
   Json::set(const std::string &key, const Json &value)
   {
     Assert(kind == Kind::object, dealii::ExcMessage("Only an object has members."));
+    // Linear search: objects have few members, and their order is that of insertion.
     const auto member = std::find_if(members.begin(), members.end(), [&key](const auto &m) {
       return m.first == key;
     });
@@ -144,6 +145,7 @@ namespace Touchstone
   std::string
   Json::print(const unsigned int max_digits, const unsigned int level) const
   {
+    // Scalars first; arrays and objects, which are printed recursively, share the code below.
     switch (kind)
       {
         case Kind::boolean:

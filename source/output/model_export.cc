@@ -36,6 +36,8 @@ namespace Touchstone
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
         if (fe.system_to_component_index(i).first == 0)
           {
+            // Lexicographic index of the support point, x fastest: its coordinates in the unit cell
+            // are multiples of 1/degree.
             unsigned int position = 0;
             for (unsigned int d = dim; d-- > 0;)
               position = n * position + static_cast<unsigned int>(
@@ -104,8 +106,10 @@ namespace Touchstone
     {
       const unsigned int body = scene.body_index(body_name);
       const BoundaryIds  ids  = forest.boundary_ids(body, boundaries, section, key);
-      const Surface      surface(solid, forest, body, ids, /*exact=*/false);
-      Json               list = Json::array();
+      // Surface gives faces their nodes in the orientation that contact uses: axes whose cross
+      // product points outward.
+      const Surface surface(solid, forest, body, ids, /*exact=*/false);
+      Json          list = Json::array();
       for (const Face &face : surface.owned_faces())
         {
           Json nodes = Json::array();
@@ -183,6 +187,8 @@ namespace Touchstone
       // Loads of the reference configuration (zero displacement): for pressure that follows the
       // surface, doc/theory.md 2.3, the other program has to do that itself.
       conditions.external_force(time, Vector(solid.owned, solid.communicator), force);
+      // Scale of round-off of the nodal forces: loads that cancel at a node leave digits that are
+      // no load.
       const double largest = force.linfty_norm();
       Json         forces  = Json::array();
       for (Index node = 0; node < solid.dof_handler.n_dofs() / dim; ++node)

@@ -9,7 +9,7 @@ namespace Touchstone
 {
   namespace
   {
-    /** A number as C's printf gives it. */
+    /** Formatted text with C's printf, whose fixed columns keep the table of iterations aligned. */
     template <class... Arguments>
     std::string
     format(const char *pattern, const Arguments... arguments)
@@ -25,6 +25,7 @@ namespace Touchstone
   std::string
   readable_duration(const double seconds)
   {
+    // 59.95 is the smallest number that "%.1f" would print as 60.0 s.
     if (seconds < 59.95)
       return format("%.1f s", seconds);
     const long whole = std::lround(seconds);
@@ -69,6 +70,7 @@ namespace Touchstone
                     record.gap,
                     record.active,
                     record.changes,
+                    // Direct solvers have no iterations.
                     record.linear_iterations < 0
                       ? "direct"
                       : std::to_string(record.linear_iterations).c_str()));

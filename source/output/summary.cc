@@ -26,6 +26,7 @@ namespace Touchstone
      */
     constexpr double gap_round_off = 1e-8;
 
+    /** Magnitude of a vector for the scale of round-off: its components are rounded one by one. */
     double
     largest_component(const dealii::Tensor<1, dim> &value)
     {
@@ -134,6 +135,7 @@ namespace Touchstone
     for (const auto &[name, error] : errors)
       relative_errors.set(name, error);
 
+    // Mean and maximum over the ranks: an imbalance of 1 is even, of the number of ranks the worst.
     Json spread = Json::object();
     for (const auto &[phase, counts] : balance)
       spread.set(phase,
@@ -142,6 +144,8 @@ namespace Touchstone
                    .set("max", counts.max)
                    .set("imbalance", counts.imbalance()));
 
+    // Adaptive runs: cells, unknowns and estimated error of each mesh, from which the rate of
+    // convergence follows.
     Json all_meshes = Json::array();
     for (const Mesh &mesh : meshes)
       all_meshes.append(Json::object()
@@ -168,6 +172,7 @@ namespace Touchstone
     Json results = Json::object().set("contact", contact_results(*this)).set("reactions", bodies);
     if (!plastic_strain.empty())
       results.set("plastic_strain", plastic);
+    // Quantities of contact pairs stand with their pair; those of the whole scene here.
     for (const StepValue &value : quantities)
       if (value.pair.empty())
         results.set(member_name(value.name), Touchstone::to_json(value));
@@ -253,6 +258,8 @@ namespace Touchstone
           << "  area            " << std::setw(12) << rounded(result.area, result.area) << '\n'
           << "  max pressure    " << std::setw(12)
           << rounded(result.max_pressure,
+                     // The mean pressure bounds the scale from below: a maximum that is zero by
+                     // cancellation would have no scale of its own.
                      std::max(result.max_pressure,
                               result.area > 0. ? result.force.norm() / result.area : 0.))
           << '\n'

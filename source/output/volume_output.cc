@@ -22,6 +22,7 @@ namespace Touchstone
     , node_fe(solid.fe.degree)
     , files(folder, "solution")
   {
+    // Stable sorting: fields of equal order stay sorted by name, as the registry gives them.
     for (const std::string &name : VolumeFieldRegistry::names())
       fields.emplace_back(name, VolumeFieldRegistry::make(name));
     std::stable_sort(fields.begin(), fields.end(), [](const auto &a, const auto &b) {
@@ -34,6 +35,8 @@ namespace Touchstone
   void
   VolumeOutput::number_nodes()
   {
+    // One scalar dof per node. Bodies share no nodes, so that averages at nodes never mix two
+    // bodies across a contact.
     node_dofs.reinit(solid.dof_handler.get_triangulation());
     node_dofs.distribute_dofs(node_fe);
     node_volume = make_node_field();
@@ -47,6 +50,7 @@ namespace Touchstone
       // the ranks.
       if (!cell->is_artificial())
         {
+          // The same cell as seen by the other DoFHandler.
           const dealii::DoFHandler<dim>::active_cell_iterator node_cell(
             &node_dofs.get_triangulation(), cell->level(), cell->index(), &node_dofs);
           node_cell->get_dof_indices(nodes);
@@ -121,6 +125,7 @@ namespace Touchstone
     NodeField field = make_node_field();
     for (std::size_t i = 0; i < node_in_solid.size(); ++i)
       field.local_element(i) = values[node_in_solid[i]];
+    // Written cells have nodes that other ranks own.
     field.update_ghost_values();
     return field;
   }
@@ -148,6 +153,8 @@ namespace Touchstone
     const auto        stress = node_stress(displacement);
     const VolumeState state{solid, displacement, velocity, time, stress};
     const std::size_t n_nodes = node_in_solid.size();
+    // Cell fields have entries for ghost cells, too, since deal.II indexes them by active cell;
+    // those are not written.
     const std::size_t n_cells = node_dofs.get_triangulation().n_active_cells();
 
     // DataOut keeps pointers to the vectors until the patches are built; the elements of a list do
@@ -188,8 +195,9 @@ namespace Touchstone
     flags.time  = time;
     flags.cycle = step;
     // Output of equal runs is equal byte by byte.
-    flags.print_date_and_time      = false;
-    flags.compression_level        = dealii::DataOutBase::VtkFlags::best_speed;
+    flags.print_date_and_time = false;
+    flags.compression_level   = dealii::DataOutBase::VtkFlags::best_speed;
+    // Quadratic cells are written as such: linear pieces of them would show kinks.
     flags.write_higher_order_cells = (solid.fe.degree > 1);
     data_out.set_flags(flags);
     data_out.build_patches(solid.mapping,

@@ -25,6 +25,7 @@ namespace Touchstone
   std::vector<std::string>
   VtuSeries::piece_names(const unsigned int step) const
   {
+    // One file per rank, numbered by rank, as the .pvtu record lists them.
     std::vector<std::string> names;
     for (unsigned int rank = 0; rank < folder.n_ranks; ++rank)
       names.push_back(stem(step) + "." + std::to_string(rank) + ".vtu");

@@ -95,6 +95,7 @@ namespace Touchstone
       const std::string nothing = "means nothing without inertia",
                         remedy  = "remove it, or set 'Time integration/Scheme' to 'newmark', "
                                   "'generalized_alpha' or another scheme with inertia";
+      // Initial conditions and damping act through inertia only.
       for (unsigned int d = 0; d < 3; ++d)
         for (const auto &[key, value] :
              {std::make_pair("Initial velocity ", &body.initial_velocity[d]),

@@ -65,6 +65,8 @@ namespace Touchstone
         // Options take their value as "--set X=1" or as "--set=X=1"; only the first '=' separates.
         const std::size_t equals = argument.find('=');
         const std::string option = argument.substr(0, equals);
+        // What is no option is the scene file. Two of them usually come from a value with blanks
+        // that lacks quotation marks.
         if (argument.empty() || argument[0] != '-')
           {
             if (!line.scene_file.empty() || argument.empty())

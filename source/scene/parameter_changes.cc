@@ -51,6 +51,7 @@ namespace Touchstone
         return true;
       char        *end_a = nullptr, *end_b = nullptr;
       const double x = std::strtod(a.c_str(), &end_a), y = std::strtod(b.c_str(), &end_b);
+      // Both are numbers to their last character, and equal.
       return !a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && x == y;
     }
 
@@ -107,6 +108,7 @@ namespace Touchstone
           continue;
         const std::string then = was ? "'" + of_old->second + "'" : "not there";
         if (!may_change(section, key))
+          // The old value is part of the message: it is what has to be restored.
           throw InputError(section,
                            key,
                            is ? of_now->second : "",

@@ -62,6 +62,7 @@ namespace Touchstone
             throw InputError(
               section, key, name, "this name is listed twice", "give each its own name");
 
+          // The subsection "Body a" of the name a.
           const std::string own = (section.empty() ? "" : section + "/") + prefix + name;
           if (text.sections().count(own) == 0)
             throw InputError(section,
@@ -93,6 +94,8 @@ namespace Touchstone
   void
   Scene::read_lists(const SceneText &text)
   {
+    // An empty list is a mistake of its own; a missing one is reported later, as a required key
+    // that is not set.
     if (text.is_set("", "Bodies") && text.value("", "Bodies", "").empty())
       throw InputError(
         "", "Bodies", "", "the list is empty", "name at least one body: set Bodies = NAME");
@@ -247,6 +250,7 @@ namespace Touchstone
     for (const BodyParameters &body : bodies)
       input.bodies.push_back({body.name, body.geometry, body.material.linear() ? 1U : 3U});
     for (const ContactPairParameters &pair : pairs)
+      // Pairs tell the forest which boundaries meet, for the partitioning.
       input.pairs.push_back({pair.section(),
                              body_index(pair.slave_body),
                              pair.slave_boundaries,

@@ -29,7 +29,7 @@ namespace Touchstone
       return result;
     }
 
-    /** The entry @p key of @p section names one of @p known. */
+    /** Throw unless @p name, given as @p key of @p section, is in the list of known names. */
     void
     check_name(const std::string              &section,
                const std::string              &key,

@@ -176,6 +176,7 @@ namespace Touchstone
         return range("a whole number");
       if (std::regex_match(pattern, found, std::regex(R"(\[Double (.*)\.\.\.(.*) \(incl.*)")))
         return range("a number");
+      // For a choice of words the nearest word is suggested.
       if (std::regex_match(pattern, found, std::regex(R"(\[Selection (.*?) ?\])")))
         {
           const auto names = split_string_list(found[1], '|');
@@ -277,6 +278,8 @@ namespace Touchstone
     if (unknown != text.sections().end())
       throw_unknown_section(declared, unknown->first, text.location(unknown->second));
 
+    // Last of all, since a misspelt key also leaves the right one unset, and the misspelling is the
+    // better message.
     for (const std::string &name : prm.get_entries_wrongly_not_set())
       {
         std::vector<std::string> path = split_path(demangle(name));

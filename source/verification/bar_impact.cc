@@ -23,6 +23,7 @@ namespace Touchstone
       explicit BarImpact(const Scene &scene)
         : pair(reference_pair(scene))
       {
+        // Speeds are those along x, with their signs; only their difference matters for the stress.
         ReferenceValues values(scene.reference.values);
         length       = values.positive_number("length");
         area         = values.positive_number("area");

@@ -31,7 +31,10 @@ namespace Touchstone
       "'peak tangential force' (its largest value before, if it has fallen since), 'centre x' "
       "(0).");
 
-    /** sqrt(1 - x^2/a^2), zero outside of the strip. */
+    /**
+     * The half ellipse sqrt(1 - x^2/a^2), zero outside |x| < a: pressure and shear traction are
+     * sums of such.
+     */
     double
     half_ellipse(const double x, const double a)
     {
@@ -40,7 +43,10 @@ namespace Touchstone
 
 
 
-    /** Relative to @p size, which is no number if there is nothing to compare. */
+    /**
+     * Relative L2 error from the squares of error and size; NaN if there is nothing to compare,
+     * e.g. no tangential force.
+     */
     double
     relative(const double error_squared, const double size_squared)
     {
@@ -79,6 +85,7 @@ namespace Touchstone
   double
   CattaneoMindlin::half_width(const double normal) const
   {
+    // Hertz's line contact, a^2 = 4 P R / (pi E*).
     return std::sqrt(4. * normal * radius / (dealii::numbers::PI * effective_modulus));
   }
 
@@ -87,6 +94,7 @@ namespace Touchstone
   double
   CattaneoMindlin::peak_pressure(const double normal) const
   {
+    // p_0 = 2 P / (pi a).
     return normal > 0. ? 2. * normal / (dealii::numbers::PI * half_width(normal)) : 0.;
   }
 
@@ -132,6 +140,7 @@ namespace Touchstone
   ReferenceComparison
   CattaneoMindlin::compare(const ReferenceInput &input) const
   {
+    // Resultant from nodal tractions times areas, over all ranks.
     const std::vector<ContactPoint> points = points_of_pair(input.points, pair);
     dealii::Tensor<1, dim>          total;
     for (const ContactPoint &point : points)
@@ -157,12 +166,16 @@ namespace Touchstone
         const double q       = -sign * point.traction[0];
         const double p_exact = p0 * half_ellipse(x, a);
         const double q_exact = sign * shear_traction(x, normal, tangential, peak);
+        // Squares are weighted with tributary areas, an approximation of the L2 norm over the
+        // contact surface.
         p_error += point.area * (p - p_exact) * (p - p_exact);
         p_size += point.area * p_exact * p_exact;
         q_error += point.area * (q - q_exact) * (q - q_exact);
         q_size += point.area * q_exact * q_exact;
         if (point.status < ContactStatus::slip)
           continue;
+        // Areas of contact and stick: the fallback for edges that cannot be fitted, as area over
+        // twice the depth.
         active += point.area;
         // Nodes beside the edge are left out of the fit: there an element covers both contact and
         // gap, and its pressure is not that of the half ellipse.

@@ -54,6 +54,7 @@ namespace Touchstone
                   "Give \"second young modulus\" too, or neither for a rigid body.");
     effective_modulus = 1. / compliance;
 
+    // Position of the first point of contact.
     const char *const names[dim] = {"centre x", "centre y", "centre z"};
     for (unsigned int d = 0; d < dim; ++d)
       centre[d] = values.number(names[d], 0.);
@@ -68,6 +69,7 @@ namespace Touchstone
   double
   Hertz::contact_radius(const double force) const
   {
+    // a = (3 P R / 4 E*)^(1/3).
     return std::cbrt(3. * force * radius / (4. * effective_modulus));
   }
 
@@ -126,6 +128,8 @@ namespace Touchstone
         const double r     = distance(point, axis);
         const double p     = point.pressure;
         const double exact = r < a ? peak * std::sqrt(1. - (r / a) * (r / a)) : 0.;
+        // All nodes count, those outside the exact contact with zero pressure: contact that spreads
+        // too far is an error as well.
         error2 += point.area * (p - exact) * (p - exact);
         exact2 += point.area * exact * exact;
         if (point.status < ContactStatus::slip)

@@ -92,6 +92,7 @@ namespace Touchstone
                       "Correct the radii.");
         if (!(-1. < core_nu && core_nu <= 0.5))
           values.fail("\"core poisson ratio\" must lie between -1 and 0.5.", "Correct the number.");
+        // The relation between both pressures grows monotonically up to collapse, hence bisection.
         if (applied > core_pressure(collapse))
           values.fail("\"core peak pressure\" makes the whole tube plastic.", "Make it smaller.");
         known_peak = root(0., collapse, [&](const double p) { return core_pressure(p) - applied; });
@@ -138,6 +139,7 @@ namespace Touchstone
   HillTube::amplitude(const double pressure) const
   {
     const double c = plastic_radius(pressure);
+    // m = k c^2 while a part of the tube has yielded, otherwise that of Lame's elastic tube.
     return c > inner ? shear_yield * c * c : elastic_amplitude(pressure);
   }
 
@@ -191,8 +193,10 @@ namespace Touchstone
           force += point.pressure * point.area;
           area += point.area;
         }
-    force               = dealii::Utilities::MPI::sum(force, input.communicator);
-    area                = dealii::Utilities::MPI::sum(area, input.communicator);
+    force = dealii::Utilities::MPI::sum(force, input.communicator);
+    area  = dealii::Utilities::MPI::sum(area, input.communicator);
+    // Without a prescribed peak the exact solution is that of the computed mean contact pressure,
+    // and only the stresses are compared.
     const double mean   = area > 0. ? force / area : 0.;
     const double peak   = std::isnan(known_peak) ? mean : known_peak;
     const double now    = unloaded ? 0. : peak;
@@ -216,8 +220,10 @@ namespace Touchstone
           const dealii::SymmetricTensor<2, dim> &computed,
           const double                           volume) {
         const double r = std::hypot(x[0], x[1]);
+        // Points of the core, and of facets that lie outside the exact radii.
         if (r < inner || r > outer)
           return;
+        // Radial and circumferential directions at the point.
         const dealii::Tensor<1, dim> e_r({x[0] / r, x[1] / r, 0.});
         const dealii::Tensor<1, dim> e_t({-x[1] / r, x[0] / r, 0.});
         const double                 radial = e_r * (computed * e_r);

@@ -66,6 +66,8 @@ namespace Touchstone
     if (!(skin_radius > bore_radius))
       values.fail("The tubes do not overlap.",
                   "\"inner skin radius\" must be greater than \"outer bore radius\".");
+    // Pressures refer to the reference area of the slave surface, so its radius decides which of
+    // the two exact pressures is compared.
     if (slave_radius != skin_radius && slave_radius != bore_radius)
       values.fail("\"slave radius\" is the radius of neither surface of the joint.",
                   "Give \"inner skin radius\" or \"outer bore radius\" once more.");
@@ -113,6 +115,7 @@ namespace Touchstone
   InterferenceFit::compare(const ReferenceInput &input) const
   {
     const double exact = pressure(slave_radius);
+    // u = C r p of that tube, since compliances are per radius.
     const double exact_displacement =
       exact * slave_radius * (slave_radius == skin_radius ? inner_compliance : outer_compliance);
 
@@ -124,6 +127,8 @@ namespace Touchstone
             force += point.pressure * point.area;
             area += point.area;
           }
+        // The largest deviation of a single node, which a mean would hide: faceted surfaces
+        // oscillate.
         deviation = std::max(deviation, std::abs(point.pressure - exact));
         // The displacement of the slave surface along the master normal is positive away from the
         // other body, for the inner and the outer tube alike.

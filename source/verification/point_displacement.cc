@@ -32,6 +32,7 @@ namespace Touchstone
         exact[d]               = values.number(name, 0.);
       }
     values.finish();
+    // The error is relative to the magnitude of the given displacement.
     if (exact.norm() == 0.)
       values.fail("No displacement is given, or it is zero.",
                   "Give at least one component, e.g. \"displacement z: -0.1\".");
@@ -82,6 +83,7 @@ namespace Touchstone
     found = dealii::Utilities::MPI::broadcast(input.communicator, found, root);
 
     for (unsigned int d = 0; d < dim; ++d)
+      // Components that are not given do not count.
       if (!given[d])
         found[d] = 0.;
 

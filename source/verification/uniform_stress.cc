@@ -75,6 +75,7 @@ namespace Touchstone
       if (cell->is_locally_owned())
         for (const unsigned int v : cell->vertex_indices())
           begin[cell->material_id()] = std::min(begin[cell->material_id()], cell->vertex(v)[axis]);
+    // A rank may own no cell of a body: its entry is the largest number.
     dealii::Utilities::MPI::min(begin, input.communicator, begin);
 
     std::vector<unsigned int> order(strain.size());
@@ -148,6 +149,7 @@ namespace Touchstone
                                      const dealii::Point<dim> &,
                                      const dealii::SymmetricTensor<2, dim> &computed,
                                      double) {
+                                   // At every quadrature point, not averaged.
                                    deviation = std::max(deviation, (computed - stress).norm());
                                  });
     result.add("stress_max_deviation",
