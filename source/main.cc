@@ -26,7 +26,7 @@ namespace
   };
 
   /**
-   * Parse the command line and do what it asks for. All ranks take the same path; the first one
+   * Parse the command line and execute it. All ranks take the same path; the first one
    * prints. @return the exit code.
    */
   int

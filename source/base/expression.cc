@@ -79,6 +79,7 @@ namespace Touchstone
                        expression,
                        "there is a comma outside of brackets",
                        "write decimals with a point");
+    // deal.II's FunctionParser takes ';' as separator of components.
     if (expression.find(';') != std::string::npos)
       throw InputError(section, key, expression, "these are several formulas", remedy);
 

@@ -73,6 +73,8 @@ namespace Touchstone
       }
     if (!out)
       {
+        // errno must be read before close(), which may change it. The incomplete file is removed;
+        // if that fails, too, the first error is the one to report.
         const int code = errno;
         out.close();
         std::error_code ignored;
@@ -164,6 +166,7 @@ namespace Touchstone
         message = error.what();
       }
 
+    // The lowest rank that failed; the number of ranks if none did.
     const unsigned int first_failed =
       dealii::Utilities::MPI::min(message.empty() ? n_ranks : rank, communicator);
     if (first_failed < n_ranks)

@@ -45,6 +45,8 @@ namespace Touchstone
     , text(text)
     , function(std::make_unique<FunctionParser<dim>>(1))
   {
+    // All variables are declared, also where a formula must not use them: check_expression() finds
+    // that with a message of its own.
     function->initialize("x,y,z,t", text, {{"pi", numbers::PI}}, /*time_dependent=*/true);
   }
 
@@ -56,6 +58,7 @@ namespace Touchstone
     if (function->get_time() != t)
       function->set_time(t);
     const double result = function->value(x);
+    // Only the first failure is kept: it has position and time for the message.
     if (!std::isfinite(result) && !failure)
       failure = Failure{result, x, t};
     return result;

@@ -35,7 +35,7 @@ namespace Touchstone
       };
       add("section ", section);
       add("key ", key);
-      // Without a key it is a whole line that is wrong.
+      // Without a key the value is a whole line of the file, shown without a label.
       add(key.empty() ? "" : "value ", value);
 
       std::string text = "Input error" + place + ": " + ended(problem);

@@ -37,8 +37,9 @@ namespace Touchstone
                 const std::string         &key,
                 std::array<std::string, 3> BodyParameters::*const formulas)
     {
-      Formulas                      all;
-      Vector                        result(solid.owned, solid.communicator);
+      Formulas all;
+      Vector   result(solid.owned, solid.communicator);
+      // Interpolation at the support points of the element, which are the nodes.
       const std::vector<Point<dim>> unit = solid.fe.get_unit_support_points();
       std::vector<Index>            dofs(solid.fe.n_dofs_per_cell());
       for (unsigned int b = 0; b < solid.bodies.size(); ++b)
@@ -301,8 +302,8 @@ namespace Touchstone
 
     // Work over the step, force times length. The forces that change the momentum between n and n+1
     // are those of the balance, which refers to the time n+1-m, while Newmark's formula for the
-    // velocity asks for n+gamma: so a force of the end has the weight gamma + m, and one that the
-    // balance takes at n+1-f the weight gamma + m - f (doc/time_integration.md, "The energy
+    // velocity needs those at n+gamma: so a force of the end has the weight gamma + m, and one that
+    // the balance takes at n+1-f the weight gamma + m - f (doc/time_integration.md, "The energy
     // ledger").
     Vector way(u), mean(v);
     way -= committed_u;
@@ -312,9 +313,11 @@ namespace Touchstone
       mean.sadd(1. - theta, theta, now);
       return mean * way;
     };
+    // The terms that are sums over all steps continue from their committed values.
     Energies result = committed;
     if (damped)
       {
+        // Damping over the step with the mean of the velocities at both ends.
         Vector velocity(v);
         velocity.sadd(0.5, 0.5, end_v);
         damping_force(velocity, mean);
@@ -323,6 +326,7 @@ namespace Touchstone
     // Newmark's formula would let massless nodes oscillate, since nothing but their history
     // determines their velocity: they get the mean velocity of the step, (u_1 - u_0)/h, and no
     // acceleration.
+    // Owned nodes only; their three dofs are consecutive.
     for (const Index node : massless)
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -346,6 +350,7 @@ namespace Touchstone
     result.external += forces.obstacles_normal + forces.obstacles_tangential +
                        work(old_support, *forces.support, at_end) +
                        work(old_external, *forces.external, at_end - scheme.alpha_f);
+    // The largest energy so far is the scale of the tolerance for gains of energy.
     result.update_largest();
     return result;
   }
@@ -407,6 +412,7 @@ namespace Touchstone
                   const StepForces                &forces,
                   const std::vector<BodyMomentum> &before)
   {
+    // The order of rates(): velocity, acceleration.
     v = rates.front();
     a = rates.back();
     keep(forces);
@@ -473,6 +479,7 @@ namespace Touchstone
   Dynamics::rigid_motion(const unsigned int k) const
   {
     Vector result(v);
+    // Reference positions of the nodes, as a vector over the dofs.
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
     // The rotation is about the origin at the present positions: omega x (X + u).
     result += committed_u;
@@ -513,6 +520,7 @@ namespace Touchstone
         result[body[i]].linear += p;
         result[body[i]].angular += cross_product_3d(x, p);
       }
+    // A body is distributed over all ranks; a rank without a part of it adds zero.
     for (BodyMomentum &sum : result)
       {
         sum.mass    = Utilities::MPI::sum(sum.mass, solid.communicator);

@@ -180,6 +180,8 @@ namespace Touchstone
       free(y);
     }};
     x = 0.;
+    // The impulses are found to 1e-12; the inner solve is two digits more accurate, so that the
+    // operator of GMRES is constant to its tolerance.
     solve<SolverCG<Vector>>(matrix, DiagonalMatrix<Vector>(inverse_mass), 1e-14, impulse, x);
     solid.hanging.distribute(x);
     impulse = x;
@@ -219,6 +221,7 @@ namespace Touchstone
         // Tangential ones are then set to zero, so that the product below has the normal part
         // alone.
         constraints[k].impulse = impulses.begin()[k];
+        // Impulse times prescribed velocity: work that moving obstacles did not do.
         loss.of_obstacles += impulses.begin()[k] * constraints[k].condition.value;
         if (!constraints[k].normal)
           impulses.begin()[k] = 0.;

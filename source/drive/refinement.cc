@@ -106,7 +106,7 @@ namespace Touchstone
   int
   Refinement::finest_level() const
   {
-    // "Maximum level" counts from the mesh that the scene asks for, levels from the coarse cells of
+    // "Maximum level" counts from the mesh of the scene, levels from the coarse cells of
     // the forest.
     return std::min<int>(10, forest.first_level() + parameters.maximum_level);
   }
@@ -198,6 +198,7 @@ namespace Touchstone
                       at_slaves(node) += std::pow(finer, sharpness);
                   });
     at_slaves.compress(VectorOperation::add);
+    // Hanging nodes have no row: their part goes to the nodes that they follow.
     solid.condense(at_slaves);
     // Each active row passes the face size at its slave node on to the master nodes in its stencil.
     // Negative weights occur (dual basis) and are left out, as they would spoil the root.
@@ -220,6 +221,7 @@ namespace Touchstone
     const auto pairs   = pair_boundaries(problem.contact_state());
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
+        // An obstacle has no mesh.
         if (pairs[p].master.empty())
           continue;
         double length = 0.;
@@ -371,11 +373,15 @@ namespace Touchstone
               if (cell->level() < finest_level())
                 cell->set_refine_flag();
             }
+          // Coarsening only where both indicators are small, and never beyond the initial mesh. No
+          // variation at all is the case away from the contact.
           else if (parameters.coarsen_fraction > 0. && errors(i) < small &&
                    (variation(i) < low || variation(i) == 0.) &&
                    static_cast<unsigned int>(cell->level()) > forest.first_level())
             cell->set_coarsen_flag();
         }
+    // The region's formula was evaluated on this rank's cells: a failure is thrown on all ranks
+    // together.
     formulas.check(solid.communicator);
     // Slave faces finer than the master faces they meet have oscillating pressures (doc/theory.md
     // 11, "Marking"). Completing the marks may refine further slave faces, which master faces have
@@ -402,6 +408,8 @@ namespace Touchstone
     int changes = 0;
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned())
+        // After completion of the marks nothing may be left of them; then the step is not solved
+        // again.
         changes |= (cell->refine_flag_set() || cell->coarsen_flag_set());
     return Utilities::MPI::max(changes, solid.communicator) == 1;
   }

@@ -55,6 +55,7 @@ namespace Touchstone
     for (const auto &[name, field] : integration->state())
       archive.put_field(name, *field);
     if (solid.has_history())
+      // Internal variables at the quadrature points, as bytes of each cell.
       archive.put_cells("material",
                         [this](const unsigned int cell) { return solid.cell_state(cell); });
     contact.save(archive);
@@ -100,6 +101,8 @@ namespace Touchstone
   {
     if (!resume)
       return {};
+    // The newest complete checkpoint; incomplete ones, of a run that died while writing, are
+    // skipped with a line in the log.
     FoundCheckpoint found = find_checkpoint(scene.output.directory, communicator);
     if (!found.checkpoint)
       {
@@ -206,6 +209,7 @@ namespace Touchstone
     ArchiveReader     archive([&checkpoint](const unsigned int i) { return checkpoint.piece(i); },
                           checkpoint.n_pieces);
     check_mesh_files(archive);
+    // Adapted meshes are stored as the set of refined cells and made again from the initial mesh.
     const auto refined = archive.refined_cells(forest.first_level());
     if (!refined.empty())
       {

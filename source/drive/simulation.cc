@@ -219,6 +219,7 @@ namespace Touchstone
       {
         const std::string &pair = scene.pairs[p].name;
         record.pairs[pair] = summary.contact[pair] = results[p];
+        // For the warning at the end on pairs that have lost their contact.
         if (results[p].active > 0)
           had_contact[pair] = time;
       }
@@ -265,6 +266,7 @@ namespace Touchstone
     }
     for (const auto &observer : observers)
       observer(record);
+    // Zero: no VTU output.
     const unsigned int interval = scene.output.vtu_interval;
     if (interval > 0 && step % interval == 0)
       write_vtu(step, time);
@@ -279,6 +281,7 @@ namespace Touchstone
     // Such failures name their cause themselves.
     if (!failure.shorter_step_may_help())
       return text;
+    // Collective: all ranks describe the same position.
     const StepDifficulty difficulty = problem->difficulty();
     if (!difficulty.position.empty())
       text += "; farthest from a solution: " + difficulty.position;
@@ -346,10 +349,11 @@ namespace Touchstone
       {
         // The last step ends exactly at the end time: neither beyond it, nor just before it, which
         // would leave a step of the size of round-off.
-        size                    = std::min(size, parameters.end_time - time);
-        const double       next = parameters.end_time - time - part * size < 1e-9 * nominal
-                                    ? parameters.end_time
-                                    : time + part * size;
+        size              = std::min(size, parameters.end_time - time);
+        const double next = parameters.end_time - time - part * size < 1e-9 * nominal
+                              ? parameters.end_time
+                              : time + part * size;
+        // Number of steps in all if none is cut from here on, for the display only.
         const unsigned int expected =
           step - 1 +
           static_cast<unsigned int>(std::ceil((parameters.end_time - time) / size - 1e-9));
@@ -357,6 +361,7 @@ namespace Touchstone
         progress.begin_step(step, expected, next);
         try
           {
+            // Solve, adapt the mesh, and solve again; all of it from the same committed state.
             unsigned int newton = solve_step(next);
             newton += adapt(step, next);
             // Checks that can still reject the step (bodies thrown off, contact that rows cannot

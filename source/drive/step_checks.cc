@@ -62,6 +62,7 @@ namespace Touchstone
   std::vector<unsigned int>
   StepProblem::active_rows() const
   {
+    // Each row lives on the rank that owns its slave node: summed over the ranks.
     std::vector<unsigned int> result(contact.n_pairs(), 0);
     for (const ContactRow &row : contact.rows())
       result[row.pair] += contact.state(row).active();
@@ -103,6 +104,8 @@ namespace Touchstone
   StepProblem::check_loose_bodies() const
   {
     std::vector<std::string> result;
+    // With inertia a body in free flight is a solution; without it has no equilibrium, or an
+    // arbitrary one.
     if (integration->dynamic() || loose_bodies.empty())
       return result;
 

@@ -87,6 +87,10 @@ namespace Touchstone
 
 
   namespace
+  /**
+   * Throw unless @p entry is "automatic" or a number in [lowest, highest]. deal.II's patterns
+   * cannot combine a word and a range.
+   */
   {
     /** The number in @p entry, which check_number() has accepted, or @p automatic if it says so. */
     double

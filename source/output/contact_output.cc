@@ -94,7 +94,7 @@ namespace Touchstone
     for (const auto &of_rank : requests)
       requested.insert(of_rank.begin(), of_rank.end());
 
-    // Each owner answers all requests at once; what others have asked for is passed over.
+    // Each owner answers all requests at once; answers to other ranks are ignored.
     std::vector<std::pair<Key, ContactNode>> answer;
     for (const ContactPoint &point : points)
       if (const Key key = {point.pair, point.node}; requested.count(key) > 0)

@@ -123,7 +123,7 @@ namespace Touchstone
 
 
     /**
-     * Contact pairs with their coefficient of friction. The friction law is asked for the slope of
+     * Contact pairs with their coefficient of friction. The coefficient is the slope of
      * its limit at a sliding node of unit force and area: mu of Coulomb's law.
      */
     Json

@@ -62,6 +62,7 @@ namespace Touchstone
       impact.begin = begin;
     if (touching)
       impact.end = end;
+    // Transitions from contact to no contact.
     impact.openings += (impact.touching && !touching);
     impact.touched  = impact.touched || touching;
     impact.touching = touching;

@@ -34,6 +34,7 @@ namespace Touchstone
   void
   Statistics::add(const StepValue &value)
   {
+    // Columns of a pair begin with its name; vectors have three columns.
     const std::string column = value.pair.empty() ? value.name : value.pair + ": " + value.name;
     if (value.kind == StepValue::count)
       table.add_value(column, static_cast<unsigned int>(value.components[0]));
@@ -84,6 +85,8 @@ namespace Touchstone
                       const Memories               &memories,
                       const std::vector<StepValue> &values)
   {
+    // The rows of the earlier run, then write(): the file on disk may have steps after the
+    // checkpoint.
     table       = rows;
     last_values = values;
     for (const auto &[name, quantity] : quantities)

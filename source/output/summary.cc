@@ -10,7 +10,7 @@
 
 /**
  * @file
- * Output of the summary: JSON for programs and a printed form for people and tests. Printed numbers
+ * Output of the summary: JSON for programs, and text for users and tests. Printed numbers
  * are rounded so that runs with other solvers, ranks or machines print the same text.
  */
 

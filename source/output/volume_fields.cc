@@ -23,6 +23,7 @@ namespace Touchstone
     copy_owned(const Solid &solid, const Vector &field, std::vector<double> &values)
     {
       std::size_t i = 0;
+      // Owned indices in ascending order, the order that VolumeField promises.
       for (const Index dof : solid.owned)
         values[i++] = field(dof);
     }
@@ -159,6 +160,7 @@ namespace Touchstone
       void
       evaluate(const VolumeState &state, std::vector<double> &values) const override
       {
+        // Means over the quadrature points of each cell.
         const dealii::Vector<double> strain = state.solid.cell_plastic_strain();
         values.assign(strain.begin(), strain.end());
       }

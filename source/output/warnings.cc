@@ -36,6 +36,7 @@ namespace Touchstone
   void
   Warnings::restore(const std::vector<std::string> &earlier)
   {
+    // Not reported again: they are in the log of the run that is resumed.
     texts = earlier;
   }
 

@@ -186,6 +186,7 @@ namespace Touchstone
                            found,
                            std::regex(R"(\[List of <.*> of length (\d+)\.\.\.\1 .*)")))
         return "give " + found[1].str() + " numbers with commas between them";
+      // Descriptions without a translation are shown as deal.II has them.
       if (pattern.compare(0, 5, "[Bool") == 0)
         return "give 'true' or 'false'";
       return "give " + pattern;
@@ -239,6 +240,7 @@ namespace Touchstone
       for (std::size_t i = 0; i < name.size(); ++i)
         if (name[i] == '_' && i + 2 < name.size())
           {
+            // Two hexadecimal digits after the underscore.
             result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
             i += 2;
           }

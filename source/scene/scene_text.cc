@@ -169,6 +169,7 @@ namespace Touchstone
         if (number == 1 && physical.compare(0, 3, "\xEF\xBB\xBF") == 0)
           physical.erase(0, 3); // the mark with which some editors begin UTF-8
         if (line.empty())
+          // The line on which a (continued) entry starts.
           first = number;
         // A comment ends with its physical line, even if a backslash precedes the line break. A
         // continued line has the number of its first part in messages.
@@ -239,7 +240,8 @@ namespace Touchstone
     else if (take_word(rest, "set"))
       {
         const std::size_t equals = rest.find('=');
-        const std::string key    = single_blanks(rest.substr(0, equals));
+        // Only the first '=' separates: values are formulas and may contain comparisons.
+        const std::string key = single_blanks(rest.substr(0, equals));
         if (equals == std::string::npos || key.empty())
           throw InputError(section,
                            "",
@@ -304,6 +306,7 @@ namespace Touchstone
     path.pop_back();
     const std::string section = join_path(path);
     if (!section.empty())
+      // Overrides have line 0: location() then says "command line".
       note_section(section, 0);
     all_entries.push_back({section, key, trim(text.substr(equals + 1)), 0});
   }
