@@ -123,8 +123,8 @@ namespace Touchstone
 
 
     /**
-     * Contact pairs with their coefficient of friction. The coefficient is the slope of
-     * its limit at a sliding node of unit force and area: mu of Coulomb's law.
+     * Contact pairs with their coefficient of friction: the slope of the law's limit at a sliding
+     * node of unit force and area: mu of Coulomb's law.
      */
     Json
     export_pairs(const Scene &scene, const Forest &forest, const Solid &solid)

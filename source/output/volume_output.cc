@@ -45,9 +45,8 @@ namespace Touchstone
     const dealii::IndexSet &owned = node_dofs.locally_owned_dofs();
     std::vector<Index>      nodes(node_fe.n_dofs_per_cell()), dofs(solid.fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      // Ghost cells are visited, too: an owned node of the scalar numbering may belong to ghost
-      // cells only. The volumes, in contrast, are summed over owned cells and then added up over
-      // the ranks.
+      // Ghost cells are visited for the numbering alone: volumes are summed over owned cells, and
+      // then added up over the ranks.
       if (!cell->is_artificial())
         {
           // The same cell as seen by the other DoFHandler.
