@@ -33,7 +33,7 @@ namespace Touchstone
 
 
     /**
-     * Element types hold for one polynomial degree and for small or for finite strain, see
+     * Element types but 'full' are for degree 1, and for small or for finite strain, see
      * doc/theory.md 2.1 and 2.2.
      */
     std::vector<Rule>

@@ -20,7 +20,7 @@ namespace Touchstone
 
   namespace
   {
-    /** Runs of blanks count as one, as in ParameterHandler: "Young modulus" is "Young modulus". */
+    /** Several blanks between words count as one, as in ParameterHandler. */
     std::string
     single_blanks(const std::string &text)
     {

@@ -196,7 +196,7 @@ namespace Touchstone
     force = dealii::Utilities::MPI::sum(force, input.communicator);
     area  = dealii::Utilities::MPI::sum(area, input.communicator);
     // Without a prescribed peak the exact solution is that of the computed mean contact pressure,
-    // and only the stresses are compared.
+    // which itself is then not compared.
     const double mean   = area > 0. ? force / area : 0.;
     const double peak   = std::isnan(known_peak) ? mean : known_peak;
     const double now    = unloaded ? 0. : peak;
