@@ -14,7 +14,9 @@ namespace
 {
   using namespace Touchstone;
 
-  /** Exit codes besides 0, which means that every step converged. */
+  /**
+   * Exit codes besides 0, which means that every step converged; part of the interface to scripts.
+   */
   enum ExitCode
   {
     bad_input     = 1,
@@ -23,6 +25,10 @@ namespace
     broken        = 4
   };
 
+  /**
+   * Parse the command line and execute it. All ranks take the same path; the first one
+   * prints. @return the exit code.
+   */
   int
   run(const int argc, char **argv, const MPI_Comm communicator)
   {
@@ -34,7 +40,8 @@ namespace
           std::cout << (line.help ? CommandLine::usage() : "Touchstone " TOUCHSTONE_VERSION "\n");
         return 0;
       }
-    const Scene       scene(read_scene_file(line.scene_file), line.scene_file, line.overrides);
+    const Scene scene(read_scene_file(line.scene_file), line.scene_file, line.overrides);
+    // Mesh files are named relative to the scene.
     const std::string folder = std::filesystem::path(line.scene_file).parent_path().string();
     if (line.print_parameters)
       {
@@ -61,7 +68,8 @@ namespace
     const RunSummary summary = simulation.run();
     if (first)
       {
-        // Round-off decides how many iterations a run takes, and not its results.
+        // With --results-only nothing is printed that round-off decides, such as numbers of
+        // iterations: the output can be compared between runs.
         summary.print_results(std::cout, /*with_iterations=*/!line.results_only);
         if (!line.results_only)
           {
@@ -83,6 +91,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  // One thread per rank: parallel runs use MPI processes.
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                           communicator = MPI_COMM_WORLD;
   const bool first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
@@ -104,7 +113,9 @@ main(int argc, char **argv)
     }
   catch (const std::exception &error)
     {
-      // Not foreseen, and perhaps on one rank only: the others must not wait.
+      // An unforeseen error may have happened on this rank alone, and the others would wait for
+      // ever in their next collective call: abort all of them. Input and output errors, in
+      // contrast, are thrown on all ranks together.
       std::cerr << "Touchstone broke down: " << error.what() << '\n';
       MPI_Abort(communicator, broken);
       return broken;

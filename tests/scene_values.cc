@@ -19,8 +19,8 @@ namespace
           std::cout << "  " << name << ": pressure '" << boundary.pressure << "'\n";
       }
     for (const auto &obstacle : scene.obstacles)
-      std::cout << obstacle.name << ": " << obstacle.shape << " at " << obstacle.point << ", moves "
-                << obstacle.motion_z << '\n';
+      std::cout << obstacle.name << ": " << obstacle.shape.name << ", moves " << obstacle.motion_z
+                << '\n';
     for (const auto &pair : scene.pairs)
       std::cout << pair.name << ": " << pair.slave_body << ' ' << pair.slave_boundaries.size()
                 << " on " << pair.master_body << pair.obstacle << ", " << pair.behaviour.name

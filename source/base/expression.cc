@@ -13,7 +13,10 @@ namespace Touchstone
 {
   namespace
   {
-    /** deal.II writes muParser's messages to std::cerr; catch them there. */
+    /**
+     * deal.II prints muParser's messages to std::cerr before it throws. They are captured while
+     * this object lives, to become part of the InputError.
+     */
     class CaptureErrors
     {
     public:
@@ -26,7 +29,7 @@ namespace Touchstone
         std::cerr.rdbuf(before);
       }
 
-      /** What muParser says is wrong. */
+      /** muParser's description of the error, without deal.II's frame around it. */
       std::string
       message() const
       {
@@ -42,8 +45,10 @@ namespace Touchstone
       std::streambuf    *before;
     };
 
-    /** muParser takes "1,5" for two formulas of which the last counts: the
-     * decimal comma would be read as 5. */
+    /**
+     * muParser takes "1,5" for two expressions of which the last one counts: a decimal comma would
+     * be read as 5 without an error. Commas between arguments, inside brackets, are allowed.
+     */
     bool
     has_comma_outside_of_brackets(const std::string &expression)
     {
@@ -74,9 +79,12 @@ namespace Touchstone
                        expression,
                        "there is a comma outside of brackets",
                        "write decimals with a point");
+    // deal.II's FunctionParser takes ';' as separator of components.
     if (expression.find(';') != std::string::npos)
       throw InputError(section, key, expression, "these are several formulas", remedy);
 
+    // Evaluated once at an arbitrary point, since muParser finds some errors, such as unknown
+    // names, at the first evaluation only.
     double value = 0.;
     {
       const CaptureErrors errors;
@@ -91,6 +99,8 @@ namespace Touchstone
         }
     }
 
+    // x, y, z and t always exist in the parser. Where the position is not defined, e.g. for the
+    // motion of a rigid obstacle, a formula of x would be evaluated at the origin without an error.
     const std::regex any_variable("\\b[xyzt]\\b");
     for (auto variable = std::sregex_iterator(expression.begin(), expression.end(), any_variable);
          variable != std::sregex_iterator();
@@ -99,8 +109,8 @@ namespace Touchstone
         throw InputError(
           section, key, expression, "this formula must not depend on " + variable->str(), remedy);
 
-    // Where a formula that depends on place or time must be defined the mesh decides, and
-    // the steps: Formulas::check().
+    // A formula of position or time need not be finite at the arbitrary point above:
+    // Formulas::check() judges it where it is evaluated. A constant is judged here.
     if (!std::regex_search(expression, any_variable) && !std::isfinite(value))
       throw InputError(section, key, expression, "this is not a finite number", remedy);
   }

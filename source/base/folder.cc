@@ -7,11 +7,20 @@
 #include <filesystem>
 #include <fstream>
 
+/**
+ * @file
+ * The folder of results: files are written as a whole or not at all, and failures are errors on all
+ * ranks together.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** What the system says about the last failure, with a remedy for it. */
+    /**
+     * Throw an OutputError with the text of the system's error @p code and a remedy for the common
+     * ones: full disk or quota, a folder that has been removed.
+     */
     [[noreturn]] void
     fail(const std::string &path, const int code)
     {
@@ -48,6 +57,8 @@ namespace Touchstone
   void
   write_file_atomically(const std::string &path, const std::string &contents)
   {
+    // Written under another name and renamed, which is atomic within a file system: readers see the
+    // old file or the complete new one, also if the run dies in between.
     const std::string temporary = path + ".part";
 
     errno = 0;
@@ -55,13 +66,15 @@ namespace Touchstone
     if (out)
       {
         out.write(contents.data(), static_cast<std::streamsize>(contents.size()));
-        // A full disk shows only when the buffers are emptied.
+        // The stream buffers: a full disk shows only when it is flushed and closed.
         out.flush();
         if (out)
           out.close();
       }
     if (!out)
       {
+        // errno must be read before close(), which may change it. The incomplete file is removed;
+        // if that fails, too, the first error is the one to report.
         const int code = errno;
         out.close();
         std::error_code ignored;
@@ -92,7 +105,7 @@ namespace Touchstone
         return;
       std::error_code error;
       std::filesystem::create_directories(this->directory, error);
-      // create_directories() is content with a file of that name.
+      // create_directories() reports no error if a file of that name exists.
       if (!error && !std::filesystem::is_directory(this->directory))
         error = std::make_error_code(std::errc::not_a_directory);
       if (error)
@@ -100,7 +113,8 @@ namespace Touchstone
                           error.message(),
                           "Choose another folder with --output DIR or \"Output/Directory\".");
 
-      // Permission bits do not tell of read-only or full file systems.
+      // Only writing tells that files can be written: permission bits know nothing of read-only or
+      // full file systems. Better now than after the first step.
       const std::string probe = path(".touchstone_write_test");
       Touchstone::write_file_atomically(probe, "test\n");
       std::filesystem::remove(probe, error);
@@ -139,6 +153,9 @@ namespace Touchstone
   void
   OutputFolder::together(const std::function<void()> &action) const
   {
+    // Each rank reports whether its part succeeded, then all throw or none: an exception on one
+    // rank alone would leave the others in their next collective call. The message is that of the
+    // first rank that failed.
     std::string message;
     try
       {
@@ -149,6 +166,7 @@ namespace Touchstone
         message = error.what();
       }
 
+    // The lowest rank that failed; the number of ranks if none did.
     const unsigned int first_failed =
       dealii::Utilities::MPI::min(message.empty() ? n_ranks : rank, communicator);
     if (first_failed < n_ranks)

@@ -9,18 +9,27 @@
 #include <regex>
 #include <sstream>
 
+/**
+ * @file
+ * Formulas of the scene in x, y, z and t, evaluated by muParser. A value that is not finite is
+ * recorded and the evaluation goes on; the user of the formulas asks Formulas::check() after a
+ * loop, on all ranks together. Throwing at once would stop one rank alone.
+ */
+
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
+    /** Whether the formula depends on the position. */
     bool
     depends_on_place(const std::string &text)
     {
       return std::regex_search(text, std::regex("\\b[xyz]\\b"));
     }
 
+    /** Blank text stands for no formula. */
     bool
     empty(const std::string &text)
     {
@@ -36,6 +45,8 @@ namespace Touchstone
     , text(text)
     , function(std::make_unique<FunctionParser<dim>>(1))
   {
+    // All variables are declared, also where a formula must not use them: check_expression() finds
+    // that with a message of its own.
     function->initialize("x,y,z,t", text, {{"pi", numbers::PI}}, /*time_dependent=*/true);
   }
 
@@ -47,6 +58,7 @@ namespace Touchstone
     if (function->get_time() != t)
       function->set_time(t);
     const double result = function->value(x);
+    // Only the first failure is kept: it has position and time for the message.
     if (!std::isfinite(result) && !failure)
       failure = Failure{result, x, t};
     return result;
@@ -58,6 +70,7 @@ namespace Touchstone
   Formula::problem() const
   {
     std::ostringstream out;
+    // Decimal points, whatever the locale of the user.
     out.imbue(std::locale::classic());
     out << "its value is " << (std::isnan(failure->value) ? "not a number" : "infinite") << " at ";
     if (depends_on_place(text))
@@ -83,7 +96,8 @@ namespace Touchstone
   void
   Formulas::check(const MPI_Comm communicator) const
   {
-    // The formula that comes first in the scene, and its place on the first rank that has one.
+    // Of all formulas that failed on any rank the first of the scene is reported, with the position
+    // on the lowest rank that has one. All ranks have added the same formulas in the same order.
     unsigned int first = 0;
     while (first < all.size() && !all[first]->failure)
       ++first;
@@ -118,6 +132,7 @@ namespace Touchstone
     Formulas   one;
     const auto formula = one.add(section, key, text);
     for (unsigned int step = 0; step <= steps; ++step)
+      // The end time itself, without the round-off of the division.
       formula->value(Point<dim>(), step == steps ? end_time : end_time * step / steps);
     one.check(MPI_COMM_SELF);
   }

@@ -7,6 +7,7 @@ namespace Touchstone
   namespace
   {
     /** With exactly one full stop or question mark at the end. */
+    /** The sentence with exactly one full stop at its end, or its question mark. */
     std::string
     ended(std::string sentence)
     {
@@ -17,6 +18,9 @@ namespace Touchstone
       return sentence;
     }
 
+    /**
+     * One line for all input errors: where (section, key, value), what is wrong, and what to do.
+     */
     std::string
     message(const std::string &section,
             const std::string &key,
@@ -31,7 +35,7 @@ namespace Touchstone
       };
       add("section ", section);
       add("key ", key);
-      // Without a key it is a whole line that is wrong.
+      // Without a key the value is a whole line of the file, shown without a label.
       add(key.empty() ? "" : "value ", value);
 
       std::string text = "Input error" + place + ": " + ended(problem);

@@ -13,6 +13,7 @@ namespace Touchstone
                  const double       value,
                  const std::string &remedy)
   {
+    // deal.II's Patterns::Double has inclusive bounds and cannot exclude zero.
     if (value <= 0.)
       throw InputError(
         section, key, dealii::Patterns::Tools::to_string(value), "must be positive", remedy);

@@ -10,6 +10,7 @@ namespace Touchstone
 {
   namespace
   {
+    /** Upper and lower case are no reason for a distance. */
     std::string
     lower_case(std::string word)
     {
@@ -19,7 +20,10 @@ namespace Touchstone
       return word;
     }
 
-    /** Levenshtein's distance, one row of the table at a time. */
+    /**
+     * Levenshtein's edit distance (insertions, deletions, replacements), by dynamic programming
+     * that keeps one row of the table.
+     */
     std::size_t
     edit_distance(const std::string &a, const std::string &b)
     {
@@ -46,7 +50,8 @@ namespace Touchstone
   closest(const std::string &word, const std::vector<std::string> &candidates)
   {
     std::string best;
-    // Beyond a third of the letters a suggestion confuses more than it helps.
+    // The limit of a third of the letters (at least two) keeps suggestions that would confuse more
+    // than help out of messages; the distance must also be less than replacing all letters.
     std::size_t limit = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string &candidate : candidates)
       {

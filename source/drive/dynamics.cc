@@ -13,20 +13,33 @@
 #include <cmath>
 #include <limits>
 
+/**
+ * @file
+ * Implicit time integration of the generalized-alpha family: doc/time_integration.md has the
+ * formulas and the proof of the energy balance. StepProblem calls begin_step() once, balance() and
+ * stiffness() in each Newton iteration, end_step() when Newton has converged, and commit() if the
+ * energies of that end are accepted; until then the committed v and a stay as they are, so that a
+ * step can be repeated.
+ */
+
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** Three formulas for each body, at its nodes; empty ones are zero. */
+    /**
+     * Nodal values of three formulas per body, one for each component; an empty formula stands for
+     * zero. Nodes at which two bodies meet are separate dofs, so each body sets only its own.
+     */
     Vector
     interpolate(const Solid               &solid,
                 const std::string         &key,
                 std::array<std::string, 3> BodyParameters::*const formulas)
     {
-      Formulas                      all;
-      Vector                        result(solid.owned, solid.communicator);
+      Formulas all;
+      Vector   result(solid.owned, solid.communicator);
+      // Interpolation at the support points of the element, which are the nodes.
       const std::vector<Point<dim>> unit = solid.fe.get_unit_support_points();
       std::vector<Index>            dofs(solid.fe.n_dofs_per_cell());
       for (unsigned int b = 0; b < solid.bodies.size(); ++b)
@@ -49,8 +62,11 @@ namespace Touchstone
                                         0.);
                 }
           }
+      // Collective: a formula that is not finite on one rank must stop all of them.
       all.check(solid.communicator);
       result.compress(VectorOperation::insert);
+      // Hanging nodes follow the nodes of the larger cell; a formula evaluated there would tear the
+      // interpolated field at the edge.
       solid.hanging.distribute(result);
       return result;
     }
@@ -87,11 +103,15 @@ namespace Touchstone
   {
     for (std::size_t i = 0; i < body.size(); ++i)
       {
+        // Rayleigh damping C = a M + b K0 with a and b of the body: kept per dof, so that a product
+        // with C is a product with M or K0 and a scaling of its rows (no dof couples two bodies).
         const MaterialParameters &material = solid.bodies[body[i]].material;
         damping_mass.begin()[i]            = material.rayleigh_mass;
         damping_stiffness.begin()[i]       = material.rayleigh_stiffness;
       }
     damped = damping_mass.linfty_norm() > 0. || damping_stiffness.linfty_norm() > 0.;
+    // The stiffness of nonlinear bodies changes with the displacement, but K0 in C is that of the
+    // undeformed body, which is the present one here.
     if (!solid.linear() && damping_stiffness.linfty_norm() > 0.)
       initial_stiffness.copy_from(solid.stiffness());
   }
@@ -111,8 +131,9 @@ namespace Touchstone
   {
     v = interpolate(solid, "Initial velocity ", &BodyParameters::initial_velocity);
     supports.set_velocity(v);
-    // With all mass at the nodes the acceleration needs no solve, and is the same up to
-    // the mesh size.
+    // Initial acceleration from M a = f_ext - f_int - C v. With the lumped mass this needs no
+    // solve, and differs from that of the consistent mass by the order of the mesh size only.
+    // Contact forces are left out: bodies that touch at time 0 do not press yet.
     Vector force(external), drag(v);
     force -= internal;
     damping_force(v, drag);
@@ -123,6 +144,8 @@ namespace Touchstone
       a.begin()[i] =
         mass.of_nodes().begin()[i] > 0. ? force.begin()[i] / mass.of_nodes().begin()[i] : 0.;
     solid.hanging.distribute(a);
+    // The ledger of energies begins here: the sum of kinetic and strain energy is what all later
+    // steps are compared with.
     old_external      = external;
     old_internal      = internal;
     committed.kinetic = kinetic_energy(v);
@@ -139,7 +162,8 @@ namespace Touchstone
     time = t;
     step = time - committed_time;
     u.add(step, v);
-    // What the flight turns inside out is no place to begin.
+    // The predictor of free flight can turn cells inside out (det F <= 0), where a hyperelastic law
+    // has no value; then Newton's method starts at the committed displacement.
     if (!solid.admissible(u))
       u = committed_u;
   }
@@ -149,6 +173,8 @@ namespace Touchstone
   void
   Dynamics::end_of_step(const Vector &u, Vector &velocity, Vector &acceleration) const
   {
+    // Newmark's formulas, doc/time_integration.md, "Balance of a step": a_1 = (u_1 - u_0 - h v_0) /
+    // (beta h^2) - (1 / (2 beta) - 1) a_0 and v_1 = v_0 + h (1 - gamma) a_0 + h gamma a_1.
     acceleration = u;
     acceleration -= committed_u;
     acceleration.add(-step, v);
@@ -166,6 +192,7 @@ namespace Touchstone
     force = 0.;
     if (!damped)
       return;
+    // C v = b K0 v + a M v, each part scaled by the factor of the body.
     damping_matrix().vmult(force, velocity);
     force.scale(damping_stiffness);
     Vector momentum(v);
@@ -179,12 +206,16 @@ namespace Touchstone
   void
   Dynamics::balance(const Vector &u, const Vector &external, const Vector &internal, Vector &sum)
   {
+    // Each force enters at its own time within the step: inertia at n+1-m, loads, stresses and
+    // damping at n+1-f. Contact is not part of it: its force is that of the end of the step
+    // (doc/time_integration.md, "Why contact takes energy, and never gives any").
     const double alpha_f = scheme.alpha_f, alpha_m = scheme.alpha_m;
     Vector       velocity(v), acceleration(v), inertial(v);
     end_of_step(u, velocity, acceleration);
     acceleration *= 1. - alpha_m;
     acceleration.add(alpha_m, a);
     mass.multiply(acceleration, inertial);
+    // One of the forces that the residual is compared with when convergence is judged.
     inertial_force = inertial.l2_norm();
     sum            = external;
     sum -= internal;
@@ -205,6 +236,9 @@ namespace Touchstone
   const Matrix &
   Dynamics::stiffness()
   {
+    // Derivative of balance() with respect to u_1, with changed sign: (1-f) K + (1-m)/(beta h^2) M
+    // + (1-f) gamma/(beta h) C. For linear bodies it depends on the step size alone, and a
+    // factorisation of it stays valid.
     if (solid.linear() && effective_step == step)
       return effective;
     effective_step = step;
@@ -212,6 +246,8 @@ namespace Touchstone
     effective *= 1. - scheme.alpha_f;
     const double of_mass    = (1. - scheme.alpha_m) / (scheme.beta * step * step),
                  of_damping = (1. - scheme.alpha_f) * scheme.gamma / (scheme.beta * step);
+    // The mass of the inertia and that of the Rayleigh damping have the same pattern: one pass adds
+    // both.
     Vector factors(damping_mass);
     factors *= of_damping;
     for (double &factor : factors)
@@ -231,6 +267,9 @@ namespace Touchstone
   double
   Dynamics::round_off(const Vector &u) const
   {
+    // The acceleration is a difference of displacements divided by beta h^2: the round-off of |u_1|
+    // + |u_0| + h |v_0| is divided by h^2 as well, and for short steps dominates all other
+    // round-off of the residual.
     Vector size(v), inertial(v);
     for (std::size_t i = 0; i < size.locally_owned_size(); ++i)
       size.begin()[i] =
@@ -256,11 +295,16 @@ namespace Touchstone
   Dynamics::end_step(const Vector &u, const StepForces &forces)
   {
     end_of_step(u, end_v, end_a);
+    // The contact forces of the end of this step are those of the beginning of the next one, and
+    // enter the work of both.
     end_normal     = *forces.normal;
     end_tangential = *forces.tangential;
 
-    // The forces that change the momentum over the step: those in the balance stand
-    // for the time n + 1 - m, and Newmark's formula asks for n + gamma.
+    // Work over the step, force times length. The forces that change the momentum between n and n+1
+    // are those of the balance, which refers to the time n+1-m, while Newmark's formula for the
+    // velocity needs those at n+gamma: so a force of the end has the weight gamma + m, and one that
+    // the balance takes at n+1-f the weight gamma + m - f (doc/time_integration.md, "The energy
+    // ledger").
     Vector way(u), mean(v);
     way -= committed_u;
     const double at_end = scheme.gamma + scheme.alpha_m;
@@ -269,15 +313,20 @@ namespace Touchstone
       mean.sadd(1. - theta, theta, now);
       return mean * way;
     };
+    // The terms that are sums over all steps continue from their committed values.
     Energies result = committed;
     if (damped)
       {
+        // Damping over the step with the mean of the velocities at both ends.
         Vector velocity(v);
         velocity.sadd(0.5, 0.5, end_v);
         damping_force(velocity, mean);
         result.damping += mean * way;
       }
-    // What has no mass has no momentum to go on with: its velocity is that of the step.
+    // Newmark's formula would let massless nodes oscillate, since nothing but their history
+    // determines their velocity: they get the mean velocity of the step, (u_1 - u_0)/h, and no
+    // acceleration.
+    // Owned nodes only; their three dofs are consecutive.
     for (const Index node : massless)
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -287,17 +336,21 @@ namespace Touchstone
         }
     end_v.compress(VectorOperation::insert);
     end_a.compress(VectorOperation::insert);
+    // Impacts without rebound act on the final velocity, before its kinetic energy is taken.
     if (forces.velocity_constraints != nullptr)
       lose_rebound(forces, result);
     result.kinetic = kinetic_energy(end_v);
     result.strain  = solid.strain_energy(u);
     result.plastic = solid.dissipation();
+    // Contact and friction count the work done against their forces. What a moving obstacle does
+    // enters through contact and is work of the outside as well, like that of supports.
     result.contact += forces.obstacles_normal - work(old_normal, *forces.normal, at_end);
     result.friction +=
       forces.obstacles_tangential - work(old_tangential, *forces.tangential, at_end);
     result.external += forces.obstacles_normal + forces.obstacles_tangential +
                        work(old_support, *forces.support, at_end) +
                        work(old_external, *forces.external, at_end - scheme.alpha_f);
+    // The largest energy so far is the scale of the tolerance for gains of energy.
     result.update_largest();
     return result;
   }
@@ -307,6 +360,10 @@ namespace Touchstone
   void
   Dynamics::lose_rebound(const StepForces &forces, Energies &energies)
   {
+    // The acceleration first, with B a = 0: it would drive the nodes apart again in the next step.
+    // Its impulses correct the contact forces that the next step sees as those of its beginning.
+    // Then the velocity, with B v = velocity of the obstacle; the energy lost is the impulse times
+    // the mean of the velocities before and after.
     Impact             impact(*forces.velocity_constraints, mass, solid, forces.remove_support);
     const Impact::Loss of_acceleration = impact.stop(end_a, false);
     end_normal -= of_acceleration.normal;
@@ -324,6 +381,9 @@ namespace Touchstone
   void
   Dynamics::commit(const Vector & /*u*/, const StepForces &forces, const Energies &end)
   {
+    // The displacement is committed by StepProblem. keep() takes the contact forces as they act in
+    // the balance; those of the next step's beginning are without the part that the impact has
+    // taken from the acceleration.
     committed      = end;
     v              = end_v;
     a              = end_a;
@@ -352,12 +412,15 @@ namespace Touchstone
                   const StepForces                &forces,
                   const std::vector<BodyMomentum> &before)
   {
+    // The order of rates(): velocity, acceleration.
     v = rates.front();
     a = rates.back();
     keep(forces);
 
-    // Coarser cells cannot move as finer ones did. What they lack as a whole is a
-    // rigid motion.
+    // Interpolation on coarsened cells does not conserve momentum. The missing linear and angular
+    // momentum of each body without supports is given back by a rigid motion: its six amplitudes
+    // solve a 6 x 6 system whose matrix holds the momenta (linear and angular about the origin) of
+    // the six unit rigid motions.
     const unsigned int n       = 2 * dim;
     const auto         numbers = [](const BodyMomentum &momentum) {
       dealii::Vector<double> result(n);
@@ -372,6 +435,8 @@ namespace Touchstone
     std::vector<FullMatrix<double>> inertia(before.size(), FullMatrix<double>(n));
     for (unsigned int k = 0; k < n; ++k)
       {
+        // Column k of each body's matrix are the momenta of the unit rigid motion k; all bodies
+        // move at once, so that six products with M serve any number of bodies.
         motions.push_back(rigid_motion(k));
         const auto momenta = momenta_of(motions.back());
         for (unsigned int b = 0; b < before.size(); ++b)
@@ -380,6 +445,7 @@ namespace Touchstone
       }
     const auto now = momenta_of(v);
     for (unsigned int b = 0; b < before.size(); ++b)
+      // A supported body exchanges momentum with its supports: it need not keep its own.
       if (!solid.bodies[b].supported())
         {
           dealii::Vector<double> missing = numbers(before[b]), part(n);
@@ -413,7 +479,9 @@ namespace Touchstone
   Dynamics::rigid_motion(const unsigned int k) const
   {
     Vector result(v);
+    // Reference positions of the nodes, as a vector over the dofs.
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, result);
+    // The rotation is about the origin at the present positions: omega x (X + u).
     result += committed_u;
     const Tensor<1, dim> axis = Point<dim>::unit_vector(k % dim);
     for (std::size_t i = 0; i < result.locally_owned_size(); i += dim)
@@ -446,10 +514,13 @@ namespace Touchstone
             p[d] = momentum.begin()[i + d];
             x[d] = position.begin()[i + d];
           }
+        // Sum_i p_i and Sum_i x_i x p_i of the nodal momenta p = M v: exact for any mass matrix
+        // that represents rigid motions.
         result[body[i]].mass += mass.of_nodes().begin()[i];
         result[body[i]].linear += p;
         result[body[i]].angular += cross_product_3d(x, p);
       }
+    // A body is distributed over all ranks; a rank without a part of it adds zero.
     for (BodyMomentum &sum : result)
       {
         sum.mass    = Utilities::MPI::sum(sum.mass, solid.communicator);

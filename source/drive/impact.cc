@@ -12,13 +12,21 @@
 #include <Epetra_Map.h>
 #include <set>
 
+/**
+ * @file
+ * Impact without rebound (doc/time_integration.md, "Impact without rebound"): called by Dynamics at
+ * the end of a converged step. The impulses p of B M^{-1} F^T p = B v - w, with w the velocity of
+ * the obstacle, are found by GMRES, since F differs from B where nodes slip; each product with
+ * M^{-1} is a solve by conjugate gradients, of one iteration if the mass is lumped.
+ */
+
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** What a solver asks of a matrix. */
+    /** Adapter: deal.II's solvers call vmult() of any class. */
     struct Operator
     {
       std::function<void(Vector &, const Vector &)> apply;
@@ -30,7 +38,11 @@ namespace Touchstone
       }
     };
 
-    /** Solve until the residual is @p reduction of what it was. */
+    /**
+     * Solve until the residual is @p reduction times the initial one. The absolute tolerance is
+     * practically zero, as impulses may have any unit. A failure is a LinearSolverFailure on all
+     * ranks: the step is cut.
+     */
     template <typename Solver, typename Preconditioner>
     void
     solve(const Operator       &matrix,
@@ -53,7 +65,10 @@ namespace Touchstone
         }
     }
 
-    /** The matrix whose rows are forms of the unknowns in @p columns. */
+    /**
+     * Sparse matrix whose row k is the linear form @p forms[k] of the nodal dofs, i.e. B or F. @p
+     * rows distributes the constraints over the ranks, @p columns the dofs.
+     */
     std::unique_ptr<Epetra_CrsMatrix>
     matrix_of(const std::vector<NodalForm> &forms,
               const IndexSet               &rows,
@@ -105,6 +120,8 @@ namespace Touchstone
   {
     if (rows.size() == 0)
       return;
+    // B measures relative velocities, F^T distributes impulses. They differ where nodes slip, since
+    // there the force has a tangential part that is fixed by the normal one.
     std::vector<NodalForm> motions, forces;
     std::set<Index>        used;
     for (const VelocityConstraint &node : constraints)
@@ -118,11 +135,13 @@ namespace Touchstone
     motion = matrix_of(motions, rows, solid.owned, solid.communicator);
     force  = matrix_of(forces, rows, solid.owned, solid.communicator);
 
-    // How far an impulse moves the condition that it is of: light and heavy bodies
-    // can meet others in one scene.
+    // Jacobi scaling of the impulses: the diagonal of B M^{-1} B^T with the lumped mass. Without it
+    // the impulses of light and heavy bodies in one scene would differ by orders of magnitude, and
+    // GMRES would stop before the light ones are found.
     inverse_mass = mass.of_nodes();
     for (double &value : inverse_mass)
       value = value > 0. ? 1. / value : 0.;
+    // The nodes of a constraint may belong to other ranks.
     IndexSet needed = solid.owned;
     needed.add_indices(used.begin(), used.end());
     Vector mobility(solid.owned, needed, solid.communicator);
@@ -143,11 +162,16 @@ namespace Touchstone
   void
   Impact::respond(Vector &impulse) const
   {
+    // Projection of the equations onto the free dofs: forces on hanging nodes go to the nodes that
+    // they follow, and components that supports prescribe carry no response. The operator is
+    // symmetric, so that CG applies.
     const auto free = [this](Vector &vector) {
       solid.condense(vector);
       remove_support(vector);
     };
     free(impulse);
+    // Velocity change M^{-1} of the impulses; x = 0 is written explicitly because the copy only
+    // gives the layout.
     Vector   x(impulse), moved(impulse);
     Operator matrix{[&](Vector &y, const Vector &velocity) {
       moved = velocity;
@@ -156,6 +180,8 @@ namespace Touchstone
       free(y);
     }};
     x = 0.;
+    // The impulses are found to 1e-12; the inner solve is two digits more accurate, so that the
+    // operator of GMRES is constant to its tolerance.
     solve<SolverCG<Vector>>(matrix, DiagonalMatrix<Vector>(inverse_mass), 1e-14, impulse, x);
     solid.hanging.distribute(x);
     impulse = x;
@@ -171,6 +197,8 @@ namespace Touchstone
     if (rows.size() == 0)
       return loss;
     Vector excess(rows, solid.communicator), impulses(excess), on_nodes(v);
+    // Relative velocity that contact does not allow; of accelerations no obstacle velocity is
+    // subtracted.
     apply(*motion, v, excess);
     for (std::size_t k = 0; moving && k < constraints.size(); ++k)
       excess.begin()[k] -= constraints[k].condition.value;
@@ -182,12 +210,18 @@ namespace Touchstone
     solve<SolverGMRES<Vector>>(response, DiagonalMatrix<Vector>(scale), 1e-12, excess, impulses);
 
     apply_transposed(*force, impulses, on_nodes);
+    // All impulses for now: the normal part is subtracted at the end, once the supports' share has
+    // been removed from both.
     loss.tangential = on_nodes;
     respond(on_nodes);
     v -= on_nodes;
     for (std::size_t k = 0; k < constraints.size(); ++k)
       {
+        // The impulses are kept for the output, as contact force impulse / h of the step.
+        // Tangential ones are then set to zero, so that the product below has the normal part
+        // alone.
         constraints[k].impulse = impulses.begin()[k];
+        // Impulse times prescribed velocity: work that moving obstacles did not do.
         loss.of_obstacles += impulses.begin()[k] * constraints[k].condition.value;
         if (!constraints[k].normal)
           impulses.begin()[k] = 0.;

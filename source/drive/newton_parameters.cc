@@ -40,7 +40,8 @@ namespace Touchstone
   NewtonParameters::check(const std::string &section) const
   {
     const std::string remedy = "round-off ends at about 1e-12, 1e-9 is usual";
-    // With coarser tolerances states far from equilibrium would be accepted.
+    // Upper limit of both tolerances: with a relative error of 1 per cent in the balance of forces
+    // or in the gaps Newton's method could stop at a state that is no solution.
     constexpr double coarsest = 1e-2;
     for (const auto &[key, tolerance] : {std::make_pair("Residual tolerance", residual_tolerance),
                                          std::make_pair("Gap tolerance", gap_tolerance)})

@@ -10,6 +10,14 @@
 
 #include <cmath>
 
+/**
+ * @file
+ * Adaptive meshes (doc/theory.md 11): Simulation::adapt() calls estimate(), mark() and execute()
+ * after a step has been solved, and solves the step again on the new mesh. All decisions are
+ * collective and symmetric between ranks: marks are exchanged with the ghost cells until nothing
+ * changes, so that the mesh does not depend on the partition.
+ */
+
 namespace Touchstone
 {
   using namespace dealii;
@@ -32,7 +40,9 @@ namespace Touchstone
               visit(cell, f);
     }
 
-    /** First unknowns of the nodes on a face. */
+    /**
+     * Index of the first component's dof of each node on a face; the other components follow it.
+     */
     template <class Cell>
     std::vector<Index>
     face_nodes(const Solid &solid, const Cell &cell, const unsigned int f)
@@ -45,7 +55,7 @@ namespace Touchstone
       return result;
     }
 
-    /** Side length of a face. */
+    /** Mean side length of a face, length: the square root of its area. */
     template <class Cell>
     double
     size(const Cell &cell, const unsigned int f)
@@ -53,7 +63,7 @@ namespace Touchstone
       return std::sqrt(cell->face(f)->measure());
     }
 
-    /** What it will be as marked. */
+    /** Side length that the face will have after the marked refinement or coarsening. */
     template <class Cell>
     double
     size_to_come(const Cell &cell, const unsigned int f)
@@ -62,11 +72,15 @@ namespace Touchstone
       return factor * size(cell, f);
     }
 
-    /** Sums of this power of one over the size of faces tell the size of the
-     * finest: that of ten equal ones by 15 per cent, and meshes differ by factors of two. */
+    /**
+     * Exponent of a p-norm that stands for a maximum: the smallest face size at a node is obtained
+     * as (sum 1/h^16)^(-1/16), since vectors are summed and not maximised over ranks. Ten equal
+     * faces make an error of 15 per cent, while the sizes of refined meshes differ by factors of
+     * two.
+     */
     constexpr double sharpness = 16.;
 
-    /** With ghosts, and what hanging nodes follow. */
+    /** The field with hanging nodes interpolated and with ghost values. */
     Vector
     conforming(const Vector &field, const Solid &solid)
     {
@@ -83,6 +97,7 @@ namespace Touchstone
     , forest(forest)
     , solid(solid)
   {
+    // Null if no region is given.
     region = formulas.add("Refinement", "Region", parameters.region);
   }
 
@@ -91,6 +106,8 @@ namespace Touchstone
   int
   Refinement::finest_level() const
   {
+    // "Maximum level" counts from the mesh of the scene, levels from the coarse cells of
+    // the forest.
     return std::min<int>(10, forest.first_level() + parameters.maximum_level);
   }
 
@@ -103,7 +120,10 @@ namespace Touchstone
     double       low = 0., high = Utilities::MPI::max(values.linfty_norm(), solid.communicator);
     if (total <= 0. || fraction <= 0.)
       return std::numeric_limits<double>::max();
-    // The same steps on all ranks; halved in the exponent, as errors span decades.
+    // Doerfler's bulk criterion (doc/theory.md 11, "Marking"): the largest threshold such that the
+    // values above it make up the given fraction of the sum. Sorting would need all values on one
+    // rank; bisection needs one global sum per step, and all ranks take the same path. The interval
+    // is halved in the logarithm, as errors span decades.
     const double smallest = 1e-16 * high;
     for (unsigned int step = 0; step < 60; ++step)
       {
@@ -114,7 +134,8 @@ namespace Touchstone
             sum += value;
         (Utilities::MPI::sum(sum, solid.communicator) >= fraction * total ? low : high) = middle;
       }
-    // Cells that are alike but for round-off are marked together.
+    // The threshold is lowered by 1e-4, so that cells which differ by round-off only are marked
+    // alike: symmetric problems stay symmetric, and the number of ranks does not matter.
     return (1. - 1e-4) * low;
   }
 
@@ -127,6 +148,9 @@ namespace Touchstone
     Values result(forest.triangulation.n_active_cells());
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
+        // Indicator at the contact: A_F |max t - min t|^2 of the nodal tractions t on each slave
+        // face F. It has the same dimension for all faces, so that only ratios enter the bulk
+        // criterion.
         const Vector traction = conforming(fields[Contact::n_fields * p], solid);
         for_each_face(solid,
                       pairs[p].slave_body,
@@ -167,12 +191,17 @@ namespace Touchstone
                   [&](const auto &cell, const unsigned int f) {
                     if (refined_only && !cell->refine_flag_set())
                       return;
+                    // length is at least the size of any face to come, so that the ratios are at
+                    // least one and their 16th power neither over- nor underflows.
                     const double finer = length / size_to_come(cell, f);
                     for (const Index node : face_nodes(solid, cell, f))
                       at_slaves(node) += std::pow(finer, sharpness);
                   });
     at_slaves.compress(VectorOperation::add);
+    // Hanging nodes have no row: their part goes to the nodes that they follow.
     solid.condense(at_slaves);
+    // Each active row passes the face size at its slave node on to the master nodes in its stencil.
+    // Negative weights occur (dual basis) and are left out, as they would spoil the root.
     for (const ContactRow &row : problem.contact_state().pair(pair).rows())
       if (problem.contact_state().state(row).active())
         if (const double value = at_slaves(dim * row.slave); value > 0.)
@@ -192,6 +221,7 @@ namespace Touchstone
     const auto pairs   = pair_boundaries(problem.contact_state());
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
+        // An obstacle has no mesh.
         if (pairs[p].master.empty())
           continue;
         double length = 0.;
@@ -199,9 +229,13 @@ namespace Touchstone
                       pairs[p].slave_body,
                       pairs[p].slave,
                       [&](const auto &cell, const unsigned int f) {
+                        // Twice the largest slave face, since coarsening doubles sizes.
                         length = std::max(length, 2. * size(cell, f));
                       });
-        length               = Utilities::MPI::max(length, solid.communicator);
+        length = Utilities::MPI::max(length, solid.communicator);
+        // Two fields: refinement of master faces follows the refined slave faces only, for the
+        // initial mesh is the user's choice; but no master face is coarsened beyond any slave face
+        // it meets.
         const Vector refined = faces_at_masters(problem, p, pairs[p], length, true),
                      all     = faces_at_masters(problem, p, pairs[p], length, false);
         for_each_face(solid,
@@ -214,6 +248,8 @@ namespace Touchstone
                             finest_slave = std::max(finest_slave, slaves(node));
                           return finest_slave > 0. &&
                                  size_to_come(cell, f) >
+                                   // The factor 1.4, about the square root of two, lies halfway
+                                   // between equal size and one level coarser.
                                    1.4 * length * std::pow(finest_slave, -1. / sharpness);
                         };
                         if (cell->coarsen_flag_set() && coarse(all))
@@ -242,6 +278,7 @@ namespace Touchstone
     const Vector u  = problem.ghosted_displacement();
     errors.reinit(forest.triangulation.n_active_cells());
     variation.reinit(forest.triangulation.n_active_cells());
+    // The region needs no error estimate, and gives none.
     if (parameters.estimator == Estimator::region)
       return 0.;
     errors =
@@ -249,13 +286,15 @@ namespace Touchstone
     variation           = pressure_variation(problem.contact_state().fields(false),
                                    pair_boundaries(problem.contact_state()));
     const double energy = problem.strain_energy();
-    // A body in free flight: what round-off makes of no stress says nothing of the mesh.
+    // In free flight the stress is round-off, and so would be its estimated error: the mesh would
+    // be refined at random.
     if (energy <= solid.round_off(problem.displacement()) * problem.displacement().l2_norm())
       {
         errors = 0.;
         return 0.;
       }
     const double squared = Utilities::MPI::sum(errors.l1_norm(), solid.communicator);
+    // Relative error in the energy norm, (Sum eta_K^2 / 2E)^(1/2), doc/theory.md 11, "Estimators".
     return energy > 0. ? std::sqrt(squared / (2. * energy)) : 0.;
   }
 
@@ -270,7 +309,8 @@ namespace Touchstone
       refine,
       coarsen
     };
-    using Cell      = Triangulation<dim>::active_cell_iterator;
+    using Cell = Triangulation<dim>::active_cell_iterator;
+    // The mark of a ghost cell is decided by its owner; the local copy may differ.
     const auto pack = [](const Cell &cell) -> std_cxx17::optional<unsigned int> {
       return cell->refine_flag_set() ? refine : cell->coarsen_flag_set() ? coarsen : keep;
     };
@@ -284,7 +324,9 @@ namespace Touchstone
         cell->clear_coarsen_flag();
         if (mark == refine)
           cell->set_refine_flag();
-        // Its owner knows of the whole family, this rank perhaps not.
+        // Coarsening is a decision on all children of a parent. The owner knows all of them, while
+        // here some may be artificial: the mark is therefore set for the whole family that is
+        // active here.
         else if (mark == coarsen)
           for (unsigned int child = 0; child < cell->parent()->n_children(); ++child)
             if (cell->parent()->child(child)->is_active())
@@ -301,6 +343,9 @@ namespace Touchstone
     share_marks();
     unsigned int sweep = 0;
     do
+      // deal.II completes the marks (one level of difference between neighbours) with what this
+      // rank knows. What it adds at the border of a partition must become known to the neighbour,
+      // which may then add more. The limit of sweeps guards against an endless exchange only.
       forest.triangulation.prepare_coarsening_and_refinement();
     while (share_marks() && ++sweep < 20);
   }
@@ -314,7 +359,8 @@ namespace Touchstone
 
     const double high  = bulk_threshold(variation, parameters.contact_fraction),
                  large = bulk_threshold(errors, parameters.refine_fraction);
-    // What is left over by the largest 98 % are the smallest 2 %.
+    // The same bulk criterion from the other end: the cells below the threshold of the largest 98 %
+    // make up the smallest 2 %.
     const double small = bulk_threshold(errors, 1. - parameters.coarsen_fraction),
                  low   = bulk_threshold(variation, 1. - parameters.coarsen_fraction);
     for (const auto &cell : mesh.active_cell_iterators())
@@ -327,14 +373,19 @@ namespace Touchstone
               if (cell->level() < finest_level())
                 cell->set_refine_flag();
             }
+          // Coarsening only where both indicators are small, and never beyond the initial mesh. No
+          // variation at all is the case away from the contact.
           else if (parameters.coarsen_fraction > 0. && errors(i) < small &&
                    (variation(i) < low || variation(i) == 0.) &&
                    static_cast<unsigned int>(cell->level()) > forest.first_level())
             cell->set_coarsen_flag();
         }
+    // The region's formula was evaluated on this rank's cells: a failure is thrown on all ranks
+    // together.
     formulas.check(solid.communicator);
-    // Slave faces that are finer than the master faces they meet have pressures that
-    // oscillate. What the mesh adds to the marks may be slave faces, and so on.
+    // Slave faces finer than the master faces they meet have oscillating pressures (doc/theory.md
+    // 11, "Marking"). Completing the marks may refine further slave faces, which master faces have
+    // to follow in turn: repeated until nothing is added.
     unsigned int sweep = 0;
     do
       settle_marks();
@@ -344,6 +395,8 @@ namespace Touchstone
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned())
         finer += cell->refine_flag_set();
+    // Each refined cell becomes eight, seven more. If that exceeds the limit no cell is refined at
+    // all, since any choice of a part would be arbitrary; coarsening remains.
     finer = Utilities::MPI::sum(finer, solid.communicator);
     if (mesh.n_global_active_cells() + 7 * std::uint64_t(finer) > parameters.maximum_cells)
       {
@@ -355,6 +408,8 @@ namespace Touchstone
     int changes = 0;
     for (const auto &cell : mesh.active_cell_iterators())
       if (cell->is_locally_owned())
+        // After completion of the marks nothing may be left of them; then the step is not solved
+        // again.
         changes |= (cell->refine_flag_set() || cell->coarsen_flag_set());
     return Utilities::MPI::max(changes, solid.communicator) == 1;
   }
@@ -365,7 +420,8 @@ namespace Touchstone
   Refinement::carry_over(const std::vector<Vector> &fields, const std::function<void()> &change)
   {
     parallel::distributed::SolutionTransfer<dim, Vector> transfer(solid.dof_handler);
-    // Ghosts cannot be assigned to a vector that has none.
+    // SolutionTransfer reads ghosted vectors, while the fields here have none; hanging nodes must
+    // be interpolated first, as their own entries are not meaningful.
     std::vector<Vector> with_ghosts;
     for (const Vector &field : fields)
       with_ghosts.push_back(conforming(field, solid));
@@ -373,6 +429,9 @@ namespace Touchstone
     for (const Vector &field : with_ghosts)
       before.push_back(&field);
     transfer.prepare_for_coarsening_and_refinement(before);
+    // The history of plastic material lives at quadrature points and has a transfer of its own.
+    // Both transfers attach their data to the cells before the mesh changes, and read them in the
+    // same order afterwards.
     StateTransfer state_transfer(forest.triangulation, solid);
     change();
     solid.reinit();
@@ -395,7 +454,9 @@ namespace Touchstone
   {
     auto &mesh   = forest.triangulation;
     auto  result = carry_over(fields, [&mesh]() { mesh.execute_coarsening_and_refinement(); });
-    // The weights of cells have been estimated for their children.
+    // During refinement p4est partitions by weights that could only be estimated for the cells to
+    // come: with weighted cells the mesh is therefore repartitioned by the true weights afterwards,
+    // which moves the fields a second time.
     if (forest.weighted())
       result = carry_over(result, [this]() { forest.repartition(); });
     return result;

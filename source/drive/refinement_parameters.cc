@@ -77,6 +77,7 @@ namespace Touchstone
                        "give a formula of x, y, z and t, e.g. 'Region = 0.1 - z'");
     if (!region.empty())
       check_expression(section, "Region", region);
+    // Cells would be in both sets, those to be refined and those to be coarsened.
     if (active() && refine_fraction + coarsen_fraction > 1.)
       throw InputError(section,
                        "Coarsen fraction",

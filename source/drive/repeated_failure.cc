@@ -10,7 +10,10 @@ namespace Touchstone
 {
   namespace
   {
-    /** Half the step makes everything that depends on it about half as large. */
+    /**
+     * Equal to 2 per cent. Quantities that depend on the step size change by a factor of about two
+     * when it is halved, so values this close do not depend on it.
+     */
     bool
     unchanged(const double a, const double b)
     {
@@ -34,7 +37,9 @@ namespace Touchstone
                        const std::string    &place)
   {
     const Attempt now{typeid(failure), place, last};
-    const auto    closed = [this](const NewtonState &state) {
+    // Residuals and gaps below their tolerances are round-off and do not tell two attempts apart,
+    // hence "both are met" counts as equal.
+    const auto closed = [this](const NewtonState &state) {
       return state.gap <= parameters.gap_tolerance;
     };
     const bool same_state =

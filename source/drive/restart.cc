@@ -14,8 +14,11 @@
 
 /**
  * @file
- * What a checkpoint holds of the problem and of the run. What contact adds is listed beside each
- * struct: ContactRow, RowState, FrictionHistory, SlipKinematics.
+ * Checkpoints: what is saved of the problem (StepProblem::save) and of the run
+ * (Simulation::write_checkpoint), and how a run resumes from it. What contact adds is listed beside
+ * each struct: ContactRow, RowState, FrictionHistory, SlipKinematics.
+ * A resumed run takes the same path as one that was not stopped: everything that is kept between
+ * steps only to save time is dropped in both at every checkpoint.
  */
 
 namespace Touchstone
@@ -25,8 +28,11 @@ namespace Touchstone
   void
   StepProblem::forget()
   {
+    // Factors or a multigrid hierarchy of earlier steps change the last digits of later ones; a run
+    // that resumes has none.
     solver->clear_cache();
-    // The tangent tells how large round-off is in the forces of finite strains.
+    // The round-off of finite-strain forces is estimated with the present tangent, so it must be
+    // that of the committed state in both runs.
     if (!solid.linear())
       solid.assemble(u);
   }
@@ -37,6 +43,7 @@ namespace Touchstone
   StepProblem::save(ArchiveWriter &archive)
   {
     forget();
+    // Counts go on over a restart, so that the summary is that of the whole run.
     const LinearSolverCounts counts = linear_counts();
     archive.put("committed time", committed_time);
     archive.put("linear solver counts", counts);
@@ -48,6 +55,7 @@ namespace Touchstone
     for (const auto &[name, field] : integration->state())
       archive.put_field(name, *field);
     if (solid.has_history())
+      // Internal variables at the quadrature points, as bytes of each cell.
       archive.put_cells("material",
                         [this](const unsigned int cell) { return solid.cell_state(cell); });
     contact.save(archive);
@@ -69,14 +77,18 @@ namespace Touchstone
         for (unsigned int cell = 0; cell < states.size(); ++cell)
           if (!states[cell].empty())
             solid.set_cell_state(cell, states[cell]);
+        // Ghost cells need the history of their owners.
         solid.exchange_cell_states();
       }
     contact.load(archive);
+    // Needs the contact that has just been loaded: check_loose_bodies() compares the next step with
+    // it.
     remember_contact();
     if (archive.has("largest force scale")) // not in checkpoints of earlier versions
       largest_force_scale = archive.get<double>("largest force scale");
     forget();
-    // What this problem has done to come here was done before by the one that was saved.
+    // The work done since the start of this process (search of the initial state) was done by the
+    // saved run as well, and must not count twice.
     earlier          = archive.get<LinearSolverCounts>("linear solver counts");
     assemblies       = archive.get<unsigned int>("assemblies");
     earlier_searches = archive.get<unsigned int>("searches") - contact.n_searches();
@@ -89,6 +101,8 @@ namespace Touchstone
   {
     if (!resume)
       return {};
+    // The newest complete checkpoint; incomplete ones, of a run that died while writing, are
+    // skipped with a line in the log.
     FoundCheckpoint found = find_checkpoint(scene.output.directory, communicator);
     if (!found.checkpoint)
       {
@@ -113,9 +127,10 @@ namespace Touchstone
   {
     const CheckpointParameters &parameters = scene.checkpoints;
     const unsigned int          last_step  = position.step - 1;
+    // The number of the step is that of the next one.
     if (parameters.steps_between > 0 && last_step % parameters.steps_between == 0)
       return true;
-    // Clocks differ: that of rank 0 counts.
+    // The clocks of the ranks differ, and writing is collective: rank 0 decides for all.
     return parameters.minutes_between > 0. &&
            Utilities::MPI::broadcast(
              communicator, since_checkpoint.wall_time() >= 60. * parameters.minutes_between, 0);
@@ -127,8 +142,10 @@ namespace Touchstone
   Simulation::write_checkpoint(const Position &position)
   {
     TimerOutput::Scope scope(timer, "output");
-    RunSummary         now = summary;
-    now.seconds            = seconds_so_far();
+    // The running summary keeps counting from the start of this process; the checkpoint gets the
+    // total time.
+    RunSummary now = summary;
+    now.seconds    = seconds_so_far();
     ArchiveWriter archive(solid);
     archive.put("position", position);
     archive.put("end time", scene.load_stepping.end_time);
@@ -172,6 +189,8 @@ namespace Touchstone
     if (!archive.has("mesh files")) // not in checkpoints of earlier versions
       return;
     const auto before = archive.get<std::vector<std::string>>("mesh files");
+    // Compared by fingerprint: a mesh file that has changed could have the same number of cells in
+    // another order, and nodal fields would be assigned to the wrong nodes without any error.
     for (unsigned int b = 0; b < mesh_files.size(); ++b)
       if (b >= before.size() || before[b] != mesh_files[b])
         throw InputError(scene.bodies[b].section() + "/Geometry",
@@ -190,9 +209,12 @@ namespace Touchstone
     ArchiveReader     archive([&checkpoint](const unsigned int i) { return checkpoint.piece(i); },
                           checkpoint.n_pieces);
     check_mesh_files(archive);
+    // Adapted meshes are stored as the set of refined cells and made again from the initial mesh.
     const auto refined = archive.refined_cells(forest.first_level());
     if (!refined.empty())
       {
+        // The problem refers to the dofs of the mesh it was made on: it has to go before the mesh
+        // changes, and a new one is made for the refined mesh.
         problem.reset();
         forest.refine(refined);
         solid.reinit();
@@ -201,6 +223,7 @@ namespace Touchstone
       }
     try
       {
+        // Matches the saved nodes with those of this run, which may have another number of ranks.
         archive.connect(solid);
       }
     catch (const ArchiveError &error)
@@ -218,7 +241,8 @@ namespace Touchstone
     problem->load(archive);
 
     start = archive.get<Position>("position");
-    // A step that was cut stays so.
+    // The size of the next step is that of the checkpoint, cut as it was. If the user has changed
+    // the step size or the end time, the number of cuts is applied to the new nominal size.
     const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
     if (nominal != archive.get<double>("nominal step size") ||
         scene.load_stepping.end_time != archive.get<double>("end time"))
@@ -226,6 +250,7 @@ namespace Touchstone
     committed_time = start.time;
     progress.start_at(start.time);
 
+    // Results of the run so far; counts of the mesh come from the present one.
     const RunSummary before = archive.get<RunSummary>("summary");
     summary.steps           = before.steps;
     summary.meshes          = before.meshes;

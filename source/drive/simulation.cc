@@ -15,6 +15,14 @@
 #include <limits>
 #include <sstream>
 
+/**
+ * @file
+ * A run from the scene to the summary: run() starts or resumes the problem, load_stepping() makes
+ * the steps (solve, adapt the mesh, commit or cut) and record_step() turns each committed step into
+ * results. Checkpoints and resuming are in restart.cc. The same is executed on all ranks: nothing
+ * here may depend on the rank but output.
+ */
+
 namespace Touchstone
 {
   using namespace dealii;
@@ -24,6 +32,8 @@ namespace Touchstone
     std::shared_ptr<ReferenceSolution>
     make_reference(const Scene &scene)
     {
+      // The constructor of a reference solution checks the values given for it, so a mistake there
+      // ends the run before it begins.
       const std::shared_ptr<ReferenceSolution> result = scene.reference.type.make(scene);
       if (!result)
         throw InputError("Reference solution",
@@ -56,8 +66,8 @@ namespace Touchstone
     , changed_parameters(
         resume ? compare_parameters(origin.checkpoint->parameters(), scene, origin.checkpoint->time)
                : std::vector<std::string>())
-    // Without a communicator: with one its destructor waits for other ranks and
-    // prints when an exception passes.
+    // A timer without a communicator: one with a communicator synchronises in its destructor, and
+    // would wait for the other ranks for ever when an exception leaves this one alone.
     , timer(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , folder(scene.output.directory, communicator)
     , log(folder, terminal, resume)
@@ -74,6 +84,8 @@ namespace Touchstone
     , checkpoints(folder, origin.checkpoint)
     , repeated_failure(scene.newton)
   {
+    // The complete scene with all defaults, so that a result can be reproduced with a version whose
+    // defaults differ.
     folder.write_file_atomically("parameters.prm", complete_parameters(scene));
     summary.title    = scene.title;
     summary.version  = TOUCHSTONE_VERSION;
@@ -91,9 +103,12 @@ namespace Touchstone
   unsigned int
   Simulation::solve_step(const double time)
   {
+    // No state yet: RepeatedFailure tells by the NaN residual that an attempt failed before its
+    // first iteration.
     last_state          = NewtonState();
     last_state.residual = std::numeric_limits<double>::quiet_NaN();
-    // Iterations of attempts that fail count as well.
+    // The observer runs after each iteration, so that the iterations of attempts which fail later
+    // are counted, too: they are work done.
     return problem->solve(
       time,
       scene.newton,
@@ -122,6 +137,9 @@ namespace Touchstone
       step == 1 ? scene.refinement.cycles : scene.refinement.cycles_per_step;
     if (!scene.refinement.active())
       return 0;
+    // Cycle of doc/theory.md 11: estimate, mark, refine, and solve the same step again from its
+    // beginning. The estimate of the last mesh is recorded, but not used. A step is committed only
+    // after its last cycle, so the next step begins on the mesh on which this one was solved.
     for (unsigned int cycle = 0;; ++cycle)
       {
         StepTransfer transfer;
@@ -132,6 +150,9 @@ namespace Touchstone
           if (cycle == cycles || error < scene.refinement.tolerance ||
               !refinement.mark(*problem, time))
             return newton;
+          // Both states go over: the committed one as the beginning of the step, the present one as
+          // initial guess. The old problem still refers to the dofs of the old mesh and is replaced
+          // at once.
           transfer        = problem->transfer();
           transfer.fields = refinement.execute(transfer.fields);
           volume_output.reinit();
@@ -156,7 +177,8 @@ namespace Touchstone
     if (last_vtu_step == step)
       return;
     TimerOutput::Scope scope(timer, "output");
-    last_vtu_step      = step;
+    last_vtu_step = step;
+    // Ghost values are collective, and so are both outputs: all ranks get here together.
     const Vector u     = problem->ghosted_displacement();
     const auto   rates = problem->time_integration().rates();
     Vector       velocity;
@@ -188,6 +210,7 @@ namespace Touchstone
     record.time              = time;
     record.step_size         = size;
     record.newton_iterations = newton;
+    // Iterations of this step: all so far less those of earlier steps, failed attempts included.
     record.linear_iterations =
       problem->state().counts.linear.iterations - summary.iterations.linear_total;
     record.cuts                     = cuts;
@@ -196,6 +219,7 @@ namespace Touchstone
       {
         const std::string &pair = scene.pairs[p].name;
         record.pairs[pair] = summary.contact[pair] = results[p];
+        // For the warning at the end on pairs that have lost their contact.
         if (results[p].active > 0)
           had_contact[pair] = time;
       }
@@ -211,6 +235,7 @@ namespace Touchstone
       record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
     if (problem->time_integration().dynamic())
       {
+        // The ledger of doc/time_integration.md, "The energy ledger".
         record.energies["kinetic"]       = energies.kinetic;
         record.energies["contact"]       = energies.contact;
         record.energies["friction"]      = energies.friction;
@@ -226,6 +251,7 @@ namespace Touchstone
           {
             *record.momentum += momenta[b].linear;
             *record.angular_momentum += momenta[b].angular;
+            // Velocity of the centre of mass.
             summary.motion->velocities[scene.bodies[b].name] = momenta[b].linear / momenta[b].mass;
           }
         summary.motion->energies = energies;
@@ -240,6 +266,7 @@ namespace Touchstone
     }
     for (const auto &observer : observers)
       observer(record);
+    // Zero: no VTU output.
     const unsigned int interval = scene.output.vtu_interval;
     if (interval > 0 && step % interval == 0)
       write_vtu(step, time);
@@ -251,8 +278,10 @@ namespace Touchstone
   Simulation::describe(const NonConvergence &failure, const bool repeated) const
   {
     std::string text = failure.what();
+    // Such failures name their cause themselves.
     if (!failure.shorter_step_may_help())
       return text;
+    // Collective: all ranks describe the same position.
     const StepDifficulty difficulty = problem->difficulty();
     if (!difficulty.position.empty())
       text += "; farthest from a solution: " + difficulty.position;
@@ -277,6 +306,8 @@ namespace Touchstone
   Simulation::stop(const std::string &reason, const Position &position)
   {
     summary.failure = reason;
+    // The last committed state is written even if the interval of VTU output would have left it
+    // out: it is what the user needs to find the cause.
     write_vtu(position.step - 1, position.time);
     write_last_checkpoint(position);
   }
@@ -286,7 +317,8 @@ namespace Touchstone
   void
   Simulation::check_lost_contact()
   {
-    // In dynamics bodies come and go.
+    // In dynamics bodies may separate for good; in statics it usually means that the scene is not
+    // what was meant.
     if (scene.time_integration.dynamic())
       return;
     for (const auto &[pair, time] : had_contact)
@@ -302,17 +334,26 @@ namespace Touchstone
   {
     const LoadSteppingParameters &parameters = scene.load_stepping;
     const double                  nominal    = parameters.end_time / parameters.steps;
-    double                        time = start.time, size = start.size > 0. ? start.size : nominal;
-    unsigned int                  step = start.step, cuts = start.cuts;
-    /** What an impact leaves of the next step. */
+    // A resumed run starts with the position of its checkpoint; size zero stands for a run from the
+    // beginning.
+    double       time = start.time, size = start.size > 0. ? start.size : nominal;
+    unsigned int step = start.step, cuts = start.cuts;
+    /**
+     * Fraction of the step size that is made next, below 1 if the step is to end where bodies meet
+     * ("Adapt steps" of doc/time_integration.md). It is not a cut: later steps have their full size
+     * again.
+     */
     double part = 1.;
+    // The tolerance stands for the round-off of summing up step sizes.
     while (time < parameters.end_time * (1. - 1e-12))
       {
-        // The last step ends at the end; no sliver of a step is left over.
-        size                    = std::min(size, parameters.end_time - time);
-        const double       next = parameters.end_time - time - part * size < 1e-9 * nominal
-                                    ? parameters.end_time
-                                    : time + part * size;
+        // The last step ends exactly at the end time: neither beyond it, nor just before it, which
+        // would leave a step of the size of round-off.
+        size              = std::min(size, parameters.end_time - time);
+        const double next = parameters.end_time - time - part * size < 1e-9 * nominal
+                              ? parameters.end_time
+                              : time + part * size;
+        // Number of steps in all if none is cut from here on, for the display only.
         const unsigned int expected =
           step - 1 +
           static_cast<unsigned int>(std::ceil((parameters.end_time - time) / size - 1e-9));
@@ -320,12 +361,18 @@ namespace Touchstone
         progress.begin_step(step, expected, next);
         try
           {
+            // Solve, adapt the mesh, and solve again; all of it from the same committed state.
             unsigned int newton = solve_step(next);
             newton += adapt(step, next);
+            // Checks that can still reject the step (bodies thrown off, contact that rows cannot
+            // describe) come before try_commit(), since a committed state cannot be withdrawn.
             const StepFindings findings = problem->findings();
             part = problem->try_commit(scene.time_integration.smallest_step * nominal / now);
             if (part < 1.)
               {
+                // try_commit() returns a fraction of the step just made, which may itself have been
+                // shortened: converted to a fraction of the nominal size of this step. The same
+                // step is then made again from the committed state.
                 part *= (next - time) / size;
                 problem->rollback();
                 progress.shorten_step(part * size);
@@ -333,6 +380,8 @@ namespace Touchstone
               }
             if (!findings.remarks.empty())
               log.line("  " + findings.remarks);
+            // From here on the step counts. Failures of later steps are not compared with earlier
+            // ones.
             committed_time = time = next;
             repeated_failure.forget();
             progress.end_step(newton);
@@ -342,7 +391,8 @@ namespace Touchstone
             log.check();
             summary.steps = step;
             ++step;
-            // Back to the size that the user asked for, step by step.
+            // Each converged step undoes one cut: the difficulty is often local in time, and the
+            // size returns to the user's.
             if (cuts > 0)
               {
                 size *= 2.;
@@ -355,13 +405,17 @@ namespace Touchstone
           {
             const bool repeated =
               repeated_failure.add(failure, last_state, problem->difficulty().position);
+            // A failure that repeats itself with half the step does not depend on the step size,
+            // and other failures say themselves that a smaller step is no remedy: further cuts
+            // would only take time.
             const bool        hopeless = repeated || !failure.shorter_step_may_help();
             const std::string reason   = describe(failure, repeated);
             problem->rollback();
             part = 1.;
             if (cuts >= parameters.maximum_cuts || hopeless)
               {
-                // With other parameters it may go on, from the size that the user asked for.
+                // The checkpoint of a failed run has the nominal step size: with other parameters
+                // (solver, tolerances) the run may resume from there.
                 stop(reason + " (step " + std::to_string(step) + " at time " +
                        std::to_string(next) + ", cut " + std::to_string(cuts) + " times)",
                      {time, nominal, step, 0});
@@ -373,7 +427,8 @@ namespace Touchstone
           }
         catch (const InputError &error)
           {
-            // Formulas that have no value here: what was computed before is kept.
+            // A formula without a finite value at this time is a mistake of the input, found only
+            // now: results of earlier steps are kept and written.
             problem->rollback();
             stop(error.what(), {time, nominal, step, 0});
             throw;
@@ -398,6 +453,7 @@ namespace Touchstone
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
              std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement.name + ", " +
              scene.linear_solver.type);
+    // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
     try
@@ -441,6 +497,7 @@ namespace Touchstone
     if (summary.ranks > 1)
       log.line(summary.balance_line());
     TimerOutput::Scope scope(timer, "output");
+    // Atomic: programs that wait for the file never read half of it.
     folder.write_file_atomically("summary.json", summary.to_json().print());
   }
 
@@ -449,6 +506,8 @@ namespace Touchstone
   void
   Simulation::measure_balance()
   {
+    // Counts of work per rank and their largest value over the mean: unlike seconds they do not
+    // depend on the machine or its load.
     const ContactCounts work = contact_counts(problem->contact_state());
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
@@ -474,12 +533,13 @@ namespace Touchstone
   {
     RunSummary::Seconds result;
     auto                phases = timer.get_summary_data(TimerOutput::total_wall_time);
-    result.assembly            = earlier_seconds.assembly + phases["assembly"];
-    result.linear_solver       = earlier_seconds.linear_solver + phases["linear solver"];
-    result.search              = earlier_seconds.search + phases["search"];
-    result.output              = earlier_seconds.output + phases["output"];
-    result.wall                = earlier_seconds.wall + wall.wall_time();
-    result.cpu                 = earlier_seconds.cpu + cpu_seconds(communicator);
+    // Seconds of the run before it was resumed are included.
+    result.assembly      = earlier_seconds.assembly + phases["assembly"];
+    result.linear_solver = earlier_seconds.linear_solver + phases["linear solver"];
+    result.search        = earlier_seconds.search + phases["search"];
+    result.output        = earlier_seconds.output + phases["output"];
+    result.wall          = earlier_seconds.wall + wall.wall_time();
+    result.cpu           = earlier_seconds.cpu + cpu_seconds(communicator);
     return result;
   }
 
@@ -493,12 +553,13 @@ namespace Touchstone
       {
         const Vector   u = problem->ghosted_displacement();
         ReferenceInput input;
-        input.solid                      = &solid;
-        input.displacement               = &u;
-        input.points                     = contact_points(problem->contact_state(), u);
-        input.pair_results               = pair_results(problem->contact_state(), u);
-        input.motion                     = summary.motion ? &*summary.motion : nullptr;
-        input.communicator               = communicator;
+        input.solid        = &solid;
+        input.displacement = &u;
+        input.points       = contact_points(problem->contact_state(), u);
+        input.pair_results = pair_results(problem->contact_state(), u);
+        input.motion       = summary.motion ? &*summary.motion : nullptr;
+        input.communicator = communicator;
+        // Only a converged run is compared: the exact solution is that of the end time.
         const ReferenceComparison result = reference->compare(input);
         summary.errors                   = result.errors;
         comparison_lines                 = result.lines;
@@ -528,7 +589,8 @@ namespace Touchstone
     Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     StepProblem  problem(scene, forest, solid, timer);
-    // Up to the first linear system: finds bodies that nothing holds.
+    // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial
+    // gaps and formulas, and finds bodies that nothing holds.
     problem.start();
     problem.begin_step(scene.load_stepping.end_time / scene.load_stepping.steps);
     NonlinearProblem &newton = problem;

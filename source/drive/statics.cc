@@ -9,15 +9,18 @@ namespace Touchstone
 
   namespace
   {
-    /** Equilibrium at each time: no inertia. */
+    /**
+     * Quasi-static steps: equilibrium of loads, stresses and contact at each time, without inertia.
+     * Time only orders the loads.
+     */
     class Statics : public TimeIntegration
     {
     public:
       Statics(const Solid &solid, const Vector &committed_u)
         : solid(solid)
         , committed_u(committed_u)
-        // With friction the stick and slip of a step begin where the last one ended;
-        // and finite strains may not bear a guess.
+        // Linear bodies start a step with an extrapolation; at finite strain it could turn cells
+        // inside out.
         , guesses(solid.linear())
         , motion(solid.owned, solid.communicator)
       {
@@ -38,7 +41,8 @@ namespace Touchstone
       begin_step(const double t, Vector &u) override
       {
         time = t;
-        // The last step's motion is likely to go on.
+        // Loads that grow in proportion to time move the bodies in proportion to it: the
+        // extrapolated displacement often has the right active set already.
         if (guesses)
           u.add(time - committed_time, motion);
       }
@@ -93,7 +97,7 @@ namespace Touchstone
       commit(const Vector &u, const StepForces &, const Energies &end) override
       {
         committed = end;
-        // The first step is no motion that goes on.
+        // The first step closes the initial gaps: its motion says nothing of the second one.
         if (guesses && committed_time > 0.)
           {
             motion = u;
@@ -106,6 +110,8 @@ namespace Touchstone
       void
       rollback() override
       {
+        // The extrapolation may be what made the step fail: its repetition starts at the committed
+        // state.
         motion = 0.;
       }
 
@@ -120,8 +126,10 @@ namespace Touchstone
       const Vector &committed_u;
       const bool    guesses;
       double        time = 0.;
-      /** The motion of the last step per time; zero where it says nothing of the next
-       * one. */
+      /**
+       * Velocity of the last step, length per time, for the extrapolation; zero if it does not
+       * predict the next step.
+       */
       Vector motion;
     };
   } // namespace

@@ -14,7 +14,10 @@
 
 /**
  * @file
- * Whether what Newton has found can be a solution at all, and where it is not.
+ * Parts of StepProblem that judge a state which Newton's method has found or failed to find:
+ * whether it can be a solution at all (excessive increments, bodies thrown off, contact that rows
+ * cannot describe), and at which position of the model it is farthest from one. All of them are
+ * collective and their answers do not depend on the partition.
  */
 
 namespace Touchstone
@@ -23,7 +26,7 @@ namespace Touchstone
 
   namespace
   {
-    /** A point as a user reads it. */
+    /** Coordinates as text; adding zero turns -0 into 0. */
     std::string
     readable(const double *x)
     {
@@ -38,7 +41,9 @@ namespace Touchstone
   void
   StepProblem::check_increment() const
   {
-    // Positions so far out have lost six of their digits: no solution is near.
+    // An increment of 1e6 times the size of the model comes from a nearly singular system.
+    // Positions that far away have lost six digits, and gaps computed from them are meaningless.
+    // Prescribed displacements that are still to be met may be large, too.
     constexpr double far     = 1e6;
     const double     largest = solved_increment.linfty_norm();
     if (largest <= far * (diameter + missed))
@@ -57,6 +62,7 @@ namespace Touchstone
   std::vector<unsigned int>
   StepProblem::active_rows() const
   {
+    // Each row lives on the rank that owns its slave node: summed over the ranks.
     std::vector<unsigned int> result(contact.n_pairs(), 0);
     for (const ContactRow &row : contact.rows())
       result[row.pair] += contact.state(row).active();
@@ -73,7 +79,8 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         {
-          // The same in all rows of the pair, but not all ranks have one.
+          // All rows of a pair have the same shift, but a rank may have no row of it: the maximum
+          // over the ranks, with the lowest number where there is none.
           double high = std::numeric_limits<double>::lowest();
           if (!contact.pair(p).rows().empty())
             high = contact.pair(p).rows().front().shift[d];
@@ -97,11 +104,15 @@ namespace Touchstone
   StepProblem::check_loose_bodies() const
   {
     std::vector<std::string> result;
+    // With inertia a body in free flight is a solution; without it has no equilibrium, or an
+    // arbitrary one.
     if (integration->dynamic() || loose_bodies.empty())
       return result;
 
-    // What can have pushed a body in this step: supports and obstacles that move. It cannot
-    // have followed them much farther, and then within the size of a face.
+    // Upper bound for a credible motion in a step: in statics a body that has lost all contact was
+    // pushed by supports or obstacles that move, and cannot have followed them much farther than
+    // they moved; the size of a face is added for what contact and elasticity do. A body that has
+    // gone beyond that was thrown off by Newton's method, through a nearly singular system.
     double     pushed = 0., size = 0.;
     const auto now    = boundary_conditions.displacements(time);
     const auto before = boundary_conditions.displacements(committed_time);
@@ -127,6 +138,7 @@ namespace Touchstone
               touches += active[p];
               touched += committed_active[p];
             }
+        // Only bodies that had contact at the beginning of the step and have none now.
         if (touches > 0 || touched == 0)
           continue;
         double moved = 0.;
@@ -165,7 +177,9 @@ namespace Touchstone
   std::string
   StepProblem::changing_place() const
   {
-    // The first by its place, which does not depend on the partition.
+    // Of all changing rows the one with the smallest position in lexicographic order is named: row
+    // numbers depend on the partition, positions do not. RepeatedFailure compares this text between
+    // attempts.
     std::vector<double> first;
     for (const auto &row : changed_rows)
       if (first.empty() ||
@@ -188,13 +202,15 @@ namespace Touchstone
   {
     if (const std::string changing = changing_place(); !changing.empty())
       return changing;
+    // What supports carry is not out of balance.
     Vector free(unbalanced);
     remove_supported(free);
     Vector positions(solid.owned, solid.communicator);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
     const std::vector<unsigned int> body = bodies_of_unknowns(solid);
 
-    // Force, place, body and number of the worst node; the first of equals by its place.
+    // The worst node as a plain vector for all_gather: magnitude of the force, position, number of
+    // the body and of the node. Of equal forces the first by position.
     std::vector<double> worst;
     for (std::size_t k = 0; k < body.size() / dim; ++k)
       {
@@ -217,7 +233,7 @@ namespace Touchstone
     if (worst.empty())
       return "";
 
-    // The pair that the node belongs to: as a slave rather than as a master.
+    // Pair of the node: a role as slave is more telling than that as a master node.
     const auto node     = static_cast<Index>(worst[5]);
     int        pairs[2] = {-1, -1};
     for (const ContactRow &row : contact.rows())

@@ -7,6 +7,13 @@
 
 #include <cmath>
 
+/**
+ * @file
+ * Section "Time integration" of the scene: declaration, checks, and the translation of the named
+ * schemes into the four coefficients of the generalized-alpha family (table in
+ * doc/time_integration.md).
+ */
+
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -80,8 +87,12 @@ namespace Touchstone
 
 
   namespace
+  /**
+   * Throw unless @p entry is "automatic" or a number in [lowest, highest]. deal.II's patterns
+   * cannot combine a word and a range.
+   */
   {
-    /** The number that an entry holds, or @p automatic. */
+    /** The number in @p entry, which check_number() has accepted, or @p automatic if it says so. */
     double
     number_or(const std::string &entry, const double automatic)
     {
@@ -114,22 +125,27 @@ namespace Touchstone
   TimeIntegrationParameters::coefficients() const
   {
     Coefficients c;
+    // Newmark: m = f = 0. The automatic beta is the smallest with which all modes keep oscillating,
+    // and the one that damps high frequencies most for this gamma.
     if (scheme == Scheme::newmark)
       {
         c.gamma = newmark_gamma;
         c.beta  = number_or(newmark_beta, std::pow(c.gamma + 0.5, 2) / 4.);
         return c;
       }
+    // HHT evaluates the forces, but not the inertia, within the step: m = 0, f = alpha.
     if (scheme == Scheme::hht)
       c.alpha_f = hht_alpha;
     else
       {
+        // Chung and Hulbert's optimal parameters for the spectral radius rho at infinite frequency;
+        // rho = 1 is the midpoint rule, m = f = 1/2.
         const double rho =
           number_or(spectral_radius, scheme == Scheme::contact_stabilized ? 1. : 0.8);
         c.alpha_m = (2. * rho - 1.) / (rho + 1.);
         c.alpha_f = rho / (rho + 1.);
       }
-    // Second order, and most damping of what is fast.
+    // gamma makes the scheme second-order accurate, beta maximises the damping of high frequencies.
     c.gamma = 0.5 - c.alpha_m + c.alpha_f;
     c.beta  = std::pow(1. - c.alpha_m + c.alpha_f, 2) / 4.;
     return c;
@@ -143,7 +159,9 @@ namespace Touchstone
     if (!dynamic() || impact == Impact::elastic)
       return false;
     const Coefficients c = coefficients();
-    // Spectral radius 1 is the midpoint rule.
+    // With spectral radius 1 (the midpoint rule, m = f = 1/2) energy is conserved, and an impact
+    // that takes energy would spoil that. The dispersion-corrected mass leaves some motions without
+    // inertia, which an impact cannot stop.
     return impact == Impact::plastic ||
            !(mass == MassKind::dispersion_corrected || (c.alpha_m == 0.5 && c.alpha_f == 0.5));
   }

@@ -7,11 +7,21 @@
 #include <algorithm>
 #include <type_traits>
 
+/**
+ * @file
+ * The fields of the VTU output of contact surfaces, one class for each, registered by name. A field
+ * of your own is one more class with an entry in the registry; nothing here has to change
+ * (doc/extending.md).
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** A member of ContactPoint. */
+    /**
+     * A field that is a member of ContactPoint: scalars, vectors, or integers such as the status.
+     * Integers are not interpolated at hanging nodes, since the mean of two statuses is none.
+     */
     template <unsigned int number, class Member, Member ContactPoint::*member>
     class ContactMember : public ContactField
     {
@@ -54,6 +64,7 @@ namespace Touchstone
       void
       evaluate(const ContactPoint &point, double *values) const override
       {
+        // Without the conversion to int that enumerations need.
         values[0] = point.*member;
       }
     };
@@ -90,6 +101,8 @@ namespace Touchstone
 
   ContactFieldList::ContactFieldList()
   {
+    // Names come sorted from the registry; order() restores the order of the built-in fields, and
+    // stable sorting keeps others by name after them.
     for (const std::string &name : ContactFieldRegistry::names())
       all.push_back({name, ContactFieldRegistry::make(name), 0});
     std::stable_sort(all.begin(), all.end(), [](const Entry &a, const Entry &b) {
@@ -97,6 +110,7 @@ namespace Touchstone
     });
     for (Entry &entry : all)
       {
+        // Fields are stored one after the other in the values of a node.
         entry.first = size;
         size += entry.field->n_components();
       }

@@ -7,10 +7,19 @@
 #include <optional>
 #include <set>
 
+/**
+ * @file
+ * VTU output of the slave surfaces with the contact results of their nodes. Results belong to rows,
+ * which live on the rank that owns the slave node, while faces live on the rank that owns the cell:
+ * values of nodes at the border of partitions are fetched first, then each rank writes the faces
+ * that it owns.
+ */
+
 namespace Touchstone
 {
   namespace
   {
+    /** Nodes of a face of FE_Q: (degree + 1)^2. */
     unsigned int
     nodes_per_face(const ContactFace &face)
     {
@@ -19,7 +28,11 @@ namespace Touchstone
 
 
 
-    /** The values at a hanging node, if those of the nodes that constrain it are known. */
+    /**
+     * The values at a hanging node, which has no row (doc/theory.md 11, "Hanging nodes"):
+     * interpolated from the nodes that it follows; integers, such as the status, are those of the
+     * node with the largest weight. None if the value of one of them is not known.
+     */
     std::optional<ContactNode>
     interpolate(const ContactFieldList         &fields,
                 const unsigned int              pair,
@@ -53,13 +66,14 @@ namespace Touchstone
                         const std::vector<ContactPoint> &points,
                         const MPI_Comm                   communicator)
   {
+    // Keyed by pair and node: a node can be slave of several pairs and has results in each.
     using Key = ContactNodeMap::key_type;
     ContactNodeMap map;
     for (const ContactPoint &point : points)
       map[{point.pair, point.node}] = {point.reference_position, fields.values_at(point)};
 
-    // Only nodes at the edges of the partitions are missing: few enough for a message from
-    // everybody to everybody.
+    // Only nodes at the borders of partitions are missing: few enough for an exchange of requests
+    // and answers between all ranks.
     std::set<Key> missing;
     const auto    want = [&](const unsigned int pair, const Index node) {
       if (map.find({pair, node}) == map.end())
@@ -80,6 +94,7 @@ namespace Touchstone
     for (const auto &of_rank : requests)
       requested.insert(of_rank.begin(), of_rank.end());
 
+    // Each owner answers all requests at once; answers to other ranks are ignored.
     std::vector<std::pair<Key, ContactNode>> answer;
     for (const ContactPoint &point : points)
       if (const Key key = {point.pair, point.node}; requested.count(key) > 0)
@@ -91,6 +106,7 @@ namespace Touchstone
 
     for (const ContactFace &face : faces)
       for (const ContactFace::HangingNode &hanging : face.hanging)
+        // After the exchange, since the nodes it follows may be on other ranks.
         if (const auto result = interpolate(fields, face.pair, hanging, map))
           map[{face.pair, hanging.node}] = *result;
     return map;
@@ -115,21 +131,26 @@ namespace Touchstone
             if (found != all_nodes.end())
               nodes.push_back(&found->second);
           }
+        // Faces with a node that has no contact results are left out.
         if (nodes.size() < nodes_per_face(face))
           continue;
 
         dealii::DataOutBase::Patch<2, 3> patch;
-        patch.patch_index          = patches.size();
+        patch.patch_index = patches.size();
+        // Degree 2 has three nodes per direction, i.e. two subdivisions.
         patch.n_subdivisions       = face.degree;
         patch.reference_cell       = dealii::ReferenceCells::get_hypercube<2>();
         patch.points_are_available = (face.degree > 1);
         curved |= patch.points_are_available;
 
+        // Corners in the lexicographic numbering of n x n nodes.
         const unsigned int corners[4] = {0, n - 1, n * (n - 1), n * n - 1};
         for (unsigned int v = 0; v < 4; ++v)
           patch.vertices[v] = nodes[corners[v]]->reference_position;
 
-        // Where points are available, they are the last rows of the table.
+        // Curved faces of degree 2 need the positions of all nodes: deal.II takes them from the
+        // last rows of the data table. Positions are those of the reference state; the displacement
+        // is a field.
         patch.data.reinit(n_values + (patch.points_are_available ? dim : 0), n * n);
         for (unsigned int i = 0; i < n * n; ++i)
           {
@@ -143,6 +164,7 @@ namespace Touchstone
       }
 
     dealii::DataOutBase::VtkFlags flags;
+    // Output of equal runs is equal byte by byte.
     flags.print_date_and_time      = false;
     flags.compression_level        = dealii::DataOutBase::VtkFlags::best_speed;
     flags.write_higher_order_cells = curved;
@@ -164,6 +186,7 @@ namespace Touchstone
   {
     std::vector<std::string> all;
     for (const ContactFieldList::Entry &entry : fields.entries())
+      // deal.II wants a name for each component; those of a vector are the same.
       all.insert(all.end(), entry.field->n_components(), entry.name);
     return all;
   }
@@ -182,6 +205,7 @@ namespace Touchstone
                            dealii::DataComponentInterpretation::DataComponentInterpretation>>
       ranges;
     for (const ContactFieldList::Entry &entry : fields.entries())
+      // Three components are a vector to the viewer, which can then show arrows.
       if (entry.field->n_components() == dim)
         ranges.emplace_back(entry.first,
                             entry.first + dim - 1,
@@ -208,7 +232,9 @@ namespace Touchstone
   {
     const ContactNodeMap nodes = collect_contact_nodes(fields, faces, points, folder.communicator);
     const ContactSurfaceData data(fields, faces, nodes);
-    const std::size_t        n_patches =
+    // No file if no rank has a face, e.g. without contact pairs; the decision must be the same on
+    // all ranks.
+    const std::size_t n_patches =
       dealii::Utilities::MPI::sum(data.get_patches().size(), folder.communicator);
     if (n_patches > 0)
       files.write(data, step, time);

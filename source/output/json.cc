@@ -11,10 +11,17 @@
 #include <locale>
 #include <sstream>
 
+/**
+ * @file
+ * A JSON value for output: objects keep the order in which members were set, so that files of two
+ * runs can be compared line by line. There is no parser: the program writes JSON and reads none.
+ */
+
 namespace Touchstone
 {
   namespace
   {
+    /** A string with the escapes that JSON demands (RFC 8259, section 7). */
     std::string
     quoted(const std::string &text)
     {
@@ -104,6 +111,7 @@ namespace Touchstone
   Json::set(const std::string &key, const Json &value)
   {
     Assert(kind == Kind::object, dealii::ExcMessage("Only an object has members."));
+    // Linear search: objects have few members, and their order is that of insertion.
     const auto member = std::find_if(members.begin(), members.end(), [&key](const auto &m) {
       return m.first == key;
     });
@@ -137,6 +145,7 @@ namespace Touchstone
   std::string
   Json::print(const unsigned int max_digits, const unsigned int level) const
   {
+    // Scalars first; arrays and objects, which are printed recursively, share the code below.
     switch (kind)
       {
         case Kind::boolean:
@@ -146,6 +155,7 @@ namespace Touchstone
         case Kind::string:
           return quoted(text);
         case Kind::number:
+          // JSON has no NaN and no infinity: they become null.
           if (std::isfinite(number))
             {
               std::ostringstream out;
@@ -162,7 +172,8 @@ namespace Touchstone
       }
 
     const bool is_object = (kind == Kind::object);
-    // Vectors read best on one line; what holds arrays or objects does not.
+    // Arrays of numbers are printed on one line, objects and nested arrays with one member per
+    // line.
     const bool one_line =
       members.empty() ||
       (!is_object && std::none_of(members.begin(), members.end(), [](const auto &m) {

@@ -10,9 +10,10 @@ namespace Touchstone
 {
   namespace
   {
+    // The remedy of all write errors of the log.
     const char *const remedy =
       "Check the folder and the space on its disk, or choose another one with --output DIR.";
-  }
+  } // namespace
 
 
 
@@ -40,7 +41,7 @@ namespace Touchstone
       return;
     if (terminal != nullptr)
       *terminal << text << std::endl;
-    // Flushed line by line: the log must tell of a run that died.
+    // std::endl flushes: the last lines are what matters if a run dies.
     file << text << std::endl;
   }
 
@@ -49,6 +50,8 @@ namespace Touchstone
   void
   Log::check()
   {
+    // line() does not throw, as the failure is on rank 0 alone: the state of the stream is checked
+    // once per step, and the error thrown on all ranks together.
     folder.together([this]() {
       if (folder.rank == 0 && !file)
         throw OutputError(folder.path("log"), "a write failed", remedy);

@@ -10,14 +10,24 @@
 
 #include <cmath>
 
+/**
+ * @file
+ * Option --export-model: mesh, supports, loads and contact surfaces as JSON, for comparison with
+ * other programs. Nodes are numbered as in the solver (dof / 3), so that results can be compared
+ * node by node. One rank only: the numbering of several would depend on the partition.
+ */
+
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    /** For each node of a cell in lexicographic order its unknown of component 0
-     * among those of the cell. */
+    /**
+     * For each node of a cell in lexicographic order the index of its first dof within the cell:
+     * deal.II numbers vertices first, then lines, faces and the interior, an order that other
+     * programs do not share.
+     */
     std::vector<unsigned int>
     lexicographic_nodes(const FiniteElement<dim> &fe)
     {
@@ -26,6 +36,8 @@ namespace Touchstone
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
         if (fe.system_to_component_index(i).first == 0)
           {
+            // Lexicographic index of the support point, x fastest: its coordinates in the unit cell
+            // are multiples of 1/degree.
             unsigned int position = 0;
             for (unsigned int d = dim; d-- > 0;)
               position = n * position + static_cast<unsigned int>(
@@ -37,7 +49,7 @@ namespace Touchstone
 
 
 
-    /** Positions of all nodes, and the cells of each body. */
+    /** Reference positions of all nodes, and the cells of each body as lists of nodes. */
     void
     export_mesh(const Scene &scene, const Solid &solid, Json &model)
     {
@@ -79,6 +91,10 @@ namespace Touchstone
 
 
 
+    /**
+     * The faces of the named boundaries as lists of nodes; without the exact geometry, for the
+     * other program has none.
+     */
     Json
     export_faces(const Scene                    &scene,
                  const Forest                   &forest,
@@ -90,8 +106,10 @@ namespace Touchstone
     {
       const unsigned int body = scene.body_index(body_name);
       const BoundaryIds  ids  = forest.boundary_ids(body, boundaries, section, key);
-      const Surface      surface(solid, forest, body, ids, /*exact=*/false);
-      Json               list = Json::array();
+      // Surface gives faces their nodes in the orientation that contact uses: axes whose cross
+      // product points outward.
+      const Surface surface(solid, forest, body, ids, /*exact=*/false);
+      Json          list = Json::array();
       for (const Face &face : surface.owned_faces())
         {
           Json nodes = Json::array();
@@ -104,6 +122,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Contact pairs with their coefficient of friction: the slope of the law's limit at a sliding
+     * node of unit force and area: mu of Coulomb's law.
+     */
     Json
     export_pairs(const Scene &scene, const Forest &forest, const Solid &solid)
     {
@@ -133,7 +155,10 @@ namespace Touchstone
 
 
 
-    /** The components that are more than round-off of @p scale; -0 is none. */
+    /**
+     * A row [node, x, y, z]. Components below 1e-14 of @p scale are round-off, which would differ
+     * between machines, and become zero.
+     */
     Json
     node_entry(const Index node, const Tensor<1, dim> &vector, const double scale)
     {
@@ -149,6 +174,7 @@ namespace Touchstone
     Json
     export_step(const BoundaryConditions &conditions, const Solid &solid, const double time)
     {
+      // Prescribed displacements by the support that they belong to.
       std::map<std::string, Json> lists;
       for (const PrescribedDisplacement &p : conditions.displacements(time))
         lists.emplace(p.support, Json::array())
@@ -158,8 +184,11 @@ namespace Touchstone
         displacements.set(support, list);
 
       Vector force(solid.owned, solid.communicator);
-      // Of the reference configuration: other programs apply pressures themselves.
+      // Loads of the reference configuration (zero displacement): for pressure that follows the
+      // surface, doc/theory.md 2.3, the other program has to do that itself.
       conditions.external_force(time, Vector(solid.owned, solid.communicator), force);
+      // Scale of round-off of the nodal forces: loads that cancel at a node leave digits that are
+      // no load.
       const double largest = force.linfty_norm();
       Json         forces  = Json::array();
       for (Index node = 0; node < solid.dof_handler.n_dofs() / dim; ++node)
@@ -211,6 +240,7 @@ namespace Touchstone
       steps.append(
         export_step(conditions, solid, scene.load_stepping.end_time * (double(step) / n)));
     model.set("steps", steps);
+    // Sixteen digits: mesh and loads are to be the same numbers there.
     write_file_atomically(path, model.print(16));
   }
 } // namespace Touchstone

@@ -7,11 +7,19 @@
 #include <iomanip>
 #include <ostream>
 
+/**
+ * @file
+ * Impacts, velocities and energies of a run with inertia, for the summary: collected after each
+ * step.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** Energies by name, in the order of the sum that they make. */
+    /**
+     * Energies by name, in the order of the balance (doc/time_integration.md, "The energy ledger").
+     */
     std::vector<std::pair<std::string, double>>
     by_name(const Energies &energies)
     {
@@ -26,7 +34,10 @@ namespace Touchstone
               {"balance_error", energies.balance_error()}};
     }
 
-    /** What is below 1e-7 of the scale differs from run to run. */
+    /**
+     * Zero for what is below 1e-7 of the scale: such digits differ from run to run and would make
+     * printed results differ.
+     */
     double
     significant(const double value, const double scale)
     {
@@ -45,13 +56,17 @@ namespace Touchstone
     Impact      &impact   = impacts[pair];
     const bool   touching = result.active > 0;
     const double force    = result.force.norm();
+    // Contact begins at the beginning of the first step that ends in contact, since forces are
+    // those of the end of a step; its end is the last such end.
     if (touching && !impact.touched)
       impact.begin = begin;
     if (touching)
       impact.end = end;
+    // Transitions from contact to no contact.
     impact.openings += (impact.touching && !touching);
     impact.touched  = impact.touched || touching;
     impact.touching = touching;
+    // The force of a step acts on its whole length.
     impact.impulse += (end - begin) * result.force;
     impact.peak_force = std::max(impact.peak_force, force);
   }

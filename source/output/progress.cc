@@ -9,7 +9,7 @@ namespace Touchstone
 {
   namespace
   {
-    /** A number as C's printf gives it. */
+    /** Formatted text with C's printf, whose fixed columns keep the table of iterations aligned. */
     template <class... Arguments>
     std::string
     format(const char *pattern, const Arguments... arguments)
@@ -25,6 +25,7 @@ namespace Touchstone
   std::string
   readable_duration(const double seconds)
   {
+    // 59.95 is the smallest number that "%.1f" would print as 60.0 s.
     if (seconds < 59.95)
       return format("%.1f s", seconds);
     const long whole = std::lround(seconds);
@@ -59,6 +60,7 @@ namespace Touchstone
   void
   Progress::iteration(const IterationRecord &record)
   {
+    // The header is repeated for each attempt of a step.
     if (header_due)
       log.line("  iteration   residual        gap   active  changes   linear");
     header_due = false;
@@ -68,6 +70,7 @@ namespace Touchstone
                     record.gap,
                     record.active,
                     record.changes,
+                    // Direct solvers have no iterations.
                     record.linear_iterations < 0
                       ? "direct"
                       : std::to_string(record.linear_iterations).c_str()));
@@ -81,6 +84,8 @@ namespace Touchstone
     const double elapsed = timer.wall_time();
     std::string  text =
       format("  converged in %u iterations, ", newton_iterations) + readable_duration(elapsed);
+    // Linear extrapolation of the time so far over the time t of the scene, without what a resumed
+    // run did before.
     if (time < end_time && time > start_time)
       text +=
         ", about " + readable_duration(elapsed * (end_time - time) / (time - start_time)) + " left";

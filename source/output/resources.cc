@@ -11,6 +11,7 @@ namespace Touchstone
   double
   cpu_seconds(const MPI_Comm communicator)
   {
+    // Processor time of all ranks together, of the program and of the system on its behalf.
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     const auto seconds = [](const timeval &t) { return t.tv_sec + 1e-6 * t.tv_usec; };
@@ -25,7 +26,8 @@ namespace Touchstone
   {
     dealii::Utilities::System::MemoryStats stats;
     dealii::Utilities::System::get_memory_stats(stats);
-    // The kernel's kB are 1024 bytes.
+    // VmHWM is the largest resident memory so far, in units of 1024 bytes; 1024e-6 makes megabytes
+    // of 10^6 bytes. The sum over the ranks counts shared pages more than once.
     return dealii::Utilities::MPI::sum(1024e-6 * stats.VmHWM, communicator);
   }
 

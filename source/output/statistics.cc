@@ -10,7 +10,7 @@ namespace Touchstone
   Statistics::Statistics(const OutputFolder &folder)
     : folder(folder)
   {
-    // A pair or energy that turns up later gets empty cells in the rows before.
+    // A column that appears later, of a pair or energy, has empty cells in earlier rows.
     table.set_auto_fill_mode(true);
     for (const std::string &name : StepQuantityRegistry::names())
       quantities.emplace_back(name, StepQuantityRegistry::make(name));
@@ -34,6 +34,7 @@ namespace Touchstone
   void
   Statistics::add(const StepValue &value)
   {
+    // Columns of a pair begin with its name; vectors have three columns.
     const std::string column = value.pair.empty() ? value.name : value.pair + ": " + value.name;
     if (value.kind == StepValue::count)
       table.add_value(column, static_cast<unsigned int>(value.components[0]));
@@ -57,6 +58,7 @@ namespace Touchstone
         if (folder.rank == 0)
           for (const StepValue &value : values.entries)
             add(value);
+        // The summary has the values of the last step.
         if (quantity->in_summary())
           last_values.insert(last_values.end(), values.entries.begin(), values.entries.end());
       }
@@ -70,6 +72,7 @@ namespace Touchstone
   {
     Memories result;
     for (const auto &[name, quantity] : quantities)
+      // Quantities that accumulate over steps are part of a checkpoint.
       if (const StepQuantity::Memory memory = quantity->memory(); !memory.empty())
         result[name] = memory;
     return result;
@@ -82,6 +85,8 @@ namespace Touchstone
                       const Memories               &memories,
                       const std::vector<StepValue> &values)
   {
+    // The rows of the earlier run, then write(): the file on disk may have steps after the
+    // checkpoint.
     table       = rows;
     last_values = values;
     for (const auto &[name, quantity] : quantities)
@@ -98,6 +103,7 @@ namespace Touchstone
     std::ostringstream text;
     if (folder.rank == 0)
       table.write_text(text, dealii::TableHandler::table_with_separate_column_description);
+    // The whole table is written after each step: a run that dies leaves a complete file.
     folder.write_file_atomically("statistics", text.str());
   }
 } // namespace Touchstone

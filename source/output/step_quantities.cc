@@ -2,12 +2,22 @@
 
 #include <touchstone/output/step_quantity.h>
 
+/**
+ * @file
+ * The built-in columns of the table `statistics`, one class for each group, registered by name.
+ * Values are results of the whole model: what a quantity adds must be the same on all ranks,
+ * although rank 0 alone writes the table.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** What summary.json has of the built-in quantities is that of RunSummary, whose numbers
-     * are those of the whole run. */
+    /**
+     * A built-in group of columns, sorted by @p number. They are not repeated in summary.json from
+     * here: RunSummary has these results already, with counts of the whole run instead of the last
+     * step.
+     */
     template <unsigned int number>
     class BuiltInQuantity : public StepQuantity
     {
@@ -27,6 +37,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Position in time and cost of the step: step size and cuts tell where the run had
+     * difficulties.
+     */
     class StepCounters : public BuiltInQuantity<0>
     {
     public:
@@ -44,6 +58,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Resultants of each contact pair: force on the slave body, moment about the origin, area,
+     * extremes, and numbers of nodes by status.
+     */
     class PairResults : public BuiltInQuantity<10>
     {
     public:
@@ -66,6 +84,7 @@ namespace Touchstone
 
 
 
+    /** Forces that supports exert on the bodies. */
     class Reactions : public BuiltInQuantity<20>
     {
     public:
@@ -79,6 +98,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Terms of the balance of energy (doc/time_integration.md, "The energy ledger"); in statics
+     * those that are known.
+     */
     class EnergyTerms : public BuiltInQuantity<30>
     {
     public:
@@ -92,6 +115,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Linear and angular momentum of all bodies, to check conservation; only where there is
+     * inertia.
+     */
     class Momenta : public BuiltInQuantity<40>
     {
     public:

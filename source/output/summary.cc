@@ -8,16 +8,25 @@
 #include <ostream>
 #include <sstream>
 
+/**
+ * @file
+ * Output of the summary: JSON for programs, and text for users and tests. Printed numbers
+ * are rounded so that runs with other solvers, ranks or machines print the same text.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** Relative size of what is taken for round-off. */
+    /** Relative size below which printed digits are taken for round-off. */
     constexpr double round_off = 1e-9;
-    /** Solutions count as converged with penetrations of this fraction of a face;
-     * the figure itself is then chance. */
+    /**
+     * Penetrations are converged to this fraction of a face (doc/theory.md 5, equation (13)); below
+     * it the figure is arbitrary.
+     */
     constexpr double gap_round_off = 1e-8;
 
+    /** Magnitude of a vector for the scale of round-off: its components are rounded one by one. */
     double
     largest_component(const dealii::Tensor<1, dim> &value)
     {
@@ -35,6 +44,7 @@ namespace Touchstone
         return "none";
       if (scale > 0.)
         {
+          // The quantum is a power of ten: the same for all values of about the same scale.
           const double quantum = tolerance * std::pow(10., std::ceil(std::log10(scale)));
           value                = std::round(value / quantum) * quantum;
         }
@@ -58,6 +68,7 @@ namespace Touchstone
 
 
 
+    /** A registered quantity: whole number, number or vector. */
     Json
     to_json(const StepValue &value)
     {
@@ -124,6 +135,7 @@ namespace Touchstone
     for (const auto &[name, error] : errors)
       relative_errors.set(name, error);
 
+    // Mean and maximum over the ranks: an imbalance of 1 is even, of the number of ranks the worst.
     Json spread = Json::object();
     for (const auto &[phase, counts] : balance)
       spread.set(phase,
@@ -132,6 +144,8 @@ namespace Touchstone
                    .set("max", counts.max)
                    .set("imbalance", counts.imbalance()));
 
+    // Adaptive runs: cells, unknowns and estimated error of each mesh, from which the rate of
+    // convergence follows.
     Json all_meshes = Json::array();
     for (const Mesh &mesh : meshes)
       all_meshes.append(Json::object()
@@ -158,6 +172,7 @@ namespace Touchstone
     Json results = Json::object().set("contact", contact_results(*this)).set("reactions", bodies);
     if (!plastic_strain.empty())
       results.set("plastic_strain", plastic);
+    // Quantities of contact pairs stand with their pair; those of the whole scene here.
     for (const StepValue &value : quantities)
       if (value.pair.empty())
         results.set(member_name(value.name), Touchstone::to_json(value));
@@ -215,6 +230,8 @@ namespace Touchstone
   void
   RunSummary::print_results(std::ostream &out, const bool with_iterations) const
   {
+    // Scales of round-off are the largest components of all forces and of all moments: a lateral
+    // force that is zero by symmetry is round-off relative to the normal one.
     double force_scale = 0., moment_scale = 0.;
     for (const auto &[name, result] : contact)
       {
@@ -241,6 +258,8 @@ namespace Touchstone
           << "  area            " << std::setw(12) << rounded(result.area, result.area) << '\n'
           << "  max pressure    " << std::setw(12)
           << rounded(result.max_pressure,
+                     // The mean pressure bounds the scale from below: a maximum that is zero by
+                     // cancellation would have no scale of its own.
                      std::max(result.max_pressure,
                               result.area > 0. ? result.force.norm() / result.area : 0.))
           << '\n'

@@ -5,17 +5,25 @@
 
 #include <cmath>
 
+/**
+ * @file
+ * The fields of the VTU output of the bodies, one class for each, registered by name. Stresses are
+ * nodal averages that VolumeOutput::node_stress() has made; fields only take their components and
+ * invariants.
+ */
+
 namespace Touchstone
 {
   using dealii::SymmetricTensor;
 
   namespace
   {
-    /** A vector over the unknowns, node by node. */
+    /** The owned entries of a vector over the dofs, node by node. */
     void
     copy_owned(const Solid &solid, const Vector &field, std::vector<double> &values)
     {
       std::size_t i = 0;
+      // Owned indices in ascending order, the order that VolumeField promises.
       for (const Index dof : solid.owned)
         values[i++] = field(dof);
     }
@@ -71,7 +79,7 @@ namespace Touchstone
 
 
 
-    /** A function of the stress. */
+    /** A scalar function of the nodal Cauchy stress. */
     template <unsigned int number>
     class StressField : public VolumeField
     {
@@ -103,6 +111,7 @@ namespace Touchstone
       }
     };
 
+    // Equivalent stress of von Mises, sqrt(3/2) |dev sigma|.
     class VonMisesStress : public StressField<6>
     {
       double
@@ -112,6 +121,7 @@ namespace Touchstone
       }
     };
 
+    // Pressure -tr(sigma)/3: positive in compression.
     class HydrostaticPressure : public StressField<7>
     {
       double
@@ -150,6 +160,7 @@ namespace Touchstone
       void
       evaluate(const VolumeState &state, std::vector<double> &values) const override
       {
+        // Means over the quadrature points of each cell.
         const dealii::Vector<double> strain = state.solid.cell_plastic_strain();
         values.assign(strain.begin(), strain.end());
       }
@@ -167,6 +178,7 @@ namespace Touchstone
       }
     };
 
+    // The partition, to judge the balance of load.
     class RankNumber : public CellField<2>
     {
     public:

@@ -8,6 +8,13 @@
 #include <algorithm>
 #include <list>
 
+/**
+ * @file
+ * VTU output of the bodies. Scalar nodal fields have a numbering of their own, with one dof per
+ * node. It is made at the first output after each change of the mesh (reinit()). Only owned cells
+ * are written by a rank.
+ */
+
 namespace Touchstone
 {
   VolumeOutput::VolumeOutput(const Solid &solid, const OutputFolder &folder)
@@ -15,6 +22,7 @@ namespace Touchstone
     , node_fe(solid.fe.degree)
     , files(folder, "solution")
   {
+    // Stable sorting: fields of equal order stay sorted by name, as the registry gives them.
     for (const std::string &name : VolumeFieldRegistry::names())
       fields.emplace_back(name, VolumeFieldRegistry::make(name));
     std::stable_sort(fields.begin(), fields.end(), [](const auto &a, const auto &b) {
@@ -27,6 +35,8 @@ namespace Touchstone
   void
   VolumeOutput::number_nodes()
   {
+    // One scalar dof per node. Bodies share no nodes, so that averages at nodes never mix two
+    // bodies across a contact.
     node_dofs.reinit(solid.dof_handler.get_triangulation());
     node_dofs.distribute_dofs(node_fe);
     node_volume = make_node_field();
@@ -35,8 +45,11 @@ namespace Touchstone
     const dealii::IndexSet &owned = node_dofs.locally_owned_dofs();
     std::vector<Index>      nodes(node_fe.n_dofs_per_cell()), dofs(solid.fe.n_dofs_per_cell());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      // Ghost cells are visited for the numbering alone: volumes are summed over owned cells, and
+      // then added up over the ranks.
       if (!cell->is_artificial())
         {
+          // The same cell as seen by the other DoFHandler.
           const dealii::DoFHandler<dim>::active_cell_iterator node_cell(
             &node_dofs.get_triangulation(), cell->level(), cell->index(), &node_dofs);
           node_cell->get_dof_indices(nodes);
@@ -47,6 +60,8 @@ namespace Touchstone
               if (cell->is_locally_owned())
                 node_volume(nodes[a]) += volume;
               if (owned.is_element(nodes[a]))
+                // Index of the node among the owned nodes of the solid: both numberings have the
+                // same owner for each node, but not the same order.
                 node_in_solid[owned.index_within_set(nodes[a])] =
                   solid.owned.index_within_set(dofs[solid.fe.component_to_system_index(0, a)]) /
                   dim;
@@ -75,6 +90,8 @@ namespace Touchstone
     std::array<NodeField, n> sums;
     for (NodeField &sum : sums)
       sum = make_node_field();
+    // Nodal stress as the mean of the cells at the node, weighted with their volumes: for one node
+    // sum_K V_K sigma_K / sum_K V_K.
     const auto         cell_stress = solid.cell_stress(displacement);
     std::vector<Index> nodes(node_fe.n_dofs_per_cell());
     for (const auto &cell : node_dofs.active_cell_iterators())
@@ -88,6 +105,7 @@ namespace Touchstone
               sums[c](node) += volume * stress.access_raw_entry(c);
         }
     for (NodeField &sum : sums)
+      // Contributions of cells of other ranks.
       sum.compress(dealii::VectorOperation::add);
 
     std::vector<dealii::SymmetricTensor<2, dim>> result(node_in_solid.size());
@@ -106,6 +124,7 @@ namespace Touchstone
     NodeField field = make_node_field();
     for (std::size_t i = 0; i < node_in_solid.size(); ++i)
       field.local_element(i) = values[node_in_solid[i]];
+    // Written cells have nodes that other ranks own.
     field.update_ghost_values();
     return field;
   }
@@ -133,9 +152,12 @@ namespace Touchstone
     const auto        stress = node_stress(displacement);
     const VolumeState state{solid, displacement, velocity, time, stress};
     const std::size_t n_nodes = node_in_solid.size();
+    // Cell fields have entries for ghost cells, too, since deal.II indexes them by active cell;
+    // those are not written.
     const std::size_t n_cells = node_dofs.get_triangulation().n_active_cells();
 
-    // The writer keeps pointers to these.
+    // DataOut keeps pointers to the vectors until the patches are built; the elements of a list do
+    // not move when further ones are added.
     std::list<NodeField>              scalars;
     std::list<Vector>                 vectors;
     std::list<dealii::Vector<double>> cells;
@@ -169,10 +191,12 @@ namespace Touchstone
         }
 
     dealii::DataOutBase::VtkFlags flags;
-    flags.time                     = time;
-    flags.cycle                    = step;
-    flags.print_date_and_time      = false;
-    flags.compression_level        = dealii::DataOutBase::VtkFlags::best_speed;
+    flags.time  = time;
+    flags.cycle = step;
+    // Output of equal runs is equal byte by byte.
+    flags.print_date_and_time = false;
+    flags.compression_level   = dealii::DataOutBase::VtkFlags::best_speed;
+    // Quadratic cells are written as such: linear pieces of them would show kinks.
     flags.write_higher_order_cells = (solid.fe.degree > 1);
     data_out.set_flags(flags);
     data_out.build_patches(solid.mapping,

@@ -25,6 +25,7 @@ namespace Touchstone
   std::vector<std::string>
   VtuSeries::piece_names(const unsigned int step) const
   {
+    // One file per rank, numbered by rank, as the .pvtu record lists them.
     std::vector<std::string> names;
     for (unsigned int rank = 0; rank < folder.n_ranks; ++rank)
       names.push_back(stem(step) + "." + std::to_string(rank) + ".vtu");
@@ -39,6 +40,8 @@ namespace Touchstone
                    const unsigned int step,
                    const double       time)
   {
+    // One rank writes one .vtu file; several write one piece each, and rank 0 the .pvtu record that
+    // names them.
     const bool        serial = (folder.n_ranks == 1);
     const std::string file   = stem(step) + (serial ? ".vtu" : ".pvtu");
 
@@ -46,7 +49,8 @@ namespace Touchstone
     if (!serial)
       folder.write_file_atomically(file, record);
 
-    // The list comes last: it only names files that exist.
+    // The list of the series comes last, so that it names only files that exist, also if the run
+    // dies here.
     times_and_names.emplace_back(time, file);
     write_list();
   }
@@ -56,6 +60,8 @@ namespace Touchstone
   void
   VtuSeries::restore(const List &before)
   {
+    // A resumed run continues the series: steps after the checkpoint are written again and not
+    // listed twice.
     times_and_names = before;
     if (!before.empty())
       write_list();

@@ -16,6 +16,7 @@ namespace Touchstone
   void
   Warnings::add(const std::string &text)
   {
+    // A warning that repeats itself in each step is shown once.
     if (std::find(texts.begin(), texts.end(), text) != texts.end())
       return;
     texts.push_back(text);
@@ -35,6 +36,7 @@ namespace Touchstone
   void
   Warnings::restore(const std::vector<std::string> &earlier)
   {
+    // Not reported again: they are in the log of the run that is resumed.
     texts = earlier;
   }
 
@@ -43,6 +45,7 @@ namespace Touchstone
   void
   Warnings::repeat() const
   {
+    // Repeated at the end of the log, where they are seen.
     if (texts.empty())
       return;
     log.line(texts.size() == 1 ? "1 warning:" : std::to_string(texts.size()) + " warnings:");

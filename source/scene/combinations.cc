@@ -5,11 +5,19 @@
 #include <touchstone/scene/combinations.h>
 #include <touchstone/scene/scene.h>
 
+/**
+ * @file
+ * Combinations of keys that are refused. Each key is valid by itself here (the check() of its
+ * section has passed); these rules find combinations that no single section can see. They are
+ * tables rather than code, so that each rule reads as one entry: condition, key, problem, remedy.
+ * All are checked before the mesh is made.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** A combination that is refused, and what is said of it. */
+    /** A combination that is refused if @p broken, with the parts of the InputError. */
     struct Rule
     {
       bool        broken;
@@ -24,12 +32,17 @@ namespace Touchstone
 
 
 
-    /** Elements are made for a degree and for small or finite strain. */
+    /**
+     * Element types but 'full' are for degree 1, and for small or for finite strain, see
+     * doc/theory.md 2.1 and 2.2.
+     */
     std::vector<Rule>
     element_rules(const Scene &scene, const BodyParameters &body)
     {
       const MaterialParameters &material = body.material;
       const ElementType         type     = body.element();
+      // B-bar and incompatible modes modify the small-strain operator; F-bar is their counterpart
+      // at finite strain.
       const bool small_only = type == ElementType::b_bar || type == ElementType::incompatible_modes;
       const std::string section = body.section(), name = body.element_type.word(),
                         but_law = ", but 'Material/Law' is '" + material.law.name + "'";
@@ -78,9 +91,11 @@ namespace Touchstone
                            "must be positive: 'Time integration/Scheme' is '" + time.scheme.word() + "'",
                            "give the mass per volume in the scene's units, e.g. 7.85e-9 for steel in t and mm, or "
                                              "set the scheme to 'static'"}};
+      // Keys without effect are refused, not ignored: who sets an initial velocity expects motion.
       const std::string nothing = "means nothing without inertia",
                         remedy  = "remove it, or set 'Time integration/Scheme' to 'newmark', "
                                   "'generalized_alpha' or another scheme with inertia";
+      // Initial conditions and damping act through inertia only.
       for (unsigned int d = 0; d < 3; ++d)
         for (const auto &[key, value] :
              {std::make_pair("Initial velocity ", &body.initial_velocity[d]),
@@ -101,7 +116,10 @@ namespace Touchstone
 
 
 
-    /** Tied pairs do not slide, and patches are made for faces of degree 1. */
+    /**
+     * Tied pairs do not slide, and Gregory patches (doc/theory.md 4, "Smoothing") exist for
+     * bilinear faces only.
+     */
     std::vector<Rule>
     pair_rules(const Scene &scene, const ContactPairParameters &pair)
     {
@@ -128,7 +146,11 @@ namespace Touchstone
 
 
 
-    /** What the mesh, the mass, the enforcement and the linear solver ask of each other. */
+    /**
+     * Mesh, mass, enforcement and linear solver: a partitioner that cannot refine, multipliers for
+     * a solver that needs a definite matrix, an unsymmetric tangent for one that needs a symmetric
+     * matrix.
+     */
     std::vector<Rule>
     method_rules(const Scene &scene)
     {
@@ -136,6 +158,8 @@ namespace Touchstone
       const DiscretisationParameters &discretised = scene.discretisation;
       const ContactParameters        &contact     = scene.contact;
       const LinearSolverParameters   &solver      = scene.linear_solver;
+      // Asked of the enforcement itself, so that one that is added later is judged by the same
+      // rule.
       const bool multipliers = contact.enforcement.make(contact)->uses_multipliers();
       return {{scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
                  discretised.partitioner != Partitioner::automatic,
@@ -169,6 +193,7 @@ namespace Touchstone
 
 
 
+    /** Throw the first broken rule. */
     void
     obey(const std::vector<Rule> &rules)
     {

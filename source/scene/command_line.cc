@@ -11,13 +11,23 @@
 #include <map>
 #include <sstream>
 
+/**
+ * @file
+ * Command line and scene file: the first input that is read. Unknown options, missing values and
+ * unreadable files end the program with exit code 1 before anything is allocated. All ranks parse
+ * the same arguments and come to the same result.
+ */
+
 namespace Touchstone
 {
   namespace
   {
     const char *const section = "command line";
 
-    /** The arguments in the order in which they count: later ones win. */
+    /**
+     * Arguments of the environment variable TOUCHSTONE_OPTIONS, then those of the command line: of
+     * options given twice the later one counts, so the command line overrides the environment.
+     */
     std::vector<std::string>
     collect_arguments(const int argc, const char *const *argv)
     {
@@ -52,8 +62,11 @@ namespace Touchstone
     for (std::size_t i = 0; i < arguments.size(); ++i)
       {
         const std::string &argument = arguments[i];
-        const std::size_t  equals   = argument.find('=');
-        const std::string  option   = argument.substr(0, equals);
+        // Options take their value as "--set X=1" or as "--set=X=1"; only the first '=' separates.
+        const std::size_t equals = argument.find('=');
+        const std::string option = argument.substr(0, equals);
+        // What is no option is the scene file. Two of them usually come from a value with blanks
+        // that lacks quotation marks.
         if (argument.empty() || argument[0] != '-')
           {
             if (!line.scene_file.empty() || argument.empty())
@@ -84,6 +97,8 @@ namespace Touchstone
             if (option == "--export-model")
               line.export_model = value;
             else
+              // --output is an override of a key like any other: later ones win, and the printed
+              // scene shows it.
               line.overrides.push_back(option == "--set" ? value : "Output/Directory=" + value);
           }
         else if (equals == std::string::npos && switches.count(option) > 0)
@@ -144,10 +159,12 @@ namespace Touchstone
   std::string
   read_scene_file(const std::string &name)
   {
+    // iostreams do not report why they failed; errno usually tells, if it was cleared before.
     errno = 0;
     std::ifstream      file(name, std::ios::binary);
     std::ostringstream content;
-    // A folder can be opened, but not be read.
+    // A folder opens without an error and fails at the first read only, hence peek(). An empty file
+    // sets eof(), which is no failure of reading.
     const bool was_read =
       file && (file.peek(), !file.bad()) && (file.eof() || (content << file.rdbuf()));
     if (!was_read)
@@ -160,6 +177,7 @@ namespace Touchstone
     const std::string text = content.str();
     if (text.empty())
       throw InputError(section, "", name, "this scene file is empty", "give another");
+    // Binary files, such as meshes, have zero bytes.
     if (text.find('\0') != std::string::npos)
       throw InputError(section,
                        "",

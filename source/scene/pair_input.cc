@@ -17,11 +17,13 @@ namespace Touchstone
     ContactPairInput             input{parameters, nullptr, solid, forest};
     input.number     = number;
     input.slave_body = scene.body_index(parameters.slave_body);
-    input.modulus    = scene.bodies[input.slave_body].material.young_modulus;
-    input.end_time   = scene.load_stepping.end_time;
+    // Young's modulus of the softer body scales contact forces: c = E A/h, doc/theory.md 5.
+    input.modulus  = scene.bodies[input.slave_body].material.young_modulus;
+    input.end_time = scene.load_stepping.end_time;
     for (const ObstacleParameters &obstacle : scene.obstacles)
       if (obstacle.name == parameters.obstacle)
         input.obstacle = &obstacle;
+    // Obstacles are rigid and have no modulus.
     if (input.obstacle == nullptr)
       {
         input.master_body = scene.body_index(parameters.master_body);

@@ -12,26 +12,38 @@
 #include <map>
 #include <set>
 
+/**
+ * @file
+ * Which keys may differ between a checkpoint and the scene that resumes from it. Those that change
+ * how the solution is found or what is written may; those that change the problem may not, since
+ * the result would be that of neither scene.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** Sections that may change as a whole. */
+    /** Sections whose keys do not change the problem, but how it is solved and what is written. */
     const std::set<std::string> free_sections =
       {"Output", "Checkpoints", "Linear solver", "Newton", "Reference solution", "Load stepping"};
 
-    /** And single keys, with their section. The end time is looked at in detail. */
+    /**
+     * Single keys of other sections, as (section, key). The end time has rules of its own in
+     * compare_parameters().
+     */
     const std::set<std::pair<std::string, std::string>> free_keys = {{"", "Title"},
                                                                      {"Contact", "Linearisation"},
                                                                      {"Discretisation",
                                                                       "Contact weight"}};
 
+    /** The items of a list; a single value is a list of one. */
     std::vector<std::string>
     items(const std::string &value)
     {
       return dealii::Utilities::split_string_list(value, ',');
     }
 
+    /** Numbers are compared by value ("1e3" is "1000"), everything else as text. */
     bool
     same_item(const std::string &a, const std::string &b)
     {
@@ -39,9 +51,11 @@ namespace Touchstone
         return true;
       char        *end_a = nullptr, *end_b = nullptr;
       const double x = std::strtod(a.c_str(), &end_a), y = std::strtod(b.c_str(), &end_b);
+      // Both are numbers to their last character, and equal.
       return !a.empty() && !b.empty() && *end_a == 0 && *end_b == 0 && x == y;
     }
 
+    /** Equal item by item. */
     bool
     same(const std::string &a, const std::string &b)
     {
@@ -49,8 +63,10 @@ namespace Touchstone
       return a == b || std::equal(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), same_item);
     }
 
+    /** Values by (section, key). */
     using Values = std::map<std::pair<std::string, std::string>, std::string>;
 
+    /** Parse the printed scene of a checkpoint like a scene file. */
     Values
     values(const std::string &text)
     {
@@ -79,7 +95,9 @@ namespace Touchstone
   {
     const Values             old = values(before), now = values(scene.complete_entries());
     std::vector<std::string> changes;
-    Values                   all = old;
+    // Keys of both scenes: one that is missing on either side is a change as well. The order is
+    // that of the names, the same in each run.
+    Values all = old;
     all.insert(now.begin(), now.end());
     for (const auto &[place, unused] : all)
       {
@@ -90,6 +108,7 @@ namespace Touchstone
           continue;
         const std::string then = was ? "'" + of_old->second + "'" : "not there";
         if (!may_change(section, key))
+          // The old value is part of the message: it is what has to be restored.
           throw InputError(section,
                            key,
                            is ? of_now->second : "",
@@ -103,12 +122,16 @@ namespace Touchstone
 
     const std::pair<std::string, std::string> end_key("Load stepping", "End time");
     const std::string                        &end = now.at(end_key), &old_end = old.at(end_key);
+    // A later end than that of the checkpoint extends the run; an earlier one than its time cannot
+    // be reached.
     if (scene.load_stepping.end_time < time * (1. - 1e-12))
       throw InputError(end_key.first,
                        end_key.second,
                        end,
                        "the checkpoint is at the later time " + dealii::Utilities::to_string(time),
                        "set a later end, or run the scene from its beginning without --resume");
+    // A ramped initial overlap grows up to the end time: with another end the committed steps would
+    // have had another overlap.
     for (const ContactPairParameters &pair : scene.pairs)
       if (pair.initial_overlap == ContactPairParameters::Overlap::ramp && !same(old_end, end))
         throw InputError(end_key.first,

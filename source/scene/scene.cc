@@ -13,6 +13,14 @@
 #include <set>
 #include <sstream>
 
+/**
+ * @file
+ * From the text of a scene file to its parameters. The order matters: the lists of names say which
+ * subsections there are, choices of classes (read early from the text) say which keys these
+ * declare; only then deal.II's handler knows all entries and can take their values; derived values
+ * and checks come last.
+ */
+
 namespace Touchstone
 {
   namespace Patterns = dealii::Patterns;
@@ -20,8 +28,8 @@ namespace Touchstone
   namespace
   {
     /**
-     * The names that a list of the scene gives, each of which has a subsection
-     * of its own: they cannot be anything.
+     * Names in a list such as "Bodies = a, b". Each must have a subsection of its own, so names
+     * that could not be part of a path, duplicates and names without subsection are errors.
      */
     std::vector<std::string>
     names_of_list(const SceneText   &text,
@@ -54,6 +62,7 @@ namespace Touchstone
             throw InputError(
               section, key, name, "this name is listed twice", "give each its own name");
 
+          // The subsection "Body a" of the name a.
           const std::string own = (section.empty() ? "" : section + "/") + prefix + name;
           if (text.sections().count(own) == 0)
             throw InputError(section,
@@ -85,6 +94,8 @@ namespace Touchstone
   void
   Scene::read_lists(const SceneText &text)
   {
+    // An empty list is a mistake of its own; a missing one is reported later, as a required key
+    // that is not set.
     if (text.is_set("", "Bodies") && text.value("", "Bodies", "").empty())
       throw InputError(
         "", "Bodies", "", "the list is empty", "name at least one body: set Bodies = NAME");
@@ -131,13 +142,15 @@ namespace Touchstone
                       "Names of the contact pairs; each has a subsection "
                       "'Contact pair NAME'.");
 
+    // The values that are needed before the handler has them.
     const auto look_up    = [&text](const auto &...arguments) { return text.value(arguments...); };
     const auto declare_in = [&](const std::string &section, auto &parameters) {
       prm.enter_subsection(section);
       parameters.declare(prm);
       prm.leave_subsection();
     };
-    // Where classes are chosen, their names decide on further keys.
+    // Classes that are chosen by name (geometries, laws, enforcements) declare keys of their own:
+    // their name is looked up in the text before the entries are declared.
     const auto declare_choices_in = [&](const std::string &section, auto &parameters) {
       prm.enter_subsection(section);
       parameters.declare(prm, EarlyValues(look_up, section));
@@ -175,13 +188,15 @@ namespace Touchstone
   Scene::resolve(const SceneText &text, const std::string &file_name)
   {
     for (BodyParameters &body : bodies)
+      // Resolved once, so that everything else sees the element that is used.
       if (body.element_type == ElementType::automatic)
         body.element_type = body.automatic_element(discretisation.degree);
 
     for (ContactPairParameters &pair : pairs)
       if (pair.tied() && !text.is_set(pair.section(), "Sliding"))
         {
-          // Through the handler, so that the printed scene can be read back.
+          // A tied pair does not slide: the default of "Sliding" is another one there. It is set
+          // through the handler, so that the printed scene shows it and can be read back.
           prm.enter_subsection(pair.section());
           prm.set("Sliding", std::string("small"));
           prm.leave_subsection();
@@ -189,6 +204,8 @@ namespace Touchstone
 
     if (output.directory.empty())
       {
+        // The default folder is named after the scene file: output/STEM. A leading dot belongs to
+        // the name.
         const std::size_t slash = file_name.find_last_of('/');
         const std::string stem =
           slash == std::string::npos ? file_name : file_name.substr(slash + 1);
@@ -202,6 +219,7 @@ namespace Touchstone
   void
   Scene::print(std::ostream &out) const
   {
+    // The declared order is that of the documentation; deal.II would sort by name.
     prm.print_parameters(out,
                          dealii::ParameterHandler::PRM |
                            dealii::ParameterHandler::KeepDeclarationOrder);
@@ -227,10 +245,12 @@ namespace Touchstone
     ForestInput input;
     input.discretisation = discretisation;
     input.refines        = refinement.active();
-    // A cell of a nonlinear law is evaluated in each iteration.
+    // Relative cost of a cell for the partitioning: nonlinear laws are evaluated in each iteration,
+    // linear stiffness is assembled once per run.
     for (const BodyParameters &body : bodies)
       input.bodies.push_back({body.name, body.geometry, body.material.linear() ? 1U : 3U});
     for (const ContactPairParameters &pair : pairs)
+      // Pairs tell the forest which boundaries meet, for the partitioning.
       input.pairs.push_back({pair.section(),
                              body_index(pair.slave_body),
                              pair.slave_boundaries,

@@ -8,11 +8,17 @@
 
 #include <algorithm>
 
+/**
+ * @file
+ * Checks of a scene that need all of it: names that refer to each other, and formulas at all steps.
+ * Sections check themselves first, so that combinations can rely on valid values.
+ */
+
 namespace Touchstone
 {
   namespace
   {
-    /** Names of bodies, obstacles or pairs. */
+    /** Names of bodies, obstacles or pairs, for messages and look-up. */
     template <class Parameters>
     std::vector<std::string>
     names(const std::vector<Parameters> &all)
@@ -23,7 +29,7 @@ namespace Touchstone
       return result;
     }
 
-    /** The entry @p key of @p section names one of @p known. */
+    /** Throw unless @p name, given as @p key of @p section, is in the list of known names. */
     void
     check_name(const std::string              &section,
                const std::string              &key,
@@ -73,6 +79,8 @@ namespace Touchstone
     reference.check("Reference solution");
     if (!reference.pair.empty())
       check_name("Reference solution", "Pair", reference.pair, "Contact pairs", names(pairs));
+    // Formulas of a reference solution that is not of this type would be ignored, and the user
+    // would believe them compared.
     if (reference.type.name == "formula")
       return;
     const auto no_formula =
@@ -98,6 +106,9 @@ namespace Touchstone
   void
   Scene::check_formulas() const
   {
+    // Formulas of time alone can be evaluated at all steps without a mesh: a division by zero at
+    // the last step is found now and not after hours. Those that depend on position are checked
+    // where they are evaluated (Formulas::check).
     const auto check =
       [&](const std::string &section, const std::string &key, const std::string &text) {
         check_at_all_steps(section, key, text, load_stepping.end_time, load_stepping.steps);

@@ -10,17 +10,26 @@
 #include <regex>
 #include <sstream>
 
+/**
+ * @file
+ * Takes the entries of a scene into the ParameterHandler, with errors that name the line, the key
+ * and a remedy. deal.II would report unknown keys and wrong values in its own words and without
+ * suggestions; therefore all entries are compared with the declared ones before they are set.
+ */
+
 namespace Touchstone
 {
   using dealii::Utilities::split_string_list;
 
   namespace
   {
-    /** Keys of each section that is declared. */
+    /** Declared keys by the path of their section. */
     using Declared = std::map<std::string, std::vector<std::string>>;
 
-    /** The handler does not tell its entries, but its short listing is a scene
-     * file and can be taken apart like one. */
+    /**
+     * ParameterHandler has no function that lists its entries, but its short listing is in the
+     * format of a scene file and can be parsed like one.
+     */
     Declared
     declared_entries(const dealii::ParameterHandler &prm)
     {
@@ -29,6 +38,7 @@ namespace Touchstone
       const SceneText text(listing.str(), "listing");
 
       Declared declared;
+      // Sections without keys are declared, too.
       for (const auto &[section, line] : text.sections())
         declared[section];
       for (const SceneEntry &entry : text.entries())
@@ -38,7 +48,7 @@ namespace Touchstone
 
 
 
-    /** Sections that stand in @p parent, without their path. */
+    /** Names of the direct subsections of @p parent, as suggestions. */
     std::vector<std::string>
     subsections(const Declared &declared, const std::string &parent)
     {
@@ -58,13 +68,13 @@ namespace Touchstone
 
 
 
-    /** Complain about @p section, which is not declared. */
+    /** Report the undeclared @p section. */
     [[noreturn]] void
     throw_unknown_section(const Declared    &declared,
                           const std::string &section,
                           const std::string &location)
     {
-      // The outermost part that is unknown is the one to speak of.
+      // The outermost unknown part of the path is the mistake; those inside it follow from it.
       std::vector<std::string> path;
       for (const std::string &part : split_path(section))
         {
@@ -74,7 +84,8 @@ namespace Touchstone
             continue;
 
           const std::vector<std::string> known = subsections(declared, parent);
-          // "Body x" stands for the name x in the list "Bodies", etc.
+          // A subsection "Body x" without x in the list "Bodies" is a frequent mistake with its own
+          // remedy. "Boundary x" lies within a body, the others at the top.
           static const std::vector<std::pair<std::string, std::string>> lists = {
             {"Body ", "Bodies"},
             {"Contact pair ", "Contact pairs"},
@@ -106,6 +117,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Report an undeclared key: a similar key of the same section is the likeliest meaning, then
+     * the same key of another section.
+     */
     [[noreturn]] void
     throw_unknown_key(const Declared    &declared,
                       const SceneEntry  &entry,
@@ -137,7 +152,10 @@ namespace Touchstone
 
 
 
-    /** What deal.II's description of a pattern asks for, as a sentence. */
+    /**
+     * A remedy in words, from deal.II's description of the pattern that @p value does not match.
+     * Bounds at the limits of the type are no bounds to the user.
+     */
     std::string
     remedy(const std::string &pattern, const std::string &value)
     {
@@ -158,6 +176,7 @@ namespace Touchstone
         return range("a whole number");
       if (std::regex_match(pattern, found, std::regex(R"(\[Double (.*)\.\.\.(.*) \(incl.*)")))
         return range("a number");
+      // For a choice of words the nearest word is suggested.
       if (std::regex_match(pattern, found, std::regex(R"(\[Selection (.*?) ?\])")))
         {
           const auto names = split_string_list(found[1], '|');
@@ -167,6 +186,7 @@ namespace Touchstone
                            found,
                            std::regex(R"(\[List of <.*> of length (\d+)\.\.\.\1 .*)")))
         return "give " + found[1].str() + " numbers with commas between them";
+      // Descriptions without a translation are shown as deal.II has them.
       if (pattern.compare(0, 5, "[Bool") == 0)
         return "give 'true' or 'false'";
       return "give " + pattern;
@@ -174,6 +194,10 @@ namespace Touchstone
 
 
 
+    /**
+     * Set one entry; a value that does not match the declared pattern is an InputError. The pattern
+     * is cut out of deal.II's message, the only place that has it.
+     */
     void
     set_entry(const SceneEntry &entry, const std::string &location, dealii::ParameterHandler &prm)
     {
@@ -205,7 +229,10 @@ namespace Touchstone
 
 
 
-    /** The handler's own spelling "Body_20inner.Young_20modulus" undone. */
+    /**
+     * Undo the mangled names of ParameterHandler ("Body_20inner.Young_20modulus"): _XX is a
+     * character by its hexadecimal code, a dot separates sections.
+     */
     std::string
     demangle(const std::string &name)
     {
@@ -213,6 +240,7 @@ namespace Touchstone
       for (std::size_t i = 0; i < name.size(); ++i)
         if (name[i] == '_' && i + 2 < name.size())
           {
+            // Two hexadecimal digits after the underscore.
             result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
             i += 2;
           }
@@ -229,8 +257,9 @@ namespace Touchstone
   {
     const Declared declared = declared_entries(prm);
 
-    // The first mistake in the file is the one to report, for later ones often
-    // follow from it. Overrides, which have no line, come last.
+    // The first mistake in the file is reported, since later ones often follow from it. Overrides
+    // of the command line have line 0 and come last: line - 1 of an unsigned number makes them the
+    // largest.
     const auto order   = [](const unsigned int line) { return line - 1U; };
     auto       unknown = text.sections().end();
     for (auto section = text.sections().begin(); section != text.sections().end(); ++section)
@@ -251,6 +280,8 @@ namespace Touchstone
     if (unknown != text.sections().end())
       throw_unknown_section(declared, unknown->first, text.location(unknown->second));
 
+    // Last of all, since a misspelt key also leaves the right one unset, and the misspelling is the
+    // better message.
     for (const std::string &name : prm.get_entries_wrongly_not_set())
       {
         std::vector<std::string> path = split_path(demangle(name));

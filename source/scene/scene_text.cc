@@ -7,13 +7,20 @@
 
 #include <sstream>
 
+/**
+ * @file
+ * The format of scene files: deal.II's .prm, parsed here once more. ParameterHandler reads such
+ * files as well, but not before all entries are declared, and which entries there are depends on
+ * the file. The parser keeps the line of every entry for messages.
+ */
+
 namespace Touchstone
 {
   using dealii::Utilities::trim;
 
   namespace
   {
-    /** Names are compared with single blanks, as deal.II does it. */
+    /** Several blanks between words count as one, as in ParameterHandler. */
     std::string
     single_blanks(const std::string &text)
     {
@@ -24,7 +31,10 @@ namespace Touchstone
       return result;
     }
 
-    /** Cut @p word off the beginning of @p line, if it stands there. */
+    /**
+     * Remove the keyword @p word, in upper or lower case, from the beginning of @p line. @return
+     * whether it was there.
+     */
     bool
     take_word(std::string &line, const std::string &word)
     {
@@ -104,6 +114,7 @@ namespace Touchstone
   const SceneEntry *
   SceneText::find(const std::string &section, const std::string &key) const
   {
+    // From the back: overrides follow the file and win.
     for (auto entry = all_entries.rbegin(); entry != all_entries.rend(); ++entry)
       if (entry->section == section && entry->key == key)
         return &*entry;
@@ -134,6 +145,7 @@ namespace Touchstone
   void
   SceneText::note_section(const std::string &section, const unsigned int line)
   {
+    // All outer sections of the path exist as well. emplace() keeps the first line of each.
     for (std::size_t end = section.find('/');; end = section.find('/', end + 1))
       {
         all_sections.emplace(section.substr(0, end), line);
@@ -157,8 +169,10 @@ namespace Touchstone
         if (number == 1 && physical.compare(0, 3, "\xEF\xBB\xBF") == 0)
           physical.erase(0, 3); // the mark with which some editors begin UTF-8
         if (line.empty())
+          // The line on which a (continued) entry starts.
           first = number;
-        // A comment ends where its line ends, also if that line is continued.
+        // A comment ends with its physical line, even if a backslash precedes the line break. A
+        // continued line has the number of its first part in messages.
         physical           = trim(physical.substr(0, physical.find('#')));
         const bool goes_on = !physical.empty() && physical.back() == '\\';
         if (goes_on)
@@ -226,13 +240,15 @@ namespace Touchstone
     else if (take_word(rest, "set"))
       {
         const std::size_t equals = rest.find('=');
-        const std::string key    = single_blanks(rest.substr(0, equals));
+        // Only the first '=' separates: values are formulas and may contain comparisons.
+        const std::string key = single_blanks(rest.substr(0, equals));
         if (equals == std::string::npos || key.empty())
           throw InputError(section,
                            "",
                            line,
                            "this line cannot be read (" + location(number) + ")",
                            "write 'set KEY = VALUE'");
+        // Two values for one key in a file are an oversight; only the command line may override.
         if (const SceneEntry *other = find(section, key))
           throw InputError(section,
                            key,
@@ -264,6 +280,7 @@ namespace Touchstone
   {
     const std::size_t        equals = text.find('=');
     std::vector<std::string> path   = split_path(text.substr(0, equals));
+    // The path ends at the first '=', so values may contain further ones.
     bool is_bad = equals == std::string::npos || path.empty() || text[equals - 1] == '/';
     for (std::string &part : path)
       {
@@ -289,6 +306,7 @@ namespace Touchstone
     path.pop_back();
     const std::string section = join_path(path);
     if (!section.empty())
+      // Overrides have line 0: location() then says "command line".
       note_section(section, 0);
     all_entries.push_back({section, key, trim(text.substr(equals + 1)), 0});
   }

@@ -23,6 +23,7 @@ namespace Touchstone
       explicit BarImpact(const Scene &scene)
         : pair(reference_pair(scene))
       {
+        // Speeds are those along x, with their signs; only their difference matters for the stress.
         ReferenceValues values(scene.reference.values);
         length       = values.positive_number("length");
         area         = values.positive_number("area");
@@ -42,12 +43,16 @@ namespace Touchstone
         master                                  = parameters.master_body;
         name                                    = parameters.name;
         const MaterialParameters &material      = scene.bodies[scene.body_index(slave)].material;
+        // With Poisson's ratio 0 the three-dimensional bars follow the one-dimensional wave
+        // equation exactly.
         if (material.poisson_ratio != 0.)
           throw InputError("Body " + slave + "/Material",
                            "Poisson ratio",
                            std::to_string(material.poisson_ratio),
                            "the exact solution has no lateral contraction",
                            "set it to 0");
+        // Wave speed c = sqrt(E / rho). Each bar takes half of the relative speed: stress rho c v /
+        // 2; the bars part when the waves come back from the free ends, after 2 L / c.
         const double wave = std::sqrt(material.young_modulus / material.density);
         stress            = 0.5 * material.density * wave * std::abs(slave_speed - master_speed);
         duration          = 2. * length / wave;
@@ -61,6 +66,8 @@ namespace Touchstone
         const Energies       &energies = input.motion->energies;
         const double          time     = impact.end - impact.begin;
         const double          speed    = std::abs(slave_speed - master_speed);
+        // Mean stress as impulse over area and duration: insensitive to oscillations of the contact
+        // force, which the overshoot measures.
         result.add("contact_stress",
                    "contact stress, mean over time",
                    time > 0. ? impact.impulse.norm() / (area * time) : 0.,
@@ -70,6 +77,7 @@ namespace Touchstone
                    "contact stress, largest over time",
                    impact.peak_force / area,
                    stress);
+        // Equal bars exchange their velocities. Motion across the axis counts as an error, too.
         const auto velocity_error = [&](const std::string &body, const double expected) {
           dealii::Tensor<1, dim> v        = input.motion->velocities.at(body);
           const double           sideways = std::hypot(v[1], v[2]);
@@ -85,6 +93,7 @@ namespace Touchstone
                    "energy of the bars after the impact",
                    energies.present(),
                    energies.initial);
+        // Chatter: contact that opens more than once.
         result.add("openings", "openings of the contact but one", impact.openings - 1.);
         return result;
       }

@@ -10,6 +10,14 @@
 #include <cmath>
 #include <cstdio>
 
+/**
+ * @file
+ * Partial slip of two cylinders (Cattaneo 1938, Mindlin 1949; Johnson, Contact Mechanics, chapter
+ * 7, doc/theory.md reference 14). All forces are per length along the axes. The exact solution is
+ * evaluated at the forces that were computed, so that errors of the profile are not mixed with
+ * those of the load.
+ */
+
 namespace Touchstone
 {
   namespace
@@ -23,7 +31,10 @@ namespace Touchstone
       "'peak tangential force' (its largest value before, if it has fallen since), 'centre x' "
       "(0).");
 
-    /** sqrt(1 - x^2/a^2), zero outside of the strip. */
+    /**
+     * The half ellipse sqrt(1 - x^2/a^2), zero outside |x| < a: pressure and shear traction are
+     * sums of such.
+     */
     double
     half_ellipse(const double x, const double a)
     {
@@ -32,7 +43,10 @@ namespace Touchstone
 
 
 
-    /** Relative to @p size, which is no number if there is nothing to compare. */
+    /**
+     * Relative L2 error from the squares of error and size; NaN if there is nothing to compare,
+     * e.g. no tangential force.
+     */
     double
     relative(const double error_squared, const double size_squared)
     {
@@ -71,6 +85,7 @@ namespace Touchstone
   double
   CattaneoMindlin::half_width(const double normal) const
   {
+    // Hertz's line contact, a^2 = 4 P R / (pi E*).
     return std::sqrt(4. * normal * radius / (dealii::numbers::PI * effective_modulus));
   }
 
@@ -79,6 +94,7 @@ namespace Touchstone
   double
   CattaneoMindlin::peak_pressure(const double normal) const
   {
+    // p_0 = 2 P / (pi a).
     return normal > 0. ? 2. * normal / (dealii::numbers::PI * half_width(normal)) : 0.;
   }
 
@@ -90,6 +106,8 @@ namespace Touchstone
                                     const double peak) const
   {
     // Of first loading, Q* - Q = 0, the formula is that of the peak itself.
+    // First loading: c/a = sqrt(1 - Q/(mu P)). Unloading from the peak Q*: the zone of reverse slip
+    // grows from the edge as for a load of half the drop, c'/a = sqrt(1 - (Q* - Q)/(2 mu P)).
     const double drop = std::abs(peak - tangential), limit = friction * normal;
     const double fraction = drop == 0. ? std::abs(peak) / limit : drop / (2. * limit);
     return half_width(normal) * std::sqrt(1. - fraction);
@@ -103,6 +121,9 @@ namespace Touchstone
                                   const double tangential,
                                   const double peak) const
   {
+    // Shear traction of first loading: full slip, q = mu p, over the width a, less the same ellipse
+    // over the stick zone c. Unloading adds, with opposite sign and twice the coefficient, that of
+    // the reverse slip.
     const double a    = half_width(normal);
     const auto   from = [&](const double c) {
       return friction * peak_pressure(normal) *
@@ -119,6 +140,7 @@ namespace Touchstone
   ReferenceComparison
   CattaneoMindlin::compare(const ReferenceInput &input) const
   {
+    // Resultant from nodal tractions times areas, over all ranks.
     const std::vector<ContactPoint> points = points_of_pair(input.points, pair);
     dealii::Tensor<1, dim>          total;
     for (const ContactPoint &point : points)
@@ -132,7 +154,8 @@ namespace Touchstone
     const double a = half_width(normal), p0 = peak_pressure(normal);
     const double c      = stick_half_width(normal, tangential, peak);
     const double c_peak = stick_half_width(normal, peak, peak);
-    const double sign   = std::copysign(1., peak);
+    // Everything below is for a positive peak.
+    const double sign = std::copysign(1., peak);
 
     EdgeFit contact_edge, stick_edge;
     double  p_error = 0., p_size = 0., q_error = 0., q_size = 0., active = 0., stick = 0.;
@@ -143,19 +166,26 @@ namespace Touchstone
         const double q       = -sign * point.traction[0];
         const double p_exact = p0 * half_ellipse(x, a);
         const double q_exact = sign * shear_traction(x, normal, tangential, peak);
+        // Squares are weighted with tributary areas, an approximation of the L2 norm over the
+        // contact surface.
         p_error += point.area * (p - p_exact) * (p - p_exact);
         p_size += point.area * p_exact * p_exact;
         q_error += point.area * (q - q_exact) * (q - q_exact);
         q_size += point.area * q_exact * q_exact;
         if (point.status < ContactStatus::slip)
           continue;
+        // Areas of contact and stick: the fallback for edges that cannot be fitted, as area over
+        // twice the depth.
         active += point.area;
+        // Nodes beside the edge are left out of the fit: there an element covers both contact and
+        // gap, and its pressure is not that of the half ellipse.
         if (std::abs(x) < 0.98 * a)
           contact_edge.add(point.area, x, p);
         if (point.status != ContactStatus::stick)
           continue;
         stick += point.area;
-        // What the traction lacks to slip is half an ellipse over the strip.
+        // What the traction lacks to the limit of friction is half an ellipse over the stick zone:
+        // the same fit of squares as for the pressure (EdgeFit) gives the edge of stick.
         stick_edge.add(point.area,
                        x,
                        tangential == peak

@@ -10,6 +10,13 @@
 #include <algorithm>
 #include <cmath>
 
+/**
+ * @file
+ * Comparison with formulas of the scene, e.g. manufactured solutions (doc/theory.md 10, equation
+ * (26)): relative L2 errors of displacement and contact pressure, from which the tests compute
+ * rates of convergence.
+ */
+
 namespace Touchstone
 {
   namespace
@@ -62,7 +69,9 @@ namespace Touchstone
   std::array<double, 2>
   FormulaSolution::displacement_integrals(const ReferenceInput &input) const
   {
-    const Solid                             &solid = *input.solid;
+    const Solid &solid = *input.solid;
+    // Two points per direction more than the stiffness has, degree + 1: at those of the stiffness
+    // the error can be superconvergent and look smaller than it is.
     const dealii::QGauss<dim>                quadrature(solid.fe.degree + 3);
     dealii::FEValues<dim>                    fe_values(solid.mapping,
                                     solid.fe,
@@ -99,6 +108,7 @@ namespace Touchstone
     std::array<double, 2> sums{};
     for (const ContactPoint &point : points_of_pair(input.points, pair))
       {
+        // Pressures are nodal values with tributary areas as weights.
         const double exact = pressure->value(point.reference_position, end_time);
         const double error = point.pressure - exact;
         sums[0] += point.area * error * error;
@@ -116,7 +126,7 @@ namespace Touchstone
                                 const std::array<double, 2> &integrals,
                                 const MPI_Comm               communicator) const
   {
-    // All ranks together: a formula that is not finite on one would stop that one alone.
+    // Collective: a formula that is not finite on one rank would otherwise stop that rank alone.
     formulas.check(communicator);
     const double error = dealii::Utilities::MPI::sum(integrals[0], communicator),
                  exact = dealii::Utilities::MPI::sum(integrals[1], communicator);

@@ -10,6 +10,13 @@
 #include <cmath>
 #include <cstdio>
 
+/**
+ * @file
+ * Hertz contact of spheres (doc/theory.md 10, reference 14): a = (3 P R / 4 E*)^(1/3), p_0 = 3 P /
+ * (2 pi a^2), at the computed force P. A quarter model has a quarter of the force: "symmetry
+ * factor".
+ */
+
 namespace Touchstone
 {
   namespace
@@ -36,6 +43,7 @@ namespace Touchstone
     , symmetry_factor(values.number("symmetry factor", 1.))
     , pair(pair)
   {
+    // 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2; a rigid body has no second term.
     double compliance =
       (1. - std::pow(values.number("poisson ratio"), 2)) / values.positive_number("young modulus");
     const double second_nu = values.number("second poisson ratio", 0.);
@@ -46,6 +54,7 @@ namespace Touchstone
                   "Give \"second young modulus\" too, or neither for a rigid body.");
     effective_modulus = 1. / compliance;
 
+    // Position of the first point of contact.
     const char *const names[dim] = {"centre x", "centre y", "centre z"};
     for (unsigned int d = 0; d < dim; ++d)
       centre[d] = values.number(names[d], 0.);
@@ -60,6 +69,7 @@ namespace Touchstone
   double
   Hertz::contact_radius(const double force) const
   {
+    // a = (3 P R / 4 E*)^(1/3).
     return std::cbrt(3. * force * radius / (4. * effective_modulus));
   }
 
@@ -78,7 +88,8 @@ namespace Touchstone
   Hertz::distance(const ContactPoint &point, const unsigned int axis) const
   {
     dealii::Tensor<1, dim> r = dealii::Tensor<1, dim>(point.reference_position) - centre;
-    r[axis]                  = 0.;
+    // Distance from the axis of the load.
+    r[axis] = 0.;
     return r.norm();
   }
 
@@ -97,6 +108,8 @@ namespace Touchstone
         total += point.area * point.traction;
         highest = std::max(highest, point.pressure);
       }
+    // The axis of contact is that of the largest component of the force: the scene need not name
+    // it.
     total             = dealii::Utilities::MPI::sum(total, input.communicator);
     highest           = dealii::Utilities::MPI::max(highest, input.communicator);
     unsigned int axis = 0;
@@ -115,11 +128,15 @@ namespace Touchstone
         const double r     = distance(point, axis);
         const double p     = point.pressure;
         const double exact = r < a ? peak * std::sqrt(1. - (r / a) * (r / a)) : 0.;
+        // All nodes count, those outside the exact contact with zero pressure: contact that spreads
+        // too far is an error as well.
         error2 += point.area * (p - exact) * (p - exact);
         exact2 += point.area * exact * exact;
         if (point.status < ContactStatus::slip)
           continue;
         active_area += point.area;
+        // Nodes beside the edge are left out of the fit: their pressures are averages over contact
+        // and gap.
         if (r < 0.98 * a)
           fit.add(point.area, r, p);
       }

@@ -7,6 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
+/**
+ * @file
+ * Hill's thick tube (doc/theory.md 10, equations (24) and (25)), incompressible and perfectly
+ * plastic, optionally around an elastic core through which the pressure acts. All functions take
+ * the pressure p at the interface; where the pressure inside the core is given, p follows from
+ * equation (25).
+ */
+
 namespace Touchstone
 {
   namespace
@@ -21,7 +29,10 @@ namespace Touchstone
       "without any the mean contact pressure counts; 'unloaded' (1: the pressure has gone since "
       "the peak).");
 
-    /** The x between @p low and @p high where the growing function @p f is zero. */
+    /**
+     * Zero of the growing function @p f in [low, high], by bisection: robust, and 100 halvings
+     * reach round-off from any interval.
+     */
     template <class Function>
     double
     root(double low, double high, const Function &f)
@@ -57,12 +68,15 @@ namespace Touchstone
   {
     if (!(inner < outer))
       values.fail("\"outer radius\" is not larger than \"inner radius\".", "Correct the radii.");
-    // Hill's solution has nu = 1/2.
+    // Equations (24) hold for nu = 1/2; elements cannot take it exactly with a displacement
+    // formulation, so values near it are allowed.
     const double nu = values.number("poisson ratio");
     if (!(nu >= 0.49 && nu <= 0.5))
       values.fail("The solution is that of incompressible material.",
                   "Give a \"poisson ratio\" from 0.49 to 0.5, in the material too.");
 
+    // Pressure at which the plastic zone reaches the outer surface, c = b: p = 2 k ln(b/a). Beyond
+    // it there is no equilibrium.
     const double collapse = 2. * shear_yield * std::log(outer / inner);
     if (has_core)
       {
@@ -78,6 +92,7 @@ namespace Touchstone
                       "Correct the radii.");
         if (!(-1. < core_nu && core_nu <= 0.5))
           values.fail("\"core poisson ratio\" must lie between -1 and 0.5.", "Correct the number.");
+        // The relation between both pressures grows monotonically up to collapse, hence bisection.
         if (applied > core_pressure(collapse))
           values.fail("\"core peak pressure\" makes the whole tube plastic.", "Make it smaller.");
         known_peak = root(0., collapse, [&](const double p) { return core_pressure(p) - applied; });
@@ -89,6 +104,7 @@ namespace Touchstone
     if (unloaded && std::isnan(known_peak))
       values.fail("\"unloaded\" needs a peak that it is unloaded from.",
                   "Give \"peak pressure\" or the values of the core.");
+    // Elastic unloading is valid up to d = 2 k (1 - a^2/b^2).
     if (unloaded && known_peak > 2. * shear_yield * (1. - std::pow(inner / outer, 2)))
       values.fail(
         "From such a peak the tube would yield again when it is unloaded.",
@@ -100,6 +116,8 @@ namespace Touchstone
   double
   HillTube::plastic_radius(const double pressure) const
   {
+    // Equation (24): p/k = 1 - c^2/b^2 + 2 ln(c/a), solved for c. A negative excess at c = a means
+    // that the tube has yielded.
     const auto excess = [&](const double c) {
       return 1. - c * c / (outer * outer) + 2. * std::log(c / inner) - pressure / shear_yield;
     };
@@ -111,6 +129,7 @@ namespace Touchstone
   double
   HillTube::elastic_amplitude(const double pressure) const
   {
+    // m of the elastic tube, in sigma = m (1/b^2 -+ 1/r^2).
     return pressure / (1. / (inner * inner) - 1. / (outer * outer));
   }
 
@@ -120,6 +139,7 @@ namespace Touchstone
   HillTube::amplitude(const double pressure) const
   {
     const double c = plastic_radius(pressure);
+    // m = k c^2 while a part of the tube has yielded, otherwise that of Lame's elastic tube.
     return c > inner ? shear_yield * c * c : elastic_amplitude(pressure);
   }
 
@@ -128,6 +148,8 @@ namespace Touchstone
   double
   HillTube::core_pressure(const double pressure) const
   {
+    // Equation (25), solved for the pressure inside the core, with u_r(a) = m / (2 G a) of the
+    // tube.
     const double a2 = inner * inner, i2 = core_inner * core_inner;
     const double u = amplitude(pressure) / (2. * shear_modulus * inner);
     return (u * core_young * (a2 - i2) / ((1. + core_nu) * inner) +
@@ -140,6 +162,7 @@ namespace Touchstone
   HillTube::Stress
   HillTube::stress(const double r, const double peak, const double pressure) const
   {
+    // Stresses of Lame's solution for the amplitude m.
     const auto elastic = [&](const double m) {
       return std::make_pair(m * (1. / (outer * outer) - 1. / (r * r)),
                             m * (1. / (outer * outer) + 1. / (r * r)));
@@ -151,6 +174,7 @@ namespace Touchstone
         radial = shear_yield * (c * c / (outer * outer) - 1. - 2. * std::log(c / r));
         hoop   = radial + 2. * shear_yield;
       }
+    // Unloading is elastic everywhere: Lame's stress of the change of pressure is subtracted.
     const auto [radial_change, hoop_change] = elastic(elastic_amplitude(peak - pressure));
     radial -= radial_change;
     hoop -= hoop_change;
@@ -169,15 +193,18 @@ namespace Touchstone
           force += point.pressure * point.area;
           area += point.area;
         }
-    force               = dealii::Utilities::MPI::sum(force, input.communicator);
-    area                = dealii::Utilities::MPI::sum(area, input.communicator);
+    force = dealii::Utilities::MPI::sum(force, input.communicator);
+    area  = dealii::Utilities::MPI::sum(area, input.communicator);
+    // Without a prescribed peak the exact solution is that of the computed mean contact pressure,
+    // which itself is then not compared.
     const double mean   = area > 0. ? force / area : 0.;
     const double peak   = std::isnan(known_peak) ? mean : known_peak;
     const double now    = unloaded ? 0. : peak;
     const double change = elastic_amplitude(peak - now);
 
-    // In the elastic zone (sigma_theta - sigma_r) r^2/2 is the same everywhere: m, less
-    // what unloading has taken away.
+    // In the elastic zone m = (sigma_theta - sigma_r) r^2 / 2 is the same at all points (less what
+    // unloading has taken away), and c = sqrt(m / k): the radius of the plastic zone is obtained
+    // from stresses, not by counting plastic cells, which would resolve it to a cell only.
     enum
     {
       error_squared,
@@ -193,8 +220,10 @@ namespace Touchstone
           const dealii::SymmetricTensor<2, dim> &computed,
           const double                           volume) {
         const double r = std::hypot(x[0], x[1]);
+        // Points of the core, and of facets that lie outside the exact radii.
         if (r < inner || r > outer)
           return;
+        // Radial and circumferential directions at the point.
         const dealii::Tensor<1, dim> e_r({x[0] / r, x[1] / r, 0.});
         const dealii::Tensor<1, dim> e_t({-x[1] / r, x[0] / r, 0.});
         const double                 radial = e_r * (computed * e_r);
@@ -205,7 +234,7 @@ namespace Touchstone
                                          square(computed[2][2] - exact.axial));
         sums[size_squared] +=
           volume * (square(exact.radial) + square(exact.hoop) + square(exact.axial));
-        // Points that were close to yielding do not count.
+        // Points above 95 % of the yield limit are left out: the transition is smeared over a cell.
         const double m = (hoop - radial) * r * r / 2. + change;
         if (m < 0.95 * shear_yield * r * r)
           {

@@ -8,6 +8,13 @@
 #include <cmath>
 #include <cstdio>
 
+/**
+ * @file
+ * Shrink fit of two tubes in plane strain (doc/theory.md 10, "Interference fit"). The exact
+ * solution keeps the forces of both surfaces in balance; their radii differ by the overlap, and so
+ * do the pressures. Textbooks set the pressures equal, whose value is printed for comparison.
+ */
+
 namespace Touchstone
 {
   namespace
@@ -59,6 +66,8 @@ namespace Touchstone
     if (!(skin_radius > bore_radius))
       values.fail("The tubes do not overlap.",
                   "\"inner skin radius\" must be greater than \"outer bore radius\".");
+    // Pressures refer to the reference area of the slave surface, so its radius decides which of
+    // the two exact pressures is compared.
     if (slave_radius != skin_radius && slave_radius != bore_radius)
       values.fail("\"slave radius\" is the radius of neither surface of the joint.",
                   "Give \"inner skin radius\" or \"outer bore radius\" once more.");
@@ -85,6 +94,7 @@ namespace Touchstone
   double
   InterferenceFit::pressure(const double radius) const
   {
+    // Force per angle and length q = p r is the same on both surfaces; delta = q (C_i + C_o).
     const double force_per_angle =
       (skin_radius - bore_radius) / (inner_compliance + outer_compliance);
     return force_per_angle / radius;
@@ -105,6 +115,7 @@ namespace Touchstone
   InterferenceFit::compare(const ReferenceInput &input) const
   {
     const double exact = pressure(slave_radius);
+    // u = C r p of that tube, since compliances are per radius.
     const double exact_displacement =
       exact * slave_radius * (slave_radius == skin_radius ? inner_compliance : outer_compliance);
 
@@ -116,8 +127,11 @@ namespace Touchstone
             force += point.pressure * point.area;
             area += point.area;
           }
+        // The largest deviation of a single node, which a mean would hide: faceted surfaces
+        // oscillate.
         deviation = std::max(deviation, std::abs(point.pressure - exact));
-        // Each surface gives way along the normal of the other body.
+        // The displacement of the slave surface along the master normal is positive away from the
+        // other body, for the inner and the outer tube alike.
         displacement_deviation =
           std::max(displacement_deviation,
                    std::abs(point.displacement * point.normal - exact_displacement));

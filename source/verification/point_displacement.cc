@@ -32,6 +32,7 @@ namespace Touchstone
         exact[d]               = values.number(name, 0.);
       }
     values.finish();
+    // The error is relative to the magnitude of the given displacement.
     if (exact.norm() == 0.)
       values.fail("No displacement is given, or it is zero.",
                   "Give at least one component, e.g. \"displacement z: -0.1\".");
@@ -42,6 +43,8 @@ namespace Touchstone
   ReferenceComparison
   PointDisplacement::compare(const ReferenceInput &input) const
   {
+    // The nodes of the cell serve as quadrature points, so that the displacement is evaluated at
+    // nodes without a search for the point: it is compared where the mesh has a node.
     const Solid                  &solid = *input.solid;
     const dealii::Quadrature<dim> nodes(
       dealii::FE_Q<dim>(solid.fe.degree).get_unit_support_points());
@@ -70,7 +73,8 @@ namespace Touchstone
             }
         }
 
-    // The lowest rank among those whose node is nearest tells the others.
+    // A node on the border of partitions is found by several ranks: the lowest of those with the
+    // smallest distance broadcasts its value, so that all have the same.
     const unsigned int rank = dealii::Utilities::MPI::this_mpi_process(input.communicator);
     const double       best = dealii::Utilities::MPI::min(nearest, input.communicator);
     const unsigned int root =
@@ -79,6 +83,7 @@ namespace Touchstone
     found = dealii::Utilities::MPI::broadcast(input.communicator, found, root);
 
     for (unsigned int d = 0; d < dim; ++d)
+      // Components that are not given do not count.
       if (!given[d])
         found[d] = 0.;
 

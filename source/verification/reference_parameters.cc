@@ -50,7 +50,9 @@ namespace Touchstone
       {
         const std::size_t colon = item.find(':');
         const std::string name  = dealii::Utilities::trim(item.substr(0, colon));
-        double            value = std::nan("");
+        // An item without a number stays NaN and is refused below, with the same message as one
+        // that cannot be read.
+        double value = std::nan("");
         if (colon != std::string::npos)
           try
             {

@@ -30,6 +30,7 @@ namespace Touchstone
 
 
 
+    /** Text of a relative error; NaN stands for no comparison. */
     std::string
     describe(const double error)
     {
@@ -49,7 +50,8 @@ namespace Touchstone
                            const double       computed,
                            const double       exact)
   {
-    // Nothing is relative to zero.
+    // An error relative to an exact value of zero is not defined: NaN, which prints as "nothing to
+    // compare".
     const double error = exact != 0. ? std::abs(computed - exact) / std::abs(exact) : std::nan("");
     errors[name]       = error;
 
@@ -99,6 +101,7 @@ namespace Touchstone
   {
     std::vector<ContactPoint> result;
     for (const ContactPoint &point : points)
+      // Nodes without a tributary area (beside the master surface) carry no pressure.
       if (point.pair == pair && point.area > 0.)
         result.push_back(point);
     return result;

@@ -8,6 +8,7 @@ namespace Touchstone
 {
   namespace
   {
+    /** Names with commas between them, for messages. */
     std::string
     joined(const std::set<std::string> &names)
     {
@@ -80,6 +81,8 @@ namespace Touchstone
   void
   ReferenceValues::finish() const
   {
+    // Every look-up has noted its name: a value that nobody looked up is a misspelt or superfluous
+    // one.
     for (const auto &[name, value] : values)
       if (known.count(name) == 0)
         fail("\"" + name + "\" means nothing to this reference solution.",

@@ -10,6 +10,13 @@
 #include <cmath>
 #include <limits>
 
+/**
+ * @file
+ * The patch test: bodies stacked along an axis under uniform stress, small strain. Stress,
+ * displacement and contact pressure must be exact to round-off; so largest deviations are compared
+ * instead of norms, since a single wrong node is a failure.
+ */
+
 namespace Touchstone
 {
   namespace
@@ -49,6 +56,7 @@ namespace Touchstone
 
     for (const BodyParameters &body : scene.bodies)
       {
+        // Hooke's law, solved for the strain: each body has its own.
         const double E = body.material.young_modulus, nu = body.material.poisson_ratio;
         strain.push_back(
           ((1. + nu) * stress - nu * dealii::trace(stress) * dealii::unit_symmetric_tensor<dim>()) /
@@ -61,12 +69,13 @@ namespace Touchstone
   std::vector<double>
   UniformStress::body_shifts(const ReferenceInput &input) const
   {
-    // From where along the axis does each body begin?
+    // Lowest coordinate of each body along the axis, over all ranks.
     std::vector<double> begin(strain.size(), std::numeric_limits<double>::max());
     for (const auto &cell : input.solid->dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         for (const unsigned int v : cell->vertex_indices())
           begin[cell->material_id()] = std::min(begin[cell->material_id()], cell->vertex(v)[axis]);
+    // A rank may own no cell of a body: its entry is the largest number.
     dealii::Utilities::MPI::min(begin, input.communicator, begin);
 
     std::vector<unsigned int> order(strain.size());
@@ -76,8 +85,9 @@ namespace Touchstone
       return begin[a] < begin[b];
     });
 
-    // The origin belongs to the lowest body; the others move with the surface
-    // below them.
+    // Displacements are continuous at the interfaces: u = eps_b (x - x_0) + shift_b along the axis.
+    // With eps of two bodies differing, the shift of the upper one is that of the lower one plus
+    // the difference of the strains times the distance of their interface from the origin.
     std::vector<double> shift(strain.size(), 0.);
     for (unsigned int i = 1; i < order.size(); ++i)
       {
@@ -96,7 +106,7 @@ namespace Touchstone
     const std::vector<double> shift = body_shifts(input);
     const Solid              &solid = *input.solid;
 
-    // Quadrature points at the nodes.
+    // The nodes of the cell serve as quadrature points: displacements are compared at nodes.
     const dealii::Quadrature<dim> nodes(
       dealii::FE_Q<dim>(solid.fe.degree).get_unit_support_points());
     dealii::FEValues<dim>                    fe_values(solid.mapping,
@@ -139,13 +149,15 @@ namespace Touchstone
                                      const dealii::Point<dim> &,
                                      const dealii::SymmetricTensor<2, dim> &computed,
                                      double) {
+                                   // At every quadrature point, not averaged.
                                    deviation = std::max(deviation, (computed - stress).norm());
                                  });
     result.add("stress_max_deviation",
                "stress, largest deviation",
                dealii::Utilities::MPI::max(deviation, input.communicator) / stress.norm());
 
-    // Shear leaves open how the body turns, and plastic strain is not known here.
+    // With shear the stress alone does not determine the rotation of the body, and with plastic
+    // material Hooke's law does not determine the strain: the displacement is then not compared.
     if (!input.solid->has_history() && stress[0][1] == 0. && stress[1][2] == 0. &&
         stress[0][2] == 0.)
       result.add("displacement_max",

@@ -29,7 +29,10 @@ namespace Touchstone
   class Dynamics : public TimeIntegration
   {
   public:
-    /** @param step Length of the steps asked for. Others as of make(). */
+    /**
+     * @param step Nominal length of the steps, time. Other parameters as in
+     * TimeIntegration::make().
+     */
     Dynamics(const TimeIntegrationParameters &parameters,
              double                           step,
              const Solid                     &solid,
@@ -96,9 +99,9 @@ namespace Touchstone
     /** Owned nodes without mass. */
     const std::set<Index> massless;
     const Mass            mass;
-    /** Number of the body of each unknown. */
+    /** Index of the body of each owned dof. */
     std::vector<unsigned int> body;
-    /** Rayleigh's factors by unknown, and whether there are any. */
+    /** Rayleigh's factors of each owned dof (1/time and time), and whether any is not zero. */
     Vector damping_mass, damping_stiffness;
     bool   damped = false;
     /** Stiffness of the undeformed bodies, if damping needs it beside the present one. */
@@ -117,8 +120,10 @@ namespace Touchstone
     /** Acceleration and velocity at the end of the step if it ends at @p u. */
     void
     end_of_step(const Vector &u, Vector &velocity, Vector &acceleration) const;
-    /** Lose the velocity that an impact leaves no room for; into @p energies goes the
-     * work of the impulses. */
+    /**
+     * Impact without rebound: remove from end_v and end_a what violates the velocity constraints of
+     * active contact nodes; the work of the impulses is added to @p energies.
+     */
     void
     lose_rebound(const StepForces &forces, Energies &energies);
     void
@@ -128,11 +133,16 @@ namespace Touchstone
     damping_force(const Vector &velocity, Vector &force) const;
     double
     kinetic_energy(const Vector &velocity) const;
-    /** Of each body if it had this velocity at the committed displacement. */
+    /**
+     * Momenta of each body if the nodes moved with @p velocity at the committed displacement.
+     * Collective.
+     */
     std::vector<BodyMomentum>
     momenta_of(const Vector &velocity) const;
-    /** Velocities of all bodies: along axis @p k, or for 3 and more about axis k - 3
-     * through the origin. */
+    /**
+     * Unit rigid velocity of all bodies: translation along axis @p k for k < 3, rotation about axis
+     * k - 3 through the origin otherwise.
+     */
     Vector
     rigid_motion(unsigned int k) const;
     /** Stiffness for damping. */

@@ -16,27 +16,26 @@
 namespace Touchstone
 {
   /**
-   * @brief Impact without rebound: nodes that press on each other at the end of a step
-   * lose the velocities that contact leaves no room for.
+   * @brief Impact without rebound: contact nodes that are active at the end of a step lose the
+   * velocities that violate contact.
    *
-   * The contact force that closes a gap at the end of a step turns the velocity of the
-   * node that arrives: alone it rebounds and comes back some steps later. Here
+   * The contact force that closes a gap at the end of a step reverses the velocity of the node that
+   * arrives: alone it rebounds and comes back some steps later. Here
    *
-   *   v+ = v - M^{-1} F^T p   with   B v+ = velocity of the obstacle,
+   * v+ = v - M^{-1} F^T p with B v+ = velocity of the obstacle,
    *
-   * where B are the conditions of contact and F the directions of their forces: Newton's
-   * law of impact with restitution 0, as in Moreau's time stepping (Acary 2016, Z. Angew.
-   * Math. Mech. 96). Without friction v+ is the M-orthogonal projection of v, so that
-   * kinetic energy is only lost: that of single nodes, which vanishes with the mesh size.
-   * While contact lasts there is nothing left to lose.
+   * where B are the constraints of contact and F the directions of their forces: Newton's law of
+   * impact with restitution 0, as in Moreau's time stepping (Acary 2016, Z. Angew. Math. Mech. 96).
+   * Without friction v+ is the M-orthogonal projection of v, so that kinetic energy is only lost:
+   * that of single nodes, which vanishes with the mesh size. In persistent contact v+ = v.
    */
   class Impact
   {
   public:
     /**
-     * @param constraints       Conditions of this rank's nodes, with the velocities that they
-     *                       ask for; none that supports decide. It gets the impulses.
-     * @param remove_support Takes from forces on nodes what supports carry.
+     * @param constraints Velocity constraints of this rank's nodes with their prescribed
+     * velocities; those implied by supports are omitted. Their impulses are set by stop().
+     * @param remove_support Removes from nodal forces the components that supports carry.
      * Collective.
      */
     Impact(std::vector<VelocityConstraint>     &constraints,
@@ -44,9 +43,11 @@ namespace Touchstone
            const Solid                         &solid,
            const std::function<void(Vector &)> &remove_support);
 
-    /** @brief Impulses on the nodes that were taken, along normals and across them, force
-     * times time, and what obstacles did not do of the work that their forces of the
-     * step stand for, force times length. */
+    /**
+     * @brief Impulses on the nodes that have been removed, along the normals and tangential to
+     * them, force times time; and the impulses times the velocities of the obstacles, by which the
+     * work of obstacles over the step is too large, force times length.
+     */
     struct Loss
     {
       Vector normal, tangential;
@@ -54,8 +55,9 @@ namespace Touchstone
     };
 
     /**
-     * @brief Take from @p v what the conditions leave no room for.
-     * @param moving They ask for their velocities; else, of accelerations, for none.
+     * @brief Remove from @p v the part that violates the constraints.
+     * @param moving @p v is a velocity, to be that of the obstacles; otherwise an acceleration, to
+     * be zero relative to them.
      * @throws LinearSolverFailure Collective.
      */
     Loss
@@ -66,7 +68,7 @@ namespace Touchstone
     const Solid                     &solid;
     std::function<void(Vector &)>    remove_support;
     std::vector<VelocityConstraint> &constraints;
-    /** Numbers of this rank's conditions. */
+    /** Global indices of this rank's constraints. */
     dealii::IndexSet rows;
     /** B and F. */
     std::unique_ptr<Epetra_CrsMatrix> motion, force;
@@ -74,7 +76,9 @@ namespace Touchstone
     /** One over the masses of the nodes; 0 where there is none. */
     Vector inverse_mass;
 
-    /** The velocities that impulses on the nodes lead to. */
+    /**
+     * Replace impulses on the nodes by the change of velocity that they cause, M^{-1} @p impulse.
+     */
     void
     respond(Vector &impulse) const;
   };

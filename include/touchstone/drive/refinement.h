@@ -47,9 +47,9 @@ namespace Touchstone
     mark(const Step &problem, double time);
 
     /**
-     * @brief Change the mesh as marked, share it out to the ranks, and begin the solid
-     * anew: nothing that refers to its unknowns may live on.
-     * @param fields Over the unknowns before. @return The same over those after.
+     * @brief Change the mesh as marked, distribute it over the ranks, and reinitialise the solid:
+     * objects that refer to its dofs are invalid afterwards.
+     * @param fields Over the dofs before. @return The same fields over the dofs after. Collective.
      */
     std::vector<Vector>
     execute(const std::vector<Vector> &fields);

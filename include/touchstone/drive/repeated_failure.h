@@ -19,23 +19,26 @@ namespace Touchstone
   class RepeatedFailure
   {
   public:
-    /** @param parameters A residual that they take for met does not tell attempts apart. */
+    /**
+     * @param parameters Their tolerances: residuals and gaps that meet them do not distinguish
+     * attempts.
+     */
     explicit RepeatedFailure(const NewtonParameters &parameters)
       : parameters(parameters)
     {
     }
 
-    /** @brief A step has converged: what failed before does not count any more. */
+    /** @brief A step has converged: forget the failure of earlier attempts. */
     void
     forget();
 
     /**
      * @brief A step has failed.
      * @param failure The reason.
-     * @param last    State of the last Newton iteration; a residual that is no number for none.
-     * @param place   Where it failed, the same text for the same place.
-     * @return whether the attempt before failed with the same reason, at the same place,
-     * as far from a solution, and with as many active and changing contact rows.
+     * @param last State of the last Newton iteration; its residual is NaN if there was none.
+     * @param place Text that identifies the position of the failure in the model.
+     * @return whether the previous attempt failed with the same reason, at the same position,
+     * equally far from a solution, and with as many active and changing contact rows.
      */
     bool
     add(const NonConvergence &failure, const NewtonState &last, const std::string &place);

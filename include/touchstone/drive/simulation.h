@@ -59,7 +59,7 @@ namespace Touchstone
       observers.push_back(std::move(observer));
     }
 
-    /** @brief Comparison with the reference solution, for people. */
+    /** @brief Comparison with the reference solution as text. */
     const std::vector<std::string> &
     comparison() const
     {
@@ -112,8 +112,7 @@ namespace Touchstone
     };
     dealii::Timer since_checkpoint;
     unsigned int  last_checkpoint = 0;
-    /** Look for the checkpoint to go on from, if that is asked for.
-     * @throws InputError if there is none. */
+    /** Find the checkpoint to resume from, if @p resume. @throws InputError if there is none. */
     static FoundCheckpoint
     find_origin(const Scene &scene, bool resume, MPI_Comm communicator);
     /** Whether the scene asks for a checkpoint after the step that has ended. */
@@ -121,7 +120,7 @@ namespace Touchstone
     checkpoint_due(const Position &position) const;
     void
     write_checkpoint(const Position &position);
-    /** After the last step, unless that has been done. */
+    /** Write a checkpoint after the last step, unless there is one. */
     void
     write_last_checkpoint(const Position &position);
     /** @throws InputError if they have changed since the checkpoint was written. */
@@ -153,10 +152,15 @@ namespace Touchstone
     write_vtu(unsigned int step, double time);
     void
     load_stepping();
-    /** A step cannot be made: leave the last committed state on disk. */
+    /**
+     * A step cannot be solved: write the last committed state, and a checkpoint if these are
+     * active.
+     */
     void
     stop(const std::string &reason, const Position &position);
-    /** What a failure has to say, and of whether cuts can help. */
+    /**
+     * The message of a failure, with the position of the model and whether smaller steps can help.
+     */
     std::string
     describe(const NonConvergence &failure, bool repeated) const;
     /** Warn of pairs that had contact and have none at the end. */

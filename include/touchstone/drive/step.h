@@ -39,7 +39,7 @@ namespace Touchstone
     std::function<std::vector<Reaction>()> reactions;
   };
 
-  /** @brief What is to be said of a step that has been solved. */
+  /** @brief Remarks and warnings on a step that has been solved. */
   struct StepFindings
   {
     /** What happened that the user should know: rows dropped, bodies stabilised; empty if
@@ -81,12 +81,14 @@ namespace Touchstone
   public:
     virtual ~Step() = default;
 
-    /** @brief The kind of step that the scene asks for. Collective. */
+    /** @brief The kind of step that the scene defines. Collective. */
     static std::unique_ptr<Step>
     make(const Scene &scene, const Forest &forest, Solid &solid, dealii::TimerOutput &timer);
 
-    /** @brief Look at the bodies as they are placed. @return lines on gaps and
-     * overlaps of the contact pairs. @throws InputError if nothing holds a body. */
+    /**
+     * @brief Initialise the state at time 0 and evaluate the initial contact. @return lines on gaps
+     * and overlaps of the contact pairs. @throws InputError if a body has no support.
+     */
     virtual std::vector<std::string>
     start() = 0;
 
@@ -96,11 +98,11 @@ namespace Touchstone
     solve(double t, const NewtonParameters &parameters, const Newton::Observer &observer) = 0;
 
     /**
-     * @brief What is to be said of the present state. Collective.
+     * @brief Remarks and warnings on the present state. Collective.
      * @throws LostContact if a body that nothing but contact holds has moved much farther than
-     * anything that could have pushed it: Newton has thrown it off.
-     * @throws UnresolvedContactFailure for contact that rows of slave nodes and master faces
-     * cannot describe: its forces would be wrong.
+     * anything that could have pushed it: Newton's method has thrown it off.
+     * @throws UnresolvedContactFailure for contact that rows of slave nodes and master faces cannot
+     * describe: its forces would be wrong.
      */
     virtual StepFindings
     findings() const = 0;

@@ -25,18 +25,18 @@ namespace Touchstone
     const Vector *external = nullptr, *internal = nullptr;
     /** Of contact, along the normals and across them. */
     const Vector *normal = nullptr, *tangential = nullptr;
-    /** What supports add for the nodes to move as they do. */
+    /** Reactions of supports. */
     const Vector *support = nullptr;
     /** For impacts without rebound, else null; gets the impulses. */
     std::vector<VelocityConstraint> *velocity_constraints = nullptr;
-    /** Takes from forces on nodes what supports carry. */
+    /** Removes from nodal forces the components that supports carry. */
     std::function<void(Vector &)> remove_support;
     /** Work that moving obstacles do by the normal and by the tangential contact forces,
      * force times length. */
     double obstacles_normal = 0., obstacles_tangential = 0.;
   };
 
-  /** @brief What impulses change of a body as a whole. */
+  /** @brief Mass and momenta of a body. */
   struct BodyMomentum
   {
     /** Of the body, mass. */
@@ -46,12 +46,12 @@ namespace Touchstone
   };
 
   /**
-   * @brief How a step in time leads from one state to the next: what stands on the
-   * nodes beside contact, and its derivative.
+   * @brief Time integration of one step: the nodal forces without contact (loads, stresses,
+   * inertia, damping) and their derivative.
    *
-   * The unknown of a step is the displacement at its end. A scheme says with which
-   * forces of both ends of the step, and with which inertia, it must be in balance with
-   * the contact forces, which are those at the end of the step.
+   * The unknown of a step is the displacement at its end. A scheme defines at which times within
+   * the step loads, stresses and inertia enter the balance; contact forces are those of the end of
+   * the step.
    */
   class TimeIntegration
   {
@@ -62,8 +62,10 @@ namespace Touchstone
     virtual Vector
     initial_displacement() const = 0;
 
-    /** @brief What is known of the supports at time 0: sets the components that they
-     * prescribe, of a velocity to their own and of a force to zero. */
+    /**
+     * @brief Operations with the supports at time 0: set the prescribed components of a velocity,
+     * and set those of a force to zero.
+     */
     struct Supports
     {
       std::function<void(Vector &)> set_velocity, remove_force;
@@ -90,8 +92,9 @@ namespace Touchstone
     virtual double
     weight() const = 0;
 
-    /** @brief There is inertia: it holds bodies that nothing else does, and energies
-     * need forces. */
+    /**
+     * @brief Whether there is inertia: then bodies need no support, and energies need the forces.
+     */
     virtual bool
     dynamic() const = 0;
 
@@ -102,8 +105,10 @@ namespace Touchstone
     virtual double
     round_off(const Vector &u) const = 0;
 
-    /** @brief Work out where the step ends if it ends at @p u. @return the energies
-     * that it would leave, force times length. Collective. @throws LinearSolverFailure */
+    /**
+     * @brief Compute velocity, acceleration and energies at the end of the step if its displacement
+     * is @p u. @return the energies, force times length. Collective. @throws LinearSolverFailure
+     */
     virtual Energies
     end_step(const Vector &u, const StepForces &forces) = 0;
 
@@ -122,21 +127,24 @@ namespace Touchstone
       return committed;
     }
 
-    /** @brief What a scheme knows of the committed state beside the displacement, by
-     * name: to be saved for a restart. None has ghosts. */
+    /**
+     * @brief Vectors of the committed state other than the displacement, by name, for checkpoints.
+     * None has ghosts.
+     */
     virtual std::vector<std::pair<std::string, Vector *>>
     state() = 0;
 
-    /** @brief What changes in time beside the displacement, to be carried to another
-     * mesh: velocity and acceleration. */
+    /** @brief Velocity and acceleration, to be transferred to another mesh; empty in statics. */
     virtual std::vector<const Vector *>
     rates() const
     {
       return {};
     }
 
-    /** @brief Go on from rates() on another mesh, the forces there at the committed state,
-     * and the momenta() before: bodies that nothing holds keep theirs. Collective. */
+    /**
+     * @brief Continue on another mesh from the transferred rates(), the forces there at the
+     * committed state, and the momenta() before, which bodies without supports keep. Collective.
+     */
     virtual void
     adopt(const std::vector<Vector> & /*rates*/,
           const StepForces & /*forces*/,
@@ -144,11 +152,11 @@ namespace Touchstone
     {
     }
 
-    /** @brief Set time and energies of the committed state, as state() cannot. */
+    /** @brief Set time and energies of the committed state, which are not part of state(). */
     void
     resume(double time, const Energies &energies);
 
-    /** @brief Of each body at the committed state; empty in statics. Collective. */
+    /** @brief Momenta of each body at the committed state; empty in statics. Collective. */
     virtual std::vector<BodyMomentum>
     momenta() const
     {
@@ -156,12 +164,11 @@ namespace Touchstone
     }
 
     /**
-     * @brief The scheme that the parameters ask for.
-     * @param step        Length of the steps asked for, time.
-     * @param slaves      First unknowns of the owned slave nodes that can part from
-     *                    their master.
-     * @param committed_u The displacement that a step begins with, of which this
-     *                    keeps no copy: it must be the old one until commit() returns.
+     * @brief The scheme that the parameters choose.
+     * @param step Nominal length of the steps, time.
+     * @param slaves First dofs of the owned slave nodes that are not tied to their master.
+     * @param committed_u The displacement at the beginning of a step, kept by reference: it must
+     * not change before commit() has returned.
      * Collective.
      */
     static std::unique_ptr<TimeIntegration>

@@ -70,7 +70,7 @@ namespace Touchstone
     /** Energy that contact may take or give in a step without the step being
      * shortened, relative to the energy in the bodies; no unit. */
     double impact_tolerance = 1e-4;
-    /** Shortest step of an adaptation, relative to the steps asked for; no unit. */
+    /** Shortest step that ends at an impact, relative to the nominal step size; no unit. */
     double smallest_step = 1e-3;
     /** Unexplained gain of energy that ends the run, relative to the largest energy so
      * far; no unit. */
@@ -82,12 +82,17 @@ namespace Touchstone
       return scheme != Scheme::statics;
     }
 
-    /** @brief Nodes that meet do not rebound: "automatic" says so where the scheme does not
-     * conserve energy anyway. */
+    /**
+     * @brief Whether impacts are without rebound: "automatic" chooses that for schemes that do not
+     * conserve energy.
+     */
     bool
     plastic_impacts() const;
 
-    /** @brief Steps are to end where bodies meet: "automatic" says so where rebound is. */
+    /**
+     * @brief Whether steps are shortened to end where bodies meet: "automatic" chooses that where
+     * impacts are elastic.
+     */
     bool
     adapts_to_impacts() const
     {

@@ -14,8 +14,9 @@
 
 namespace Touchstone
 {
-  /** @brief What became of bodies with inertia: how they met and parted, how fast they
-   * are, and where the energy went. */
+  /**
+   * @brief Results of bodies with inertia: impacts by contact pair, mean velocities and energies.
+   */
   struct Motion
   {
     /** @brief The contact of one pair over time. */

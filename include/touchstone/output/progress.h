@@ -34,7 +34,7 @@ namespace Touchstone
      */
     Progress(Log &log, double end_time);
 
-    /** @brief The run goes on from this time: what is left is reckoned from here. */
+    /** @brief The run resumes at this time, from which the remaining time is estimated. */
     void
     start_at(const double time)
     {
@@ -72,7 +72,7 @@ namespace Touchstone
     dealii::Timer timer;
   };
 
-  /** @brief A duration for people, e.g. "7.3 s", "2 min 05 s", "1 h 30 min". */
+  /** @brief A duration as text, e.g. "7.3 s", "2 min 05 s", "1 h 30 min". */
   std::string
   readable_duration(double seconds);
 } // namespace Touchstone

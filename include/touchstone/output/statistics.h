@@ -34,7 +34,7 @@ namespace Touchstone
     void
     add_step(const ConvergedStep &step);
 
-    /** @brief What summary.json has to say of the last step. */
+    /** @brief Values of the last step for summary.json. */
     const std::vector<StepValue> &
     for_summary() const
     {

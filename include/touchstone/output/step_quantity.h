@@ -74,12 +74,11 @@ namespace Touchstone
   };
 
   /**
-   * @brief Something to know of each converged step: one or more columns of the table
-   * `statistics`, and members of "results" in summary.json, there with the values of the
-   * last step.
+   * @brief A result of each converged step: one or more columns of the table `statistics`, and
+   * members of "results" in summary.json, there with the values of the last step.
    *
-   * There is one object of each registered class in a run. What it keeps from step to step
-   * stands in memory(), which checkpoints save.
+   * There is one object of each registered class in a run. State that it keeps from step to step
+   * must be returned by memory(), which checkpoints save.
    */
   class StepQuantity
   {
@@ -108,8 +107,7 @@ namespace Touchstone
     /** Numbers by any names, the same on all ranks. */
     using Memory = std::map<std::string, double>;
 
-    /** @brief What must be known to continue after a step: sums over the steps so far, for
-     * example. */
+    /** @brief State needed to continue after a step, for example sums over the steps so far. */
     virtual Memory
     memory() const
     {

@@ -18,7 +18,7 @@
 
 namespace Touchstone
 {
-  /** @brief What a run came to: the contents of summary.json. */
+  /** @brief Results and costs of a run: the contents of summary.json. */
   struct RunSummary
   {
     std::string   title, version;
@@ -115,7 +115,7 @@ namespace Touchstone
         return mean > 0. ? max / mean : 1.;
       }
     };
-    /** By phase, in the order in which they are told. */
+    /** By phase, in the order of output. */
     std::vector<std::pair<std::string, Balance>> balance;
 
     /** @brief The imbalances in one line. */

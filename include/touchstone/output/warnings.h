@@ -18,7 +18,7 @@ namespace Touchstone
     /** @param log Must outlive this object. */
     explicit Warnings(Log &log);
 
-    /** @brief Tell @p text, unless that has been done. To be called on all ranks. */
+    /** @brief Report @p text, unless it has been reported already. To be called on all ranks. */
     void
     add(const std::string &text);
 
@@ -26,11 +26,11 @@ namespace Touchstone
     const std::vector<std::string> &
     list() const;
 
-    /** @brief Take those of a run that this one goes on from. */
+    /** @brief Set the warnings of the run that is resumed. */
     void
     restore(const std::vector<std::string> &earlier);
 
-    /** @brief Tell all of them again. */
+    /** @brief Report all of them again. */
     void
     repeat() const;
 

@@ -8,7 +8,7 @@
 
 namespace Touchstone
 {
-  /** @brief What the user wants, as the command line says it. */
+  /** @brief Options of the command line. */
   struct CommandLine
   {
     bool help             = false;
@@ -17,7 +17,7 @@ namespace Touchstone
     bool print_parameters = false;
     /** Print nothing but the results, which do not depend on the machine. */
     bool results_only = false;
-    /** Go on from the newest checkpoint in the output folder. */
+    /** Resume from the newest checkpoint in the output folder. */
     bool resume = false;
     /** Entries "Section/Key=value"; "--output DIR" is one of them. */
     std::vector<std::string> overrides;

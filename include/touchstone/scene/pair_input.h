@@ -11,7 +11,7 @@ namespace Touchstone
 {
   class Scene;
 
-  /** @brief What a contact pair of a scene is made from. @param number Of the pair. */
+  /** @brief Input of a contact pair of a scene. @param number Index of the pair. */
   ContactPairInput
   pair_input(const Scene &scene, const Forest &forest, const Solid &solid, unsigned int number);
 

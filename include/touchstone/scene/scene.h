@@ -75,7 +75,7 @@ namespace Touchstone
     std::string
     complete_entries() const;
 
-    /** @brief What the forest is made from. */
+    /** @brief Input of the forest. */
     ForestInput
     forest_input() const;
 
@@ -96,7 +96,7 @@ namespace Touchstone
     /** Bind every entry to its member. */
     void
     declare(const SceneText &text);
-    /** Replace what stands for an automatic choice. */
+    /** Replace automatic choices by what they choose. */
     void
     resolve(const SceneText &text, const std::string &file_name);
     /** Each section, then what goes across sections (combinations.h). */

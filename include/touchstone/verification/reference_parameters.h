@@ -16,8 +16,8 @@ namespace Touchstone
   class Scene;
 
   /**
-   * @brief Section "Reference solution": the exact answer that the result is
-   * held against; what it gives stands under `errors` in summary.json.
+   * @brief Section "Reference solution": the exact solution that the result is compared with;
+   * errors are in summary.json under `errors`.
    */
   struct ReferenceParameters
   {
@@ -26,7 +26,7 @@ namespace Touchstone
     Choice<Registry<ReferenceSolution, const Scene &>> type{"none"};
     /** The contact pair that is compared; empty: the first. */
     std::string pair;
-    /** Named numbers that the type asks for ("radius: 10, pressure: 5"). */
+    /** Named numbers of the type ("radius: 10, pressure: 5"). */
     std::string values;
     /** Expression in x, y, z, t: the contact pressure of the reference "formula". */
     std::string pressure;

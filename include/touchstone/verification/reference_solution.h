@@ -16,7 +16,7 @@
 
 namespace Touchstone
 {
-  /** @brief What a result is compared by. */
+  /** @brief The results that are compared with a reference solution. */
   struct ReferenceInput
   {
     const Solid *solid = nullptr;
@@ -36,7 +36,7 @@ namespace Touchstone
   {
     /** Relative errors by name; NaN where there is nothing to compare. */
     std::map<std::string, double> errors;
-    /** The same for people, a line for each quantity. */
+    /** The same as text, a line for each quantity. */
     std::vector<std::string> lines;
 
     /** @brief Add an error, and a line "WHAT: computed A, exact B, error C". */

@@ -10,11 +10,10 @@
 namespace Touchstone
 {
   /**
-   * @brief The named numbers "name: number, name: number" of the key "Values" in
-   * the section "Reference solution".
+   * @brief The named numbers "name: number, name: number" of the key "Values" in the section
+   * "Reference solution".
    *
-   * Whoever reads them calls finish() at the end, which complains about names
-   * that nobody asked for.
+   * Readers call finish() at the end, which throws for names that have not been read.
    */
   class ReferenceValues
   {
@@ -40,14 +39,14 @@ namespace Touchstone
     [[noreturn]] void
     fail(const std::string &problem, const std::string &remedy) const;
 
-    /** @throws InputError if there are names that were not asked for. */
+    /** @throws InputError if there are names that have not been read. */
     void
     finish() const;
 
   private:
     const std::string             text;
     std::map<std::string, double> values;
-    /** Names that were asked for, whether present or not. */
+    /** Names that have been read, whether present or not. */
     std::set<std::string> known;
   };
 } // namespace Touchstone
