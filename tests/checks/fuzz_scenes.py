@@ -17,6 +17,6 @@ def scenes(seed, numbers, *options):
 
 
 scenes(1, "0,2,6,8,9,17,19,23,24,30,33,37,39,41,43,44,50,55,56,57,60,66")
-scenes(2, "3,5,38,70,71,91")
-scenes(2, "35,47,63,111", "--variants", "mirrored")
+scenes(2, "70")
+scenes(2, "35,47,63", "--variants", "mirrored")
 finish()
