@@ -267,14 +267,24 @@ namespace Touchstone
           (unknown == text.sections().end() || order(section->second) < order(unknown->second)))
         unknown = section;
 
+    const auto known = [&declared](const SceneEntry &entry) {
+      const auto keys = declared.find(entry.section);
+      return keys != declared.end() &&
+             std::find(keys->second.begin(), keys->second.end(), entry.key) != keys->second.end();
+    };
     for (const SceneEntry &entry : text.entries())
       {
         if (unknown != text.sections().end() && order(unknown->second) <= order(entry.line))
           throw_unknown_section(declared, unknown->first, text.location(unknown->second));
-        const auto keys = declared.find(entry.section);
-        if (keys == declared.end() ||
-            std::find(keys->second.begin(), keys->second.end(), entry.key) == keys->second.end())
-          throw_unknown_key(declared, entry, text.location(entry.line));
+        if (!known(entry))
+          {
+            // If the name of a class is misspelt below, its keys are unknown, and the name is the
+            // mistake to report.
+            for (const SceneEntry &other : text.entries())
+              if (other.section == entry.section && known(other))
+                set_entry(other, text.location(other.line), prm);
+            throw_unknown_key(declared, entry, text.location(entry.line));
+          }
         set_entry(entry, text.location(entry.line), prm);
       }
     if (unknown != text.sections().end())
