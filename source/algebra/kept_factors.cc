@@ -12,7 +12,8 @@ namespace Touchstone
   {
     factors.factorise(*system.matrix(),
                       system.symmetric ? MumpsFactors::Kind::definite
-                                       : MumpsFactors::Kind::unsymmetric);
+                                       : MumpsFactors::Kind::unsymmetric,
+                      system.n_displacements());
     // The copy of the matrix serves to recognise an unchanged one; these factors are never
     // renewed.
     factors.release_matrix();

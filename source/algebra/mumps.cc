@@ -81,7 +81,7 @@ namespace Touchstone
         const auto kind = !system.symmetric ? MumpsFactors::Kind::unsymmetric
                           : system.definite ? MumpsFactors::Kind::definite
                                             : MumpsFactors::Kind::symmetric;
-        count.factorisations += factors.factorise(*system.matrix(), kind);
+        count.factorisations += factors.factorise(*system.matrix(), kind, system.n_displacements());
         factors.solve(*system.rhs, solution);
       }
     };

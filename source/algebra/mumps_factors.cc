@@ -168,7 +168,9 @@ namespace Touchstone
   // Factorise only what is needed. The kind can change between solves, as when friction makes the
   // system unsymmetric, and then MUMPS is started anew.
   bool
-  MumpsFactors::factorise(const Epetra_CrsMatrix &matrix, const Kind kind)
+  MumpsFactors::factorise(const Epetra_CrsMatrix &matrix,
+                          const Kind              kind,
+                          const int               n_displacements)
   {
     if (initialised && data.sym != static_cast<MUMPS_INT>(kind))
       clear();
@@ -211,7 +213,7 @@ namespace Touchstone
       throw SingularSystem("MUMPS: " + reason(infog(1), infog(2)));
     if (infog(1) < 0)
       throw LinearSolverFailure("MUMPS: the factorisation failed: " + reason(infog(1), infog(2)));
-    check_pivots();
+    check_pivots(n_displacements);
     factorised = true;
     return true;
   }
@@ -222,7 +224,7 @@ namespace Touchstone
   // solutions; here they are an error that names the nodes, since they mean a missing support
   // (doc/theory.md, section 8).
   void
-  MumpsFactors::check_pivots() const
+  MumpsFactors::check_pivots(const int n_displacements) const
   {
     if (infog(28) == 0)
       return;
@@ -235,8 +237,11 @@ namespace Touchstone
       for (int i = 0; i < std::min(infog(28), 5); ++i)
         {
           const int dof = data.pivnul_list[i] - 1;
-          text += std::string(i == 0 ? "" : ", ") + "node " + std::to_string(dof / 3) + " in " +
-                  "xyz"[dof % 3];
+          text += (i == 0 ? "" : ", ");
+          if (dof < n_displacements)
+            text += "node " + std::to_string(dof / 3) + " in " + "xyz"[dof % 3];
+          else
+            text += "a contact force, whose condition others imply";
         }
     text = dealii::Utilities::MPI::broadcast(communicator, text);
     throw SingularSystem("MUMPS found " + std::to_string(infog(28)) +

@@ -40,6 +40,13 @@ namespace Touchstone
       return dofs;
     }
 
+    /** @brief Number of displacements, of all ranks. */
+    int
+    n_displacements() const
+    {
+      return static_cast<int>(system.rhs.size());
+    }
+
     /** @brief What multiplies a solution. */
     Epetra_Operator &
     product() const

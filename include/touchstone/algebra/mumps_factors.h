@@ -44,11 +44,12 @@ namespace Touchstone
     /**
      * @brief Factorise; nothing is done if pattern and values are those of the last call,
      * and no new analysis if the pattern is. Collective.
+     * @param n_displacements Rows from this one on belong to contact forces; for messages.
      * @return Whether there was something to do.
      * @throws SingularSystem, LinearSolverFailure on all ranks; there are no factors then.
      */
     bool
-    factorise(const Epetra_CrsMatrix &matrix, Kind kind);
+    factorise(const Epetra_CrsMatrix &matrix, Kind kind, int n_displacements);
 
     /** @brief Solve with the factors. Collective. @throws LinearSolverFailure on all ranks. */
     void
@@ -95,7 +96,7 @@ namespace Touchstone
     void
     read(const Epetra_CrsMatrix &matrix);
     void
-    check_pivots() const;
+    check_pivots(int n_displacements) const;
   };
 } // namespace Touchstone
 
