@@ -49,7 +49,8 @@ namespace Touchstone
       bool
       applies_operator(const int n_dofs) const override
       {
-        return iterates(n_dofs) && parameters.contact_operator == "applied";
+        return iterates(n_dofs) &&
+               parameters.contact_operator == LinearSolverParameters::ContactOperator::applied;
       }
 
       bool

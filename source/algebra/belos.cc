@@ -66,7 +66,7 @@ namespace Touchstone
       bool
       applies_operator(int) const override
       {
-        return parameters.contact_operator == "applied";
+        return parameters.contact_operator == LinearSolverParameters::ContactOperator::applied;
       }
 
       void

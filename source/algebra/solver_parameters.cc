@@ -121,13 +121,12 @@ namespace Touchstone
                       preconditioner,
                       "Of Belos CG or GMRES. " + PreconditionerRegistry::documentation(),
                       Patterns::Selection(PreconditionerRegistry::selection()));
-    prm.add_parameter("Contact operator",
-                      contact_operator,
-                      "How an iterative solver multiplies: 'applied' applies constraints and "
-                      "contact terms beside the continuum matrix, and assembles all in "
-                      "one matrix only where multigrid is set up; 'assembled' does so in each "
-                      "Newton iteration.",
-                      Patterns::Selection("applied|assembled"));
+    contact_operator.declare(prm,
+                             "Contact operator",
+                             "How an iterative solver multiplies: 'applied' applies constraints "
+                             "and contact terms beside the continuum matrix, and assembles all in "
+                             "one matrix only where multigrid is set up; 'assembled' does so in "
+                             "each Newton iteration.");
     // All are declared whatever the type is, since the parser must know each key before it reads
     // 'Type'.
     for (const auto &of_one : options)
@@ -147,7 +146,8 @@ namespace Touchstone
                    tolerance,
                    "two to four digits a Newton iteration are usual: 1e-3");
     const auto solver = LinearSolverRegistry::make(type, *this);
-    if (preconditioner != "multigrid" && !solver->takes_preconditioner())
+    if (preconditioner != LinearSolverParameters().preconditioner &&
+        !solver->takes_preconditioner())
       throw InputError(section,
                        "Preconditioner",
                        preconditioner,

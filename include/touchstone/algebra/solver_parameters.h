@@ -3,6 +3,7 @@
 #ifndef touchstone_algebra_solver_parameters_h
 #define touchstone_algebra_solver_parameters_h
 
+#include <touchstone/base/keyword.h>
 #include <touchstone/base/plugin_parameters.h>
 #include <touchstone/base/registry.h>
 
@@ -38,8 +39,15 @@ namespace Touchstone
     /** Not a key of the input: an iterative solver fails as soon as it is expected to take more
      * iterations than these; 0: no limit of this kind. */
     unsigned int patience = 0;
-    /** Of iterative solvers: "applied" or "assembled". */
-    std::string contact_operator = "applied";
+    /** How iterative solvers multiply: factor by factor, or with the assembled matrix. */
+    enum class ContactOperator
+    {
+      applied,
+      assembled
+    };
+    Keyword<ContactOperator> contact_operator{ContactOperator::applied,
+                                              {{"applied", ContactOperator::applied},
+                                               {"assembled", ContactOperator::assembled}}};
     /** Keys of the registered solvers and preconditioners, by their names. */
     std::map<std::string, std::shared_ptr<PluginParameters>> options = all_options();
 
