@@ -33,9 +33,9 @@ namespace
         run.solve(run.scene.newton, 0.5 * step);
         run.problem.commit();
       }
-    const auto         &u = run.problem.displacement();
+    const auto         &u = run.problem.state().displacement;
     std::vector<double> result(u.begin(), u.end());
-    for (const ContactPoint &point : contact_points(run.problem.contact_state(), u))
+    for (const ContactPoint &point : contact_points(run.problem.state().contact, u))
       for (unsigned int d = 0; d < dim; ++d)
         result.push_back(point.traction[d] / 1000.);
     return result;

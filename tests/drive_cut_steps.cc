@@ -55,9 +55,9 @@ namespace
     void
     note()
     {
-      const auto &u = problem.displacement();
+      const auto &u = problem.state().displacement;
       record.insert(record.end(), u.begin(), u.end());
-      for (const ContactPoint &point : contact_points(problem.contact_state(), u))
+      for (const ContactPoint &point : contact_points(problem.state().contact, u))
         {
           for (unsigned int d = 0; d < dim; ++d)
             {

@@ -62,7 +62,7 @@ end
         run.solve(run.scene.newton, k * h);
         run.problem.commit();
         double largest = 0.;
-        for (const double u : run.problem.displacement())
+        for (const double u : run.problem.state().displacement)
           if (std::abs(u) > std::abs(largest))
             largest = u;
         const double most  = Utilities::MPI::max(largest, MPI_COMM_WORLD),
@@ -231,7 +231,7 @@ end
   energy(const std::vector<std::string> &overrides)
   {
     Run          run(fall, overrides, MPI_COMM_WORLD);
-    const auto  &integration = run.problem.time_integration();
+    const auto  &integration = run.problem.state().time_integration;
     const double h           = run.scene.load_stepping.end_time / run.scene.load_stepping.steps;
     double       error = 0., gain = 0., kept = 0., loss = 0.;
     unsigned int closing = 0, opening = 0, staying = 0, before = 0;
@@ -247,7 +247,8 @@ end
         gain                = std::max({gain, -taken, (now.present() - had) / now.largest});
         loss += taken;
         const unsigned int active =
-          pair_results(run.problem.contact_state(), run.problem.ghosted_displacement())[0].active;
+          pair_results(run.problem.state().contact, run.problem.state().ghosted_displacement())[0]
+            .active;
         closing += active > before;
         opening += active < before;
         // The same nodes all the time: nothing is lost.

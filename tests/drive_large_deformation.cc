@@ -115,7 +115,7 @@ end
               const Tensor<2, dim> &F,
               const Tensor<1, dim> &c = Tensor<1, dim>())
     {
-      const Touchstone::Vector u       = problem.ghosted_displacement();
+      const Touchstone::Vector u       = problem.state().ghosted_displacement();
       double                   largest = 0.;
       std::vector<Index>       dofs(solid.fe.n_dofs_per_cell());
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
@@ -138,7 +138,7 @@ end
     deviation(const unsigned int body, const SymmetricTensor<2, dim> &exact)
     {
       double largest = 0.;
-      solid.for_each_stress(problem.ghosted_displacement(),
+      solid.for_each_stress(problem.state().ghosted_displacement(),
                             [&](const unsigned int b,
                                 const Point<dim> &,
                                 const SymmetricTensor<2, dim> &stress,
@@ -154,7 +154,7 @@ end
     volume()
     {
       double sum = 0.;
-      solid.for_each_stress(problem.ghosted_displacement(),
+      solid.for_each_stress(problem.state().ghosted_displacement(),
                             [&](unsigned int,
                                 const Point<dim> &,
                                 const SymmetricTensor<2, dim> &,
@@ -187,9 +187,9 @@ end
     F[0][0] = exact.along;
     F[1][1] = F[2][2]      = exact.across;
     stress[0][0]           = exact.stress / (exact.across * exact.across);
-    const auto   reactions = run.problem.reactions();
+    const auto   reactions = run.problem.state().reactions();
     const auto  &made      = HyperelasticRegistry::make(law, run.scene.bodies[0].material);
-    const double energy    = run.problem.strain_energy() / made->energy(F) - 1.;
+    const double energy    = run.problem.state().strain_energy() / made->energy(F) - 1.;
     const double place     = run.deviation(0, F);
     const double cauchy    = run.deviation(0, stress) / stress.norm();
     const double reaction  = reactions.back().force[0] / exact.stress - 1.;
@@ -304,7 +304,7 @@ end
     const double cauchy =
       std::max(run.deviation(0, linear_stress), run.deviation(1, stress)) / 200.;
     const double energy =
-      run.problem.strain_energy() - 0.5 * 200. -
+      run.problem.state().strain_energy() - 0.5 * 200. -
       HyperelasticRegistry::make("neo-Hookean", run.scene.bodies[1].material)->energy(F);
     if (first_rank())
       std::cout << "linear and neo-Hookean: places " << small(place, 1e-10) << ", stresses "

@@ -58,7 +58,8 @@ namespace
       {
         run.solve(run.scene.newton, 0.5 * step);
         run.problem.commit();
-        take(numbers, contact_points(run.problem.contact_state(), run.problem.displacement()));
+        take(numbers,
+             contact_points(run.problem.state().contact, run.problem.state().displacement));
       }
     return numbers;
   }

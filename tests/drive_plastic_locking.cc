@@ -47,7 +47,7 @@ end
              "Discretisation/Degree=" + degree},
             MPI_COMM_WORLD);
     run.solve_steps();
-    for (const Reaction &reaction : run.problem.reactions())
+    for (const Reaction &reaction : run.problem.state().reactions())
       if (reaction.boundary == "top")
         return -reaction.force[2];
     return 0.;

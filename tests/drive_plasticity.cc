@@ -70,11 +70,11 @@ namespace
             }
           solve(scene.newton, size * (step + 1));
           problem.commit();
-          const auto &u = problem.displacement();
+          const auto &u = problem.state().displacement;
           record.insert(record.end(), u.begin(), u.end());
           const auto p = plastic_strains(solid);
           record.insert(record.end(), p.begin(), p.end());
-          record.push_back(problem.strain_energy());
+          record.push_back(problem.state().strain_energy());
           record.push_back(solid.dissipation());
         }
     }
@@ -185,8 +185,8 @@ end
     run.solve(run.scene.newton, 0.2);
     run.problem.commit();
     whole.solve(whole.scene.newton, 0.2);
-    Touchstone::Vector difference(run.problem.displacement());
-    difference -= whole.problem.displacement();
+    Touchstone::Vector difference(run.problem.state().displacement);
+    difference -= whole.problem.state().displacement;
     const double d    = difference.linfty_norm();
     const int    seen = Utilities::MPI::sum(failures, MPI_COMM_WORLD);
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
@@ -207,13 +207,13 @@ end
     Run one(bar, overrides, MPI_COMM_WORLD), ten(bar, overrides, MPI_COMM_WORLD);
     one.solve(one.scene.newton, 1.);
     // The state is a function of the displacement: look at others in between.
-    Touchstone::Vector force(one.problem.displacement()), other(force);
+    Touchstone::Vector force(one.problem.state().displacement), other(force);
     other *= 1.5;
     one.solid.internal_force(other, force);
     one.solid.internal_force(other, force);
     one.solid.strain_energy(other);
     one.solid.assemble(other);
-    one.solid.internal_force(one.problem.displacement(), force);
+    one.solid.internal_force(one.problem.state().displacement, force);
     one.problem.commit();
     double work = 0., before = 0.;
     for (unsigned int step = 1; step <= 10; ++step)
@@ -221,19 +221,19 @@ end
         ten.solve(ten.scene.newton, 0.1 * step);
         ten.problem.commit();
         double now = 0.;
-        for (const Reaction &reaction : ten.problem.reactions())
+        for (const Reaction &reaction : ten.problem.state().reactions())
           if (reaction.boundary == "top")
             now = reaction.force[2];
         // Trapezoidal rule, but for the step in which the bar yields.
         if (step > 1)
           work -= 0.5 * (before + now) * 0.02;
         else
-          work = ten.problem.strain_energy() + ten.solid.dissipation();
+          work = ten.problem.state().strain_energy() + ten.solid.dissipation();
         before = now;
       }
-    const double       energy = ten.problem.strain_energy() + ten.solid.dissipation();
-    Touchstone::Vector difference(one.problem.displacement());
-    difference -= ten.problem.displacement();
+    const double       energy = ten.problem.state().strain_energy() + ten.solid.dissipation();
+    Touchstone::Vector difference(one.problem.state().displacement);
+    difference -= ten.problem.state().displacement;
     const double p1  = one.solid.largest_plastic_strain().at(0),
                  p10 = ten.solid.largest_plastic_strain().at(0), d = difference.linfty_norm(),
                  w = one.solid.dissipation() / ten.solid.dissipation() - 1.;

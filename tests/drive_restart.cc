@@ -70,7 +70,7 @@ namespace
     if (refined)
       refine(forest, solid);
     const Touchstone::Vector x = positions(solid);
-    ArchiveWriter            writer(solid);
+    ArchiveWriter            writer(solid.dof_handler);
     writer.put("number", 0.1);
     writer.put_field("positions", x);
     std::vector<std::vector<double>> values(forest.triangulation.n_active_cells());
@@ -89,7 +89,7 @@ namespace
 
     other_forest.refine(archive.refined_cells(other_forest.first_level()));
     Solid other_solid(other.bodies, other.discretisation.degree, other_forest, MPI_COMM_WORLD);
-    archive.connect(other_solid);
+    archive.connect(other_solid.dof_handler);
     Touchstone::Vector difference = positions(other_solid);
     difference -= archive.field("positions");
     bool         same = archive.get<double>("number") == 0.1;
@@ -126,10 +126,10 @@ namespace
   std::vector<double>
   figures(const Run &run)
   {
-    const Touchstone::Vector &u      = run.problem.displacement();
-    std::vector<double>       result = {u.l2_norm(), run.problem.strain_energy()};
+    const Touchstone::Vector &u      = run.problem.state().displacement;
+    std::vector<double>       result = {u.l2_norm(), run.problem.state().strain_energy()};
     for (const PairResult &pair :
-         pair_results(run.problem.contact_state(), run.problem.ghosted_displacement()))
+         pair_results(run.problem.state().contact, run.problem.state().ghosted_displacement()))
       result.insert(result.end(),
                     {pair.force[0],
                      pair.force[1],
@@ -162,7 +162,7 @@ namespace
                      {"Newton/Residual tolerance=1e-12", "Newton/Gap tolerance=1e-12"});
     Run whole(scene, overrides, MPI_COMM_WORLD);
     steps(whole, 0, 4);
-    ArchiveWriter writer(whole.solid);
+    ArchiveWriter writer(whole.solid.dof_handler);
     whole.problem.save(writer);
     const auto pieces = all_pieces(writer);
     steps(whole, 4, 6);
@@ -171,20 +171,20 @@ namespace
     {
       Run  again(scene, overrides, MPI_COMM_WORLD);
       auto archive = reader(pieces);
-      archive.connect(again.solid);
+      archive.connect(again.solid.dof_handler);
       again.problem.load(archive);
-      ArchiveWriter second(again.solid);
+      ArchiveWriter second(again.solid.dof_handler);
       again.problem.save(second);
       bytes = all_pieces(second) == pieces;
       steps(again, 4, 6);
-      const auto &u = again.problem.displacement(), &v = whole.problem.displacement();
+      const auto &u = again.problem.state().displacement, &v = whole.problem.state().displacement;
       bits = std::equal(u.begin(), u.end(), v.begin(), v.end());
       bits = Utilities::MPI::min(int(bits), MPI_COMM_WORLD) == 1;
     }
     overrides.push_back("Discretisation/Contact weight=50");
     Run  other(scene, overrides, MPI_COMM_WORLD);
     auto archive = reader(pieces);
-    archive.connect(other.solid);
+    archive.connect(other.solid.dof_handler);
     other.problem.load(archive);
     steps(other, 4, 6);
     const auto a = figures(whole), b = figures(other);

@@ -176,7 +176,7 @@ end
     double
     largest(const Function &function)
     {
-      const Touchstone::Vector u      = problem.ghosted_displacement();
+      const Touchstone::Vector u      = problem.state().ghosted_displacement();
       double                   result = 0.;
       for_each_unknown(solid, [&](const Index i, const unsigned int d, const Point<dim> &x) {
         result = std::max(result, function(u(i), d, x));
@@ -230,7 +230,8 @@ end
       run.largest([&](const double u, const unsigned int d, const Point<dim> &x) {
         return std::abs(u - (stretch - 1.) * x[d]);
       });
-    const double reaction = run.problem.reactions()[0].force.norm() / (p * stretch * stretch) - 1.;
+    const double reaction =
+      run.problem.state().reactions()[0].force.norm() / (p * stretch * stretch) - 1.;
     if (first_rank())
       std::cout << "block, degree " << degree << ", " << solver << ": stretch " << stretch
                 << ", places " << small(place, 1e-9) << ", reaction " << small(reaction, 1e-9)

@@ -87,12 +87,12 @@ namespace Touchstone
      */
     template <class Cell>
     std::vector<Index>
-    nodes_of_cell(const Solid &solid, const Cell &cell)
+    nodes_of_cell(const DoFHandler<dim> &dof_handler, const Cell &cell)
     {
-      std::vector<Index> dofs(solid.fe.n_dofs_per_cell()), nodes;
+      std::vector<Index> dofs(dof_handler.get_fe().n_dofs_per_cell()), nodes;
       cell->get_dof_indices(dofs);
       for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (solid.fe.system_to_component_index(i).first == 0)
+        if (dof_handler.get_fe().system_to_component_index(i).first == 0)
           nodes.push_back(dofs[i] / dim);
       return nodes;
     }
@@ -117,15 +117,15 @@ namespace Touchstone
 
   // The list of cells comes first: all other blocks refer to the numbers of nodes and to the
   // order of cells in it.
-  ArchiveWriter::ArchiveWriter(const Solid &solid)
-    : solid(solid)
+  ArchiveWriter::ArchiveWriter(const DoFHandler<dim> &dof_handler)
+    : dof_handler(dof_handler)
   {
     CellList list;
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+    for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const auto id    = cell->id().template to_binary<dim>();
-          const auto nodes = nodes_of_cell(solid, cell);
+          const auto nodes = nodes_of_cell(dof_handler, cell);
           list.ids.insert(list.ids.end(), id.begin(), id.end());
           list.nodes.insert(list.nodes.end(), nodes.begin(), nodes.end());
         }
@@ -139,10 +139,11 @@ namespace Touchstone
   ArchiveWriter::put_field(const std::string &name, const Vector &field)
   {
     FieldPart part;
-    if (solid.owned.n_elements() > 0)
-      part.first = solid.owned.nth_index_in_set(0);
-    AssertThrow(solid.owned.is_contiguous(), ExcInternalError());
-    part.values.assign(field.begin(), field.begin() + solid.owned.n_elements());
+    if (dof_handler.locally_owned_dofs().n_elements() > 0)
+      part.first = dof_handler.locally_owned_dofs().nth_index_in_set(0);
+    AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(), ExcInternalError());
+    part.values.assign(field.begin(),
+                       field.begin() + dof_handler.locally_owned_dofs().n_elements());
     put_block(field_prefix + name, part);
   }
 
@@ -155,7 +156,7 @@ namespace Touchstone
                            const std::function<std::vector<double>(unsigned int cell)> &values)
   {
     std::vector<std::vector<double>> all;
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+    for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         all.push_back(values(cell->active_cell_index()));
     put_block(cell_prefix + name, all);
@@ -251,12 +252,12 @@ namespace Touchstone
   // Two passes over the pieces: the first finds cells and nodes, and compares the meshes before
   // anything is used; the second takes fields, data of cells and records.
   void
-  ArchiveReader::connect(const Solid &solid)
+  ArchiveReader::connect(const DoFHandler<dim> &dof_handler)
   {
-    const unsigned int rank = Utilities::MPI::this_mpi_process(solid.communicator);
+    const unsigned int rank = Utilities::MPI::this_mpi_process(dof_handler.get_communicator());
 
     std::map<CellId::binary_type, typename DoFHandler<dim>::active_cell_iterator> cells;
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+    for (const auto &cell : dof_handler.active_cell_iterators())
       // Ghost cells, too: an owned node can lie in cells of which this rank owns none.
       if (!cell->is_artificial())
         cells.emplace(cell->id().template to_binary<dim>(), cell);
@@ -277,7 +278,7 @@ namespace Touchstone
             const auto found = cells.find(list.id(c));
             if (found == cells.end())
               continue;
-            const auto nodes = nodes_of_cell(solid, found->second);
+            const auto nodes = nodes_of_cell(dof_handler, found->second);
             // All nodes of known cells, not only owned ones: records on this rank may refer to
             // neighbours' nodes, and the owner of a node publishes its number below.
             for (unsigned int m = 0; m < std::min(n, nodes.size()); ++m)
@@ -289,10 +290,10 @@ namespace Touchstone
               }
           }
       }
-    const auto &mesh = solid.dof_handler.get_triangulation();
+    const auto &mesh = dof_handler.get_triangulation();
     // Each cell of the archive must be owned by just one rank, and the mesh must have no others.
     // Decided by a sum, so that all ranks throw.
-    if (Utilities::MPI::sum(found_cells, solid.communicator) != all_cells ||
+    if (Utilities::MPI::sum(found_cells, dof_handler.get_communicator()) != all_cells ||
         all_cells != mesh.n_global_active_cells())
       throw ArchiveError("it has another mesh, of " + std::to_string(all_cells) + " cells");
 
@@ -304,7 +305,8 @@ namespace Touchstone
         // its one owner.
         const auto own_place = [&](const Index node) {
           const auto found = present_nodes.find(node);
-          return found != present_nodes.end() && solid.owned.is_element(dim * found->second)
+          return found != present_nodes.end() &&
+                     dof_handler.locally_owned_dofs().is_element(dim * found->second)
                    ? found->second
                    : invalid_index;
         };
@@ -312,7 +314,7 @@ namespace Touchstone
           const FieldPart part  = unpack<FieldPart>(bytes);
           Vector         &field = fields[name];
           if (field.size() == 0)
-            field.reinit(solid.owned, solid.communicator);
+            field.reinit(dof_handler.locally_owned_dofs(), dof_handler.get_communicator());
           for (std::size_t j = 0; j < part.values.size(); j += dim)
             if (const Index node = own_place((part.first + j) / dim); node != invalid_index)
               for (unsigned int d = 0; d < dim; ++d)
@@ -345,7 +347,7 @@ namespace Touchstone
     // have the same fields since each reads all pieces.
     for (auto &[name, field] : fields)
       field.compress(VectorOperation::insert);
-    translate_references(present_nodes, solid);
+    translate_references(present_nodes, dof_handler);
     // Free the last piece: the data of this rank are taken out.
     present = numbers::invalid_unsigned_int;
     blocks.clear();
@@ -355,20 +357,21 @@ namespace Touchstone
 
   void
   ArchiveReader::translate_references(const std::unordered_map<Index, Index> &present_nodes,
-                                      const Solid                            &solid)
+                                      const DoFHandler<dim>                  &dof_handler)
   {
     // Records refer to nodes that may be far away, such as the master nodes of a contact row, so
     // no rank knows all of them. The translation of old number k is therefore held by rank k
     // modulo the number of ranks: owners publish theirs there, all others ask there. No rank
     // needs a table of all nodes.
     using Translations         = std::vector<std::pair<Index, Index>>;
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(solid.communicator);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(dof_handler.get_communicator());
     std::map<unsigned int, Translations> published;
     for (const auto &[old, node] : present_nodes)
-      if (solid.owned.is_element(dim * node))
+      if (dof_handler.locally_owned_dofs().is_element(dim * node))
         published[old % n_ranks].emplace_back(old, node);
     std::unordered_map<Index, Index> dictionary;
-    for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, published))
+    for (const auto &[from, list] :
+         Utilities::MPI::some_to_some(dof_handler.get_communicator(), published))
       dictionary.insert(list.begin(), list.end());
 
     // Each rank knows whom to ask, and answers come back in the same pattern; both exchanges are
@@ -379,12 +382,14 @@ namespace Touchstone
         for (const Index old : record.nodes)
           questions[old % n_ranks].push_back(old);
     std::map<unsigned int, Translations> answers;
-    for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, questions))
+    for (const auto &[from, list] :
+         Utilities::MPI::some_to_some(dof_handler.get_communicator(), questions))
       for (const Index old : list)
         if (const auto found = dictionary.find(old); found != dictionary.end())
           answers[from].emplace_back(*found);
     std::unordered_map<Index, Index> translation;
-    for (const auto &[from, list] : Utilities::MPI::some_to_some(solid.communicator, answers))
+    for (const auto &[from, list] :
+         Utilities::MPI::some_to_some(dof_handler.get_communicator(), answers))
       translation.insert(list.begin(), list.end());
 
     for (auto &[name, list] : records)

@@ -91,16 +91,18 @@ namespace Touchstone
     , damping_stiffness(damping_mass)
     , v(damping_mass)
     , a(v)
-    , old_external(v)
-    , old_internal(v)
-    , old_normal(v)
-    , old_tangential(v)
-    , old_support(v)
+    , old{v, v, v, v, v}
     , end_v(v)
     , end_a(v)
-    , end_normal(v)
-    , end_tangential(v)
+    , end_forces(old)
   {
+    fields = {{"velocity", &v},
+              {"acceleration", &a},
+              {"external force", &old.external},
+              {"internal force", &old.internal},
+              {"normal contact force", &old.normal},
+              {"tangential contact force", &old.tangential},
+              {"support force", &old.support}};
     for (std::size_t i = 0; i < body.size(); ++i)
       {
         // Rayleigh damping C = a M + b K0 with a and b of the body: kept per dof, so that a product
@@ -146,8 +148,8 @@ namespace Touchstone
     solid.hanging.distribute(a);
     // The ledger of energies begins here: the sum of kinetic and strain energy is what all later
     // steps are compared with.
-    old_external      = external;
-    old_internal      = internal;
+    old.external      = external;
+    old.internal      = internal;
     committed.kinetic = kinetic_energy(v);
     committed.strain  = solid.strain_energy(committed_u);
     committed.initial = committed.present();
@@ -220,7 +222,7 @@ namespace Touchstone
     sum            = external;
     sum -= internal;
     sum *= 1. - alpha_f;
-    sum.add(alpha_f, old_external, -alpha_f, old_internal);
+    sum.add(alpha_f, old.external, -alpha_f, old.internal);
     sum -= inertial;
     if (damped)
       {
@@ -297,8 +299,7 @@ namespace Touchstone
     end_of_step(u, end_v, end_a);
     // The contact forces of the end of this step are those of the beginning of the next one, and
     // enter the work of both.
-    end_normal     = *forces.normal;
-    end_tangential = *forces.tangential;
+    end_forces = forces;
 
     // Work over the step, force times length. The forces that change the momentum between n and n+1
     // are those of the balance, which refers to the time n+1-m, while Newmark's formula for the
@@ -314,7 +315,8 @@ namespace Touchstone
       return mean * way;
     };
     // The terms that are sums over all steps continue from their committed values.
-    Energies result = committed;
+    Energies &result = end;
+    result           = committed;
     if (damped)
       {
         // Damping over the step with the mean of the velocities at both ends.
@@ -344,12 +346,12 @@ namespace Touchstone
     result.plastic = solid.dissipation();
     // Contact and friction count the work done against their forces. What a moving obstacle does
     // enters through contact and is work of the outside as well, like that of supports.
-    result.contact += forces.obstacles_normal - work(old_normal, *forces.normal, at_end);
+    result.contact += forces.obstacles_normal - work(old.normal, *forces.normal, at_end);
     result.friction +=
-      forces.obstacles_tangential - work(old_tangential, *forces.tangential, at_end);
+      forces.obstacles_tangential - work(old.tangential, *forces.tangential, at_end);
     result.external += forces.obstacles_normal + forces.obstacles_tangential +
-                       work(old_support, *forces.support, at_end) +
-                       work(old_external, *forces.external, at_end - scheme.alpha_f);
+                       work(old.support, *forces.support, at_end) +
+                       work(old.external, *forces.external, at_end - scheme.alpha_f);
     // The largest energy so far is the scale of the tolerance for gains of energy.
     result.update_largest();
     return result;
@@ -366,8 +368,8 @@ namespace Touchstone
     // the mean of the velocities before and after.
     Impact             impact(*forces.velocity_constraints, mass, solid, forces.remove_support);
     const Impact::Loss of_acceleration = impact.stop(end_a, false);
-    end_normal -= of_acceleration.normal;
-    end_tangential -= of_acceleration.tangential;
+    end_forces.normal -= of_acceleration.normal;
+    end_forces.tangential -= of_acceleration.tangential;
     Vector             mean(end_v);
     const Impact::Loss loss = impact.stop(end_v, true);
     mean.sadd(0.5, 0.5, end_v);
@@ -378,31 +380,27 @@ namespace Touchstone
 
 
 
+  // The displacement is committed by StepProblem.
   void
-  Dynamics::commit(const Vector & /*u*/, const StepForces &forces, const Energies &end)
+  Dynamics::commit()
   {
-    // The displacement is committed by StepProblem. keep() takes the contact forces as they act in
-    // the balance; those of the next step's beginning are without the part that the impact has
-    // taken from the acceleration.
-    committed      = end;
-    v              = end_v;
-    a              = end_a;
-    committed_time = time;
-    keep(forces);
-    old_normal     = end_normal;
-    old_tangential = end_tangential;
+    v   = end_v;
+    a   = end_a;
+    old = end_forces;
+    TimeIntegration::commit();
   }
 
 
 
-  void
-  Dynamics::keep(const StepForces &forces)
+  Dynamics::NodalForces &
+  Dynamics::NodalForces::operator=(const StepForces &forces)
   {
-    old_external   = *forces.external;
-    old_internal   = *forces.internal;
-    old_normal     = *forces.normal;
-    old_tangential = *forces.tangential;
-    old_support    = *forces.support;
+    external   = *forces.external;
+    internal   = *forces.internal;
+    normal     = *forces.normal;
+    tangential = *forces.tangential;
+    support    = *forces.support;
+    return *this;
   }
 
 
@@ -413,9 +411,9 @@ namespace Touchstone
                   const std::vector<BodyMomentum> &before)
   {
     // The order of rates(): velocity, acceleration.
-    v = rates.front();
-    a = rates.back();
-    keep(forces);
+    v   = rates.front();
+    a   = rates.back();
+    old = forces;
 
     // Interpolation on coarsened cells does not conserve momentum. The missing linear and angular
     // momentum of each body without supports is given back by a rigid motion: its six amplitudes
@@ -457,20 +455,6 @@ namespace Touchstone
               for (unsigned int k = 0; k < n; ++k)
                 v.begin()[i] += part(k) * motions[k].begin()[i];
         }
-  }
-
-
-
-  std::vector<std::pair<std::string, Vector *>>
-  Dynamics::state()
-  {
-    return {{"velocity", &v},
-            {"acceleration", &a},
-            {"external force", &old_external},
-            {"internal force", &old_internal},
-            {"normal contact force", &old_normal},
-            {"tangential contact force", &old_tangential},
-            {"support force", &old_support}};
   }
 
 

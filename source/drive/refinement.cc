@@ -202,8 +202,8 @@ namespace Touchstone
     solid.condense(at_slaves);
     // Each active row passes the face size at its slave node on to the master nodes in its stencil.
     // Negative weights occur (dual basis) and are left out, as they would spoil the root.
-    for (const ContactRow &row : problem.contact_state().pair(pair).rows())
-      if (problem.contact_state().state(row).active())
+    for (const ContactRow &row : problem.state().contact.pair(pair).rows())
+      if (problem.state().contact.state(row).active())
         if (const double value = at_slaves(dim * row.slave); value > 0.)
           for (const StencilEntry &entry : row.stencil)
             if (entry.weight > 0.)
@@ -218,7 +218,7 @@ namespace Touchstone
   Refinement::follow_slaves(const Step &problem)
   {
     int        changes = 0;
-    const auto pairs   = pair_boundaries(problem.contact_state());
+    const auto pairs   = pair_boundaries(problem.state().contact);
     for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         // An obstacle has no mesh.
@@ -275,7 +275,7 @@ namespace Touchstone
   Refinement::estimate(const Step &problem)
   {
     using Estimator = RefinementParameters::Estimator;
-    const Vector u  = problem.ghosted_displacement();
+    const Vector u  = problem.state().ghosted_displacement();
     errors.reinit(forest.triangulation.n_active_cells());
     variation.reinit(forest.triangulation.n_active_cells());
     // The region needs no error estimate, and gives none.
@@ -283,12 +283,13 @@ namespace Touchstone
       return 0.;
     errors =
       parameters.estimator == Estimator::kelly ? jump_errors(solid, u) : recovery_errors(solid, u);
-    variation           = pressure_variation(problem.contact_state().fields(false),
-                                   pair_boundaries(problem.contact_state()));
-    const double energy = problem.strain_energy();
+    variation           = pressure_variation(problem.state().contact.fields(false),
+                                   pair_boundaries(problem.state().contact));
+    const double energy = problem.state().strain_energy();
     // In free flight the stress is round-off, and so would be its estimated error: the mesh would
     // be refined at random.
-    if (energy <= solid.round_off(problem.displacement()) * problem.displacement().l2_norm())
+    if (energy <=
+        solid.round_off(problem.state().displacement) * problem.state().displacement.l2_norm())
       {
         errors = 0.;
         return 0.;

@@ -14,9 +14,8 @@
 
 /**
  * @file
- * Checkpoints: what is saved of the problem (StepProblem::save) and of the run
- * (Simulation::write_checkpoint), and how a run resumes from it. What contact adds is listed beside
- * each struct: ContactRow, RowState, FrictionHistory, SlipKinematics.
+ * Checkpoints: what is saved of the run, and how one resumes from it. The state of the bodies is
+ * saved by the step (StepProblem::save) and by its Stateful parts.
  * A resumed run takes the same path as one that was not stopped: everything that is kept between
  * steps only to save time is dropped in both at every checkpoint.
  */
@@ -24,77 +23,6 @@
 namespace Touchstone
 {
   using namespace dealii;
-
-  void
-  StepProblem::forget()
-  {
-    // Factors or a multigrid hierarchy of earlier steps change the last digits of later ones; a run
-    // that resumes has none.
-    solver->clear_cache();
-    // The round-off of finite-strain forces is estimated with the present tangent, so it must be
-    // that of the committed state in both runs.
-    if (!solid.linear())
-      solid.assemble(u);
-  }
-
-
-
-  void
-  StepProblem::save(ArchiveWriter &archive)
-  {
-    forget();
-    // Counts go on over a restart, so that the summary is that of the whole run.
-    const LinearSolverCounts counts = linear_counts();
-    archive.put("committed time", committed_time);
-    archive.put("linear solver counts", counts);
-    archive.put("assemblies", assemblies);
-    archive.put("largest force scale", largest_force_scale);
-    archive.put("searches", n_searches());
-    archive.put_field("displacement", committed_u);
-    archive.put("energies", integration->committed_energies());
-    for (const auto &[name, field] : integration->state())
-      archive.put_field(name, *field);
-    if (solid.has_history())
-      // Internal variables at the quadrature points, as bytes of each cell.
-      archive.put_cells("material",
-                        [this](const unsigned int cell) { return solid.cell_state(cell); });
-    contact.save(archive);
-  }
-
-
-
-  void
-  StepProblem::load(const ArchiveReader &archive)
-  {
-    time = committed_time = archive.get<double>("committed time");
-    u = committed_u = archive.field("displacement");
-    for (const auto &[name, field] : integration->state())
-      *field = archive.field(name);
-    integration->resume(committed_time, archive.get<Energies>("energies"));
-    if (solid.has_history())
-      {
-        const auto &states = archive.cells("material");
-        for (unsigned int cell = 0; cell < states.size(); ++cell)
-          if (!states[cell].empty())
-            solid.set_cell_state(cell, states[cell]);
-        // Ghost cells need the history of their owners.
-        solid.exchange_cell_states();
-      }
-    contact.load(archive);
-    // Needs the contact that has just been loaded: check_loose_bodies() compares the next step with
-    // it.
-    remember_contact();
-    if (archive.has("largest force scale")) // not in checkpoints of earlier versions
-      largest_force_scale = archive.get<double>("largest force scale");
-    forget();
-    // The work done since the start of this process (search of the initial state) was done by the
-    // saved run as well, and must not count twice.
-    earlier          = archive.get<LinearSolverCounts>("linear solver counts");
-    assemblies       = archive.get<unsigned int>("assemblies");
-    earlier_searches = archive.get<unsigned int>("searches") - contact.n_searches();
-  }
-
-
 
   FoundCheckpoint
   Simulation::find_origin(const Scene &scene, const bool resume, const MPI_Comm communicator)
@@ -146,7 +74,7 @@ namespace Touchstone
     // total time.
     RunSummary now = summary;
     now.seconds    = seconds_so_far();
-    ArchiveWriter archive(solid);
+    ArchiveWriter archive(solid.dof_handler);
     archive.put("position", position);
     archive.put("end time", scene.load_stepping.end_time);
     archive.put("nominal step size", scene.load_stepping.end_time / scene.load_stepping.steps);
@@ -224,7 +152,7 @@ namespace Touchstone
     try
       {
         // Matches the saved nodes with those of this run, which may have another number of ranks.
-        archive.connect(solid);
+        archive.connect(solid.dof_handler);
       }
     catch (const ArchiveError &error)
       {

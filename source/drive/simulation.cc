@@ -179,14 +179,14 @@ namespace Touchstone
     TimerOutput::Scope scope(timer, "output");
     last_vtu_step = step;
     // Ghost values are collective, and so are both outputs: all ranks get here together.
-    const Vector u     = problem->ghosted_displacement();
-    const auto   rates = problem->time_integration().rates();
+    const Vector u     = problem->state().ghosted_displacement();
+    const auto   rates = problem->state().time_integration.rates();
     Vector       velocity;
     if (!rates.empty())
       velocity = solid.ghosted(*rates.front());
     volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time);
-    contact_output.write(contact_faces(problem->contact_state()),
-                         contact_points(problem->contact_state(), u),
+    contact_output.write(contact_faces(problem->state().contact),
+                         contact_points(problem->state().contact, u),
                          step,
                          time);
   }
@@ -200,12 +200,12 @@ namespace Touchstone
                           const unsigned int newton,
                           const unsigned int cuts)
   {
-    const Vector  u       = problem->ghosted_displacement();
-    const auto    results = pair_results(problem->contact_state(), u);
+    const Vector  u       = problem->state().ghosted_displacement();
+    const auto    results = pair_results(problem->state().contact, u);
     ConvergedStep record;
     record.solid             = &solid;
     record.displacement      = &u;
-    record.points            = contact_points(problem->contact_state(), u);
+    record.points            = contact_points(problem->state().contact, u);
     record.number            = step;
     record.time              = time;
     record.step_size         = size;
@@ -224,16 +224,16 @@ namespace Touchstone
           had_contact[pair] = time;
       }
     summary.reactions.clear();
-    for (const Reaction &reaction : problem->reactions())
+    for (const Reaction &reaction : problem->state().reactions())
       {
         record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
         summary.reactions[reaction.body][reaction.boundary]       = reaction.force;
       }
-    const Energies &energies  = problem->time_integration().committed_energies();
+    const Energies &energies  = problem->state().time_integration.committed_energies();
     record.energies["strain"] = energies.strain;
     if (solid.has_history())
       record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
-    if (problem->time_integration().dynamic())
+    if (problem->state().time_integration.dynamic())
       {
         // The ledger of doc/time_integration.md, "The energy ledger".
         record.energies["kinetic"]       = energies.kinetic;
@@ -244,7 +244,7 @@ namespace Touchstone
         record.energies["balance error"] = energies.balance_error();
         for (unsigned int p = 0; p < results.size(); ++p)
           summary.motion->add_step(scene.pairs[p].name, time - size, time, results[p]);
-        const auto momenta = problem->time_integration().momenta();
+        const auto momenta = problem->state().time_integration.momenta();
         record.momentum.emplace();
         record.angular_momentum.emplace();
         for (unsigned int b = 0; b < momenta.size(); ++b)
@@ -508,7 +508,7 @@ namespace Touchstone
   {
     // Counts of work per rank and their largest value over the mean: unlike seconds they do not
     // depend on the machine or its load.
-    const ContactCounts work = contact_counts(problem->contact_state());
+    const ContactCounts work = contact_counts(problem->state().contact);
     const std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
@@ -551,12 +551,12 @@ namespace Touchstone
     measure_balance();
     if (summary.converged)
       {
-        const Vector   u = problem->ghosted_displacement();
+        const Vector   u = problem->state().ghosted_displacement();
         ReferenceInput input;
         input.solid        = &solid;
         input.displacement = &u;
-        input.points       = contact_points(problem->contact_state(), u);
-        input.pair_results = pair_results(problem->contact_state(), u);
+        input.points       = contact_points(problem->state().contact, u);
+        input.pair_results = pair_results(problem->state().contact, u);
         input.motion       = summary.motion ? &*summary.motion : nullptr;
         input.communicator = communicator;
         // Only a converged run is compared: the exact solution is that of the end time.
@@ -588,13 +588,10 @@ namespace Touchstone
     const Forest forest(scene.forest_input(), folder_of_scene, communicator);
     Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
-    StepProblem  problem(scene, forest, solid, timer);
     // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial
     // gaps and formulas, and finds bodies that nothing holds.
-    problem.start();
-    problem.begin_step(scene.load_stepping.end_time / scene.load_stepping.steps);
-    NonlinearProblem &newton = problem;
-    newton.residual(0);
-    newton.linearize();
+    const std::unique_ptr<Step> problem = Step::make(scene, forest, solid, timer);
+    problem->start();
+    problem->prepare(scene.load_stepping.end_time / scene.load_stepping.steps);
   }
 } // namespace Touchstone

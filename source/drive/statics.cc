@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/archive/archive.h>
 #include <touchstone/drive/dynamics.h>
 #include <touchstone/drive/time_integration.h>
 
@@ -23,7 +24,9 @@ namespace Touchstone
         // inside out.
         , guesses(solid.linear())
         , motion(solid.owned, solid.communicator)
+        , motion_of_step(motion)
       {
+        fields = {{"motion", &motion}};
       }
 
       Vector
@@ -87,24 +90,27 @@ namespace Touchstone
       Energies
       end_step(const Vector &u, const StepForces &) override
       {
-        Energies result = committed;
-        result.strain   = solid.strain_energy(u);
-        result.plastic  = solid.dissipation();
-        return result;
+        end         = committed;
+        end.strain  = solid.strain_energy(u);
+        end.plastic = solid.dissipation();
+        if (guesses)
+          {
+            motion_of_step = u;
+            motion_of_step -= committed_u;
+          }
+        return end;
       }
 
       void
-      commit(const Vector &u, const StepForces &, const Energies &end) override
+      commit() override
       {
-        committed = end;
         // The first step closes the initial gaps: its motion says nothing of the second one.
         if (guesses && committed_time > 0.)
           {
-            motion = u;
-            motion -= committed_u;
+            motion = motion_of_step;
             motion *= 1. / (time - committed_time);
           }
-        committed_time = time;
+        TimeIntegration::commit();
       }
 
       void
@@ -115,24 +121,48 @@ namespace Touchstone
         motion = 0.;
       }
 
-      std::vector<std::pair<std::string, Vector *>>
-      state() override
-      {
-        return {{"motion", &motion}};
-      }
-
     private:
       const Solid  &solid;
       const Vector &committed_u;
       const bool    guesses;
-      double        time = 0.;
       /**
        * Velocity of the last step, length per time, for the extrapolation; zero if it does not
        * predict the next step.
        */
       Vector motion;
+      /** Displacement of the step that end_step() has seen, length. */
+      Vector motion_of_step;
     };
   } // namespace
+
+
+
+  void
+  TimeIntegration::commit()
+  {
+    committed      = end;
+    committed_time = time;
+  }
+
+
+
+  void
+  TimeIntegration::save(ArchiveWriter &archive) const
+  {
+    archive.put("energies", committed);
+    for (const auto &[name, field] : fields)
+      archive.put_field(name, *field);
+  }
+
+
+
+  void
+  TimeIntegration::load(const ArchiveReader &archive)
+  {
+    resume(archive.get<double>("committed time"), archive.get<Energies>("energies"));
+    for (const auto &[name, field] : fields)
+      *field = archive.field(name);
+  }
 
 
 

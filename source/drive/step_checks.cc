@@ -106,7 +106,7 @@ namespace Touchstone
     std::vector<std::string> result;
     // With inertia a body in free flight is a solution; without it has no equilibrium, or an
     // arbitrary one.
-    if (integration->dynamic() || loose_bodies.empty())
+    if (integration->dynamic() || system->loose_bodies().empty())
       return result;
 
     // Upper bound for a credible motion in a step: in statics a body that has lost all contact was
@@ -128,7 +128,7 @@ namespace Touchstone
 
     const std::vector<unsigned int> active = active_rows();
     const std::vector<unsigned int> body   = bodies_of_unknowns(solid);
-    for (const unsigned int b : loose_bodies)
+    for (const unsigned int b : system->loose_bodies())
       {
         const std::string &name    = scene.bodies[b].name;
         unsigned int       touches = 0, touched = 0;
@@ -204,7 +204,7 @@ namespace Touchstone
       return changing;
     // What supports carry is not out of balance.
     Vector free(unbalanced);
-    remove_supported(free);
+    system->remove_supported(free);
     Vector positions(solid.owned, solid.communicator);
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
     const std::vector<unsigned int> body = bodies_of_unknowns(solid);

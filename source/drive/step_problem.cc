@@ -16,31 +16,12 @@
 
 // One implicit step as Newton's method sees it (doc/theory.md 5). In each iteration residual()
 // updates the contact geometry, the forces and the active set, linearize() makes the linear system
-// with all conditions, solve() solves it and update() applies the increment. A converged step is
-// kept by try_commit() or taken back by rollback(). Checks of its outcome are in step_checks.cc,
-// checkpoints in restart.cc. All functions are collective.
+// with all conditions (StepSystem), solve() solves it and update() applies the increment. What is
+// kept of a step is in step_history.cc, checks of its outcome are in step_checks.cc. All functions
+// are collective.
 namespace Touchstone
 {
   using namespace dealii;
-
-  namespace
-  {
-    /** Whether contact is linearised consistently from the first iteration of a step on. With
-     * friction slip makes the system unsymmetric anyway, so that the derivatives cost no other
-     * factorisation. Without friction a symmetric factorisation saves more than the additional
-     * iterations cost; and with an iterative solver (@p iterates) the derivatives of averaged rows
-     * cost as much as all the rest (doc/theory.md 5, "Linearisation"; doc/benchmarks.md, "Frozen
-     * or consistent"). */
-    bool
-    consistent(const Scene &scene, const bool iterates)
-    {
-      return scene.contact.linearisation == ContactParameters::Linearisation::consistent ||
-             (scene.contact.linearisation == ContactParameters::Linearisation::automatic &&
-              scene.has_friction() && !iterates);
-    }
-  } // namespace
-
-
 
   StepProblem::StepProblem(const Scene  &scene,
                            const Forest &forest,
@@ -54,7 +35,6 @@ namespace Touchstone
               scene.contact,
               solid,
               boundary_conditions.mirrors())
-    , solver(LinearSolverRegistry::make(scene.linear_solver.type, scene.linear_solver))
     , u(solid.owned, solid.communicator)
     , committed_u(u)
     , external(u)
@@ -73,7 +53,6 @@ namespace Touchstone
       solid.assemble();
       ++assemblies;
     }
-    modes = std::make_unique<RigidBodyModes>(solid);
     // Slave nodes whose contact may open and close: some schemes move their mass to neighbours, so
     // that no momentum is concentrated in the contact surface. Tied nodes never do.
     std::set<Index> slaves;
@@ -85,6 +64,9 @@ namespace Touchstone
                                         solid,
                                         slaves,
                                         committed_u);
+    system      = std::make_unique<StepSystem>(
+      StepSystem::Parts{scene, solid, boundary_conditions, contact, *integration});
+    parts = {integration.get(), &solid, &contact};
     // Three lengths: of the smallest cell, against which missed prescribed displacements are
     // judged; of the largest coordinate, which sets the round-off of positions; and of the box
     // around all bodies, beyond which no increment makes sense.
@@ -120,12 +102,11 @@ namespace Touchstone
     }
     // In statics a rigid motion without support has no equilibrium; in dynamics inertia resists it.
     if (!integration->dynamic())
-      check_bodies_without_support();
+      system->check_bodies_without_support(u);
     else
       {
         solid.internal_force(u, internal);
-        graph.clear();
-        boundary_conditions.prescribe(0., u, graph);
+        system->prescribe(0., u);
         // The velocity that a support prescribes is the difference quotient of its displacement
         // over a time that is short compared with a step. Components across the prescribed
         // direction keep their initial velocity.
@@ -144,29 +125,10 @@ namespace Touchstone
           velocity.compress(VectorOperation::add);
         };
         integration->start(external, internal, {set_rate, [&](Vector &force) {
-                                                  remove_supported(force);
+                                                  system->remove_supported(force);
                                                 }});
       }
     return start_report(contact);
-  }
-
-
-
-  // Supports can act along any direction of a node, so their part is projected out node by node and
-  // not by components (doc/theory.md 5, "Convergence").
-  void
-  StepProblem::remove_supported(Vector &forces) const
-  {
-    for (Index k = 0; k < solid.owned.n_elements() / dim; ++k)
-      {
-        const Index    node = solid.owned.nth_index_in_set(dim * k) / dim;
-        Tensor<1, dim> force;
-        for (unsigned int d = 0; d < dim; ++d)
-          force[d] = forces.begin()[dim * k + d];
-        force = graph.free_part(node, force);
-        for (unsigned int d = 0; d < dim; ++d)
-          forces.begin()[dim * k + d] = force[d];
-      }
   }
 
 
@@ -181,9 +143,8 @@ namespace Touchstone
     // gap closes: later iterates already obey contact.
     touch_unknown = integration->dynamic();
     forcing_term.begin_step();
-    loose_bodies.clear();
+    system->begin_step();
     boundary_conditions.external_force(time, u, external);
-    stabilised.clear();
     // Last: the functions above use the committed state of the material.
     solid.begin_step(time - committed_time);
   }
@@ -201,179 +162,11 @@ namespace Touchstone
 
 
 
-  double
-  StepProblem::try_commit(const double smallest_part)
-  {
-    double part = 1.;
-    with_forces([&](const StepForces &forces) {
-      // The energies are known only with the forces at the end; in dynamics they decide whether the
-      // step is short enough. A part below the smallest one is not worth a repetition: the step is
-      // then kept as it is.
-      const Energies end = integration->end_step(u, forces);
-      if (smallest_part <= 1.)
-        part = acceptable_part(end);
-      if (part < smallest_part)
-        part = 1.;
-      if (part == 1.)
-        keep(forces, end);
-    });
-    return part;
-  }
-
-
-
-  void
-  StepProblem::keep(const StepForces &forces, const Energies &end)
-  {
-    // First, because the time integration refers to committed_u and keeps no copy: it must still
-    // be the displacement with which the step began.
-    integration->commit(u, forces, end);
-    if (forces.velocity_constraints != nullptr)
-      contact.add_impulses(*forces.velocity_constraints, time - committed_time);
-    committed_u    = u;
-    committed_time = time;
-    solid.commit();
-    contact.commit();
-    largest_force_scale = std::max(largest_force_scale, force_scale);
-    remember_contact();
-  }
-
-
-
-  void
-  StepProblem::with_forces(const std::function<void(const StepForces &)> &use)
-  {
-    // Statics has no energy balance and needs none of these forces.
-    if (!integration->dynamic())
-      return use(StepForces());
-    Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
-    contact.add_forces(normal, ForcePart::normal);
-    contact.add_forces(tangential, ForcePart::tangential);
-    // What the supports add is what is missing to the balance of the nodes.
-    support *= -1.;
-    std::vector<VelocityConstraint> constraints;
-    // Impacts without rebound change velocities, and need the conditions of the nodes in contact.
-    const bool plastic = scene.time_integration.plastic_impacts();
-    if (plastic && time > committed_time)
-      constraints = velocity_constraints(contact, graph, time - committed_time);
-    use({&external,
-         &internal,
-         &normal,
-         &tangential,
-         &support,
-         plastic ? &constraints : nullptr,
-         [this](Vector &force) { remove_supported(force); },
-         contact.work_of_obstacles(ForcePart::normal),
-         contact.work_of_obstacles(ForcePart::tangential)});
-  }
-
-
-
-  double
-  StepProblem::acceptable_part(const Energies &end) const
-  {
-    if (!integration->dynamic())
-      return 1.;
-    const TimeIntegrationParameters &parameters = scene.time_integration;
-    // Energy that nothing has supplied comes from the discretisation in time; a shorter step
-    // reduces it, hence the exception.
-    if (end.gain() > parameters.gain_tolerance * end.largest)
-      throw EnergyGain("energy " + std::to_string(end.gain() / end.largest) +
-                       " times the largest so far came from nowhere ('Time integration/Gain "
-                       "tolerance')");
-    // An impact in the middle of a step: repeat it such that it ends where the first gap closes, as
-    // estimated from the first guess.
-    const double change = end.contact - integration->committed_energies().contact;
-    const bool   impact = parameters.adapts_to_impacts() && touch < 1. - 1e-6 &&
-                        std::abs(change) > parameters.impact_tolerance * end.largest;
-    return impact ? touch : 1.;
-  }
-
-
-
-  void
-  StepProblem::rollback()
-  {
-    u = committed_u;
-    integration->rollback();
-    solid.rollback();
-    contact.rollback();
-  }
-
-
-
-  StepTransfer
-  StepProblem::transfer() const
-  {
-    StepTransfer result;
-    // Both states: the committed one as history, the present one as initial guess on the new mesh
-    // (doc/theory.md 11, "History"). The order of the fields is the interface to adopt().
-    for (const bool of_committed : {true, false})
-      {
-        result.fields.push_back(of_committed ? committed_u : u);
-        for (Vector &field : contact.fields(of_committed))
-          result.fields.push_back(std::move(field));
-      }
-    for (const Vector *field : integration->rates())
-      result.fields.push_back(*field);
-    result.momenta             = integration->momenta();
-    result.committed_time      = committed_time;
-    result.energies            = integration->committed_energies();
-    result.largest_force_scale = largest_force_scale;
-    result.counts              = {linear_counts(), assemblies, n_searches()};
-    return result;
-  }
-
-
-
-  void
-  StepProblem::adopt(const StepTransfer &before, const double t)
-  {
-    earlier             = before.counts.linear;
-    earlier_searches    = before.counts.searches;
-    largest_force_scale = before.largest_force_scale;
-    committed_time      = before.committed_time;
-    assemblies += before.counts.assemblies;
-    // At time 0 the energies are those that the first velocities mean on this mesh.
-    if (committed_time > 0.)
-      integration->resume(committed_time, before.energies);
-
-    const std::vector<Vector> &fields  = before.fields;
-    const std::size_t          n_rates = integration->rates().size();
-    // Fields: committed displacement and contact, the same of the present state, and the rates at
-    // the end; see transfer().
-    const auto middle = fields.begin() + (fields.size() - n_rates) / 2;
-    const auto rates  = fields.end() - n_rates;
-    // Before the first step there is no history but what start() makes.
-    if (committed_time > 0.)
-      {
-        committed_u = u = fields.front();
-        // Twice: first the committed state becomes the history, then the present one the initial
-        // guess.
-        contact.update(u, committed_time);
-        contact.adopt({fields.begin() + 1, middle}, true);
-        if (integration->dynamic())
-          {
-            boundary_conditions.external_force(committed_time, u, external);
-            solid.internal_force(u, internal);
-            unbalanced = 0.;
-          }
-        with_forces([&](const StepForces &forces) {
-          integration->adopt({rates, fields.end()}, forces, before.momenta);
-        });
-      }
-    u = *middle;
-    contact.update(u, t);
-    contact.adopt({middle + 1, rates}, false);
-  }
-
-
-
   LinearSolverCounts
   StepProblem::linear_counts() const
   {
     LinearSolverCounts        sum = earlier;
-    const LinearSolverCounts &now = solver->counts();
+    const LinearSolverCounts &now = system->linear_solver().counts();
     sum.solves += now.solves;
     sum.iterations += now.iterations;
     sum.factorisations += now.factorisations;
@@ -392,13 +185,13 @@ namespace Touchstone
     update_geometry(state);
     Vector without_contact(solid.owned, solid.communicator);
     balance(without_contact);
-    contact.enforcement().recover(contact, without_contact, graph);
+    contact.enforcement().recover(contact, without_contact, system->conditions());
     judge_balance(without_contact, state);
     update_active_set(damping, state);
     // Uzawa's outer iteration augments forces once they are in balance.
     if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
       contact.enforcement().balanced(contact);
-    forcing_term.update(state, solver->symmetric_only() && solid.linear());
+    forcing_term.update(state, system->linear_solver().symmetric_only() && solid.linear());
     return state;
   }
 
@@ -417,8 +210,7 @@ namespace Touchstone
     touch_unknown = false;
     // Prescribed displacements first: they take precedence over contact, and the residual needs
     // their directions. Contact is added in linearize().
-    graph.clear();
-    missed = boundary_conditions.prescribe(time, u, graph);
+    missed = system->prescribe(time, u);
     // Exact up to round-off after the first full increment; a shortened increment misses a part.
     state.prescribed = missed <= scene.newton.gap_tolerance * length;
   }
@@ -455,7 +247,7 @@ namespace Touchstone
 
     // Forces along prescribed directions are reactions of the supports and no residual.
     Vector free(unbalanced);
-    remove_supported(free);
+    system->remove_supported(free);
     const double present = std::max(
       {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
     const double round_off =
@@ -505,216 +297,10 @@ namespace Touchstone
       {
         // Linear bodies have a constant stiffness, which was assembled in the constructor
         // (doc/theory.md 2.1).
-        solid.assemble(u, solver->symmetric_only());
+        solid.assemble(u, system->linear_solver().symmetric_only());
         ++assemblies;
       }
-    begin_system();
-    // Consistent linearisation of contact by choice or default, or because a frozen iteration of
-    // this step has gained too little (doc/theory.md 5, "Linearisation").
-    if (!system->keep_symmetric &&
-        (consistent(scene, solver->wants_basis_change(static_cast<int>(u.size()))) ||
-         (forcing_term.slow() &&
-          scene.contact.linearisation == ContactParameters::Linearisation::automatic)))
-      contact.differentiate();
-    // Conditions of contact follow the prescribed displacements in the graph, in the order of
-    // pairs; friction needs to know which of them were accepted.
-    contact.enforcement().enforce(contact, graph, *system);
-    add_follower_pressure();
-    contact.enforcement().add_friction(contact, *system);
-    if (!integration->dynamic())
-      check_supports();
-    // Only now are all terms known, and hence the dofs of other ranks that they refer to.
-    const IndexSet needed = dofs_of_system();
-    constrain_system(needed);
-    if (solver->wants_basis_change(static_cast<int>(u.size())))
-      change_basis(needed);
-    condensed =
-      std::make_unique<CondensedSystem>(*system,
-                                        solver->applies_operator(static_cast<int>(u.size())));
-  }
-
-
-
-  void
-  StepProblem::begin_system()
-  {
-    system            = std::make_unique<LinearSystem>();
-    system->stiffness = &integration->stiffness();
-    system->rhs.reinit(solid.owned, solid.communicator);
-    system->rhs               = applied;
-    system->first_extra       = system->rhs.size();
-    system->tolerance         = forcing_term.tolerance();
-    system->keep_symmetric    = solver->symmetric_only();
-    system->symmetric         = system->keep_symmetric || solid.symmetric();
-    system->takes_multipliers = solver->factorises(static_cast<int>(u.size()));
-  }
-
-
-
-  void
-  StepProblem::add_follower_pressure()
-  {
-    if (boundary_conditions.follower_pressure().empty())
-      return;
-    const std::size_t before = system->terms.size();
-    boundary_conditions.follower_pressure().add_stiffness(time,
-                                                          u,
-                                                          system->keep_symmetric,
-                                                          system->terms);
-    for (std::size_t k = before; k < system->terms.size(); ++k)
-      for (auto &entry : system->terms[k].left)
-        // Loads at the end of the step enter the balance with this weight, and so does their
-        // stiffness.
-        entry.second *= integration->weight();
-    // The load stiffness is unsymmetric in general (doc/theory.md 2.3); systems that have to be
-    // symmetric get its symmetric part.
-    system->symmetric = system->symmetric && system->keep_symmetric;
-  }
-
-
-
-  IndexSet
-  StepProblem::dofs_of_system() const
-  {
-    // Contact terms may refer to nodes that are far from this rank's cells, and to
-    // components of them that no condition knows of.
-    std::set<Index> far;
-    for (const RankOneTerm &term : system->terms)
-      for (const LinearForm *form : {&term.left, &term.right})
-        for (const auto &[i, value] : *form)
-          if (i < system->rhs.size() && !solid.relevant.is_element(i))
-            far.insert(i);
-    IndexSet needed = solid.relevant;
-    needed.add_indices(far.begin(), far.end());
-    return needed;
-  }
-
-
-
-  // Decisions about the kind of system must be the same on all ranks: an unsymmetric row on one
-  // makes the whole system unsymmetric.
-  bool
-  StepProblem::everywhere(const bool here) const
-  {
-    return Utilities::MPI::min(static_cast<int>(here), solid.communicator) == 1;
-  }
-
-
-
-  void
-  StepProblem::constrain_system(const IndexSet &needed)
-  {
-    system->constraints = graph.constraints(solid.hanging, solid.owned, needed, solid.communicator);
-    // Friction in slip and consistent linearisation: test functions that do no work against the
-    // forces of the conditions, doc/theory.md 6.3, equation (22).
-    if (!everywhere(graph.symmetric()))
-      {
-        system->test_constraints =
-          graph.test_constraints(solid.hanging, solid.owned, needed, solid.communicator);
-        system->symmetric = false;
-      }
-    system->symmetric = everywhere(system->symmetric);
-  }
-
-
-
-  // Stiff springs spoil multigrid; with their elongations as dofs each becomes a diagonal entry
-  // (doc/theory.md 7, "Stiff springs", equation (23)).
-  void
-  StepProblem::change_basis(const IndexSet &needed)
-  {
-    // After all conditions: springs determine no displacement and must not take a component that
-    // a condition needs.
-    for (const ContactRow &row : contact.rows())
-      for (const Condition &spring : friction_springs(row, contact.state(row)))
-        graph.accept(spring, ConstraintGraph::Treatment::spring);
-    system->basis_change =
-      graph.basis_change(system->constraints, solid.owned, needed, solid.communicator);
-    if (!system->keep_symmetric && !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
-      {
-        system->test_basis_change =
-          graph.test_basis_change(system->test_constraints ? *system->test_constraints
-                                                           : system->constraints,
-                                  solid.owned,
-                                  needed,
-                                  solid.communicator);
-        system->symmetric = false;
-      }
-  }
-
-
-
-  // Only supports count here. A body that they leave free and that takes part in no contact pair
-  // can never be held: an input error (doc/theory.md 9).
-  void
-  StepProblem::check_bodies_without_support()
-  {
-    graph.clear();
-    boundary_conditions.prescribe(0., u, graph);
-    const FreeMotion motion = modes->free_motion(graph.accepted());
-    for (const unsigned int body : motion.bodies)
-      {
-        const std::string &name  = scene.bodies[body].name;
-        bool               meets = false;
-        for (const ContactPairParameters &pair : scene.pairs)
-          meets = meets || pair.slave_body == name || pair.master_body == name;
-        if (!meets)
-          throw InputError("Body " + name,
-                           "Fixed",
-                           "",
-                           "nothing holds the bodies in place: " + motion.description,
-                           "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
-                           "contact pair.");
-      }
-  }
-
-
-
-  // Bodies held by contact alone (doc/theory.md 9): where the accepted conditions leave rigid
-  // motions free, a diagonal shift on these bodies keeps the increment finite. It is not in the
-  // residual, so the equilibrium does not depend on it.
-  void
-  StepProblem::check_supports()
-  {
-    std::vector<Condition> supports = graph.accepted();
-    for (const ContactRow &row : contact.rows())
-      {
-        const auto springs = elastic_stick(row, contact.state(row));
-        // Springs of stick hold a body against sliding although they impose no condition.
-        supports.insert(supports.end(), springs.begin(), springs.end());
-      }
-    const FreeMotion motion = modes->free_motion(supports);
-    if (motion.n_modes == 0)
-      return;
-    // The shift is chosen by the distance that a body may move in one iteration. Before contact:
-    // about the smallest open gap, so that the body does not pass through the surface that will
-    // hold it. In contact the body can still slide: there the shift must outweigh the geometric
-    // stiffness of the contact forces, relative to the stiffness about pressure over Young's
-    // modulus, which the tangent lacks; otherwise the iterates would oscillate about the
-    // equilibrium.
-    double       distance = std::numeric_limits<double>::max();
-    double       size     = 0.;
-    unsigned int active   = 0;
-    for (const ContactRow &row : contact.rows())
-      if (row.has_partner)
-        {
-          const bool is_active = contact.state(row).active();
-          size                 = std::max(size, row.size);
-          active += is_active;
-          if (!is_active && row.gap > 0.)
-            distance = std::min(distance, row.gap);
-        }
-    distance = Utilities::MPI::min(distance, solid.communicator);
-    size     = Utilities::MPI::max(size, solid.communicator);
-    active   = Utilities::MPI::sum(active, solid.communicator);
-    // No row has a partner yet.
-    if (size == 0.)
-      size = length;
-    distance = active > 0 ? 1e-3 * size : std::clamp(1.01 * distance, 1e-3 * size, size);
-    system->diagonal_shift =
-      modes->stabilisation(motion, unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
-    stabilised = motion.description;
-    loose_bodies.insert(motion.bodies.begin(), motion.bodies.end());
+    system->assemble({time, u, applied, unbalanced, forcing_term.tolerance(), forcing_term.slow()});
   }
 
 
@@ -723,20 +309,10 @@ namespace Touchstone
   StepProblem::solve()
   {
     TimerOutput::Scope scope(timer, "linear solver");
-    const unsigned int before = solver->counts().iterations;
-    Epetra_Vector      solution(condensed->rows());
-    solver->solve(*condensed, modes->motions(), solution);
-    const Index n = solid.owned.n_elements();
-    // Eliminated dofs follow from the constraints.
-    condensed->expand(solution, solved_increment);
+    const int          iterations = system->solve(solved_increment);
     check_increment();
-    extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
-    // Frees its memory before the forces are recovered, which need the full system only.
-    condensed.reset();
-    contact.enforcement().take(
-      {*system, graph, solved_increment, extra, [this](Vector &force) { solid.condense(force); }});
-    const unsigned int iterations = solver->counts().iterations - before;
-    return iterations == 0 ? -1 : static_cast<int>(iterations);
+    system->recover(solved_increment);
+    return iterations;
   }
 
 
@@ -782,6 +358,16 @@ namespace Touchstone
 
 
 
+  void
+  StepProblem::prepare(const double t)
+  {
+    begin_step(t);
+    residual(0);
+    linearize();
+  }
+
+
+
   StepState
   StepProblem::state() const
   {
@@ -811,9 +397,9 @@ namespace Touchstone
   StepProblem::difficulty() const
   {
     return {worst_place(),
-            stabilised.empty()
+            system->stabilised().empty()
               ? ""
-              : "; held by contact alone, perhaps against no resistance: " + stabilised};
+              : "; held by contact alone, perhaps against no resistance: " + system->stabilised()};
   }
 
 
@@ -838,11 +424,11 @@ namespace Touchstone
       // A remark and no error: what the dropped conditions would determine is determined already.
       text = std::to_string(dropped) +
              " contact row(s) dropped: prescribed displacements or other pairs decide there";
-    if (!stabilised.empty())
-      text +=
-        std::string(text.empty() ? "" : "\n") + "held by contact alone, stabilised: " + stabilised;
+    if (!system->stabilised().empty())
+      text += std::string(text.empty() ? "" : "\n") +
+              "held by contact alone, stabilised: " + system->stabilised();
     // Each remark of the solver is reported once.
-    for (const std::string &remark : solver->take_remarks())
+    for (const std::string &remark : system->linear_solver().take_remarks())
       text += (text.empty() ? "" : "\n") + remark;
     return text;
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/archive/archive.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/solid/linear_cells.h>
 #include <touchstone/solid/solid.h>
@@ -299,6 +300,30 @@ namespace Touchstone
 
   /** Ranks assemble their ghost cells as well, so history of a cell must be known to all of these.
    * Collective. */
+  void
+  Solid::save(ArchiveWriter &archive) const
+  {
+    if (has_history())
+      archive.put_cells("material", [this](const unsigned int cell) { return cell_state(cell); });
+  }
+
+
+
+  void
+  Solid::load(const ArchiveReader &archive)
+  {
+    if (!has_history())
+      return;
+    const auto &states = archive.cells("material");
+    for (unsigned int cell = 0; cell < states.size(); ++cell)
+      if (!states[cell].empty())
+        set_cell_state(cell, states[cell]);
+    // Ghost cells need the history of their owners.
+    exchange_cell_states();
+  }
+
+
+
   void
   Solid::exchange_cell_states()
   {

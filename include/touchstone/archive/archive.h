@@ -3,9 +3,11 @@
 #ifndef touchstone_archive_archive_h
 #define touchstone_archive_archive_h
 
-#include <touchstone/solid/solid.h>
+#include <touchstone/algebra/vector.h>
+#include <touchstone/base/types.h>
 
 #include <deal.II/base/utilities.h>
+#include <deal.II/dofs/dof_handler.h>
 #include <deal.II/grid/cell_id.h>
 
 #include <functional>
@@ -61,8 +63,8 @@ namespace Touchstone
   class ArchiveWriter
   {
   public:
-    /** @param solid With the mesh that the state lives on. */
-    explicit ArchiveWriter(const Solid &solid);
+    /** @param dof_handler Of the mesh that the state lives on, with dim displacements per node. */
+    explicit ArchiveWriter(const dealii::DoFHandler<dim> &dof_handler);
 
     /** @brief Anything that boost can serialise; of rank 0, the same for all. */
     template <class T>
@@ -101,7 +103,7 @@ namespace Touchstone
     /** @} */
 
   private:
-    const Solid                             &solid;
+    const dealii::DoFHandler<dim>           &dof_handler;
     std::map<std::string, std::vector<char>> blocks;
 
     template <class T>
@@ -147,11 +149,11 @@ namespace Touchstone
     std::set<dealii::CellId::binary_type>
     refined_cells(unsigned int level) const;
 
-    /** @brief Match nodes and cells of the pieces with those of the mesh of @p solid, and read this
-     * rank's share of all pieces. Collective. @throws ArchiveError, on all ranks, if the mesh is
-     * another. */
+    /** @brief Match nodes and cells of the pieces with those of the mesh of @p dof_handler, and
+     * read this rank's share of all pieces. Collective. @throws ArchiveError, on all ranks, if the
+     * mesh is another. */
     void
-    connect(const Solid &solid);
+    connect(const dealii::DoFHandler<dim> &dof_handler);
 
     /** @brief Without ghosts. @throws ArchiveError if it is missing. */
     const Vector &
@@ -198,7 +200,8 @@ namespace Touchstone
     /** Give the nodes that records refer to their present numbers, some of which only
      * other ranks know. */
     void
-    translate_references(const std::unordered_map<Index, Index> &present_nodes, const Solid &solid);
+    translate_references(const std::unordered_map<Index, Index> &present_nodes,
+                         const dealii::DoFHandler<dim>          &dof_handler);
   };
 } // namespace Touchstone
 

@@ -8,7 +8,7 @@
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/row.h>
-#include <touchstone/contact/stateful.h>
+#include <touchstone/base/stateful.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/solid/solid.h>
 

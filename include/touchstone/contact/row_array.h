@@ -5,7 +5,7 @@
 
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/row_archive.h>
-#include <touchstone/contact/stateful.h>
+#include <touchstone/base/stateful.h>
 
 #include <algorithm>
 #include <string>

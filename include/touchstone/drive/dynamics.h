@@ -70,13 +70,11 @@ namespace Touchstone
     Energies
     end_step(const Vector &u, const StepForces &forces) override;
     void
-    commit(const Vector &u, const StepForces &forces, const Energies &end) override;
+    commit() override;
     void
     rollback() override
     {
     }
-    std::vector<std::pair<std::string, Vector *>>
-    state() override;
     std::vector<const Vector *>
     rates() const override
     {
@@ -109,13 +107,23 @@ namespace Touchstone
     Matrix effective;
     double effective_step = 0.;
 
-    double step = 0., time = 0.;
+    /** Forces on the nodes, as StepForces has them. */
+    struct NodalForces
+    {
+      Vector external, internal, normal, tangential, support;
+      NodalForces &
+      operator=(const StepForces &forces);
+    };
+
+    double step = 0.;
     /** Velocity, acceleration and forces of the committed state. */
-    Vector v, a, old_external, old_internal, old_normal, old_tangential, old_support;
-    double inertial_force = 0.;
-    /** Velocity and acceleration at the end of the step, and the contact forces there
-     * without what an impact has taken from the acceleration. */
-    Vector end_v, end_a, end_normal, end_tangential;
+    Vector      v, a;
+    NodalForces old;
+    double      inertial_force = 0.;
+    /** The same at the end of the step; contact forces are without what an impact has taken from
+     * the acceleration. */
+    Vector      end_v, end_a;
+    NodalForces end_forces;
 
     /** Acceleration and velocity at the end of the step if it ends at @p u. */
     void
@@ -126,8 +134,6 @@ namespace Touchstone
      */
     void
     lose_rebound(const StepForces &forces, Energies &energies);
-    void
-    keep(const StepForces &forces);
     /** C times a velocity. */
     void
     damping_force(const Vector &velocity, Vector &force) const;

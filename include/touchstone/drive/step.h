@@ -37,6 +37,19 @@ namespace Touchstone
     StepCounts             counts;
     /** Forces of the supports. */
     std::function<std::vector<Reaction>()> reactions;
+
+    /** @brief The displacement with the ghosts of the mesh. */
+    Vector
+    ghosted_displacement() const
+    {
+      return solid.ghosted(displacement);
+    }
+    /** @brief Elastic energy of all bodies, force times length. */
+    double
+    strain_energy() const
+    {
+      return solid.strain_energy(displacement);
+    }
   };
 
   /** @brief Remarks and warnings on a step that has been solved. */
@@ -96,6 +109,12 @@ namespace Touchstone
      * iterations. @throws NonConvergence */
     virtual unsigned int
     solve(double t, const NewtonParameters &parameters, const Newton::Observer &observer) = 0;
+
+    /** @brief Begin a step to time @p t and set up its first equations without solving them: this
+     * evaluates meshes, initial gaps and formulas, and finds bodies that nothing holds. @throws
+     * InputError */
+    virtual void
+    prepare(double t) = 0;
 
     /**
      * @brief Remarks and warnings on the present state. Collective.
@@ -158,42 +177,6 @@ namespace Touchstone
     {
       try_commit(2.);
     }
-
-    /** @name Parts of state() */
-    /** @{ */
-    const Vector &
-    displacement() const
-    {
-      return state().displacement;
-    }
-    /** @brief With the ghosts of the mesh. */
-    Vector
-    ghosted_displacement() const
-    {
-      return state().solid.ghosted(displacement());
-    }
-    std::vector<Reaction>
-    reactions() const
-    {
-      return state().reactions();
-    }
-    /** @brief Elastic energy of all bodies, force times length. */
-    double
-    strain_energy() const
-    {
-      return state().solid.strain_energy(displacement());
-    }
-    const TimeIntegration &
-    time_integration() const
-    {
-      return state().time_integration;
-    }
-    const Contact &
-    contact_state() const
-    {
-      return state().contact;
-    }
-    /** @} */
   };
 } // namespace Touchstone
 

@@ -3,21 +3,17 @@
 #ifndef touchstone_drive_step_problem_h
 #define touchstone_drive_step_problem_h
 
-#include <touchstone/algebra/constraint_graph.h>
-#include <touchstone/algebra/linear_solver.h>
 #include <touchstone/contact/contact.h>
-#include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/drive/forcing_term.h>
 #include <touchstone/drive/step.h>
+#include <touchstone/drive/step_system.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
-#include <touchstone/solid/rigid_body_modes.h>
 
 #include <deal.II/base/timer.h>
 
 #include <array>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -53,9 +49,8 @@ namespace Touchstone
     void
     load(const ArchiveReader &archive) override;
 
-    /** @brief Start a step to time @p t from the committed state. */
     void
-    begin_step(double t);
+    prepare(double t) override;
 
   private:
     /** @name Interface to Newton's method */
@@ -71,6 +66,10 @@ namespace Touchstone
     void
     shorten(double fraction) override;
     /** @} */
+
+    /** Start a step to time @p t from the committed state. */
+    void
+    begin_step(double t);
 
     /** See findings(). */
     std::vector<std::string>
@@ -94,13 +93,11 @@ namespace Touchstone
     void
     forget();
 
-    const Scene                    &scene;
-    Solid                          &solid;
-    dealii::TimerOutput            &timer;
-    BoundaryConditions              boundary_conditions;
-    Contact                         contact;
-    std::shared_ptr<LinearSolver>   solver;
-    std::unique_ptr<RigidBodyModes> modes;
+    const Scene         &scene;
+    Solid               &solid;
+    dealii::TimerOutput &timer;
+    BoundaryConditions   boundary_conditions;
+    Contact              contact;
 
     double time = 0., committed_time = 0.;
     /** Displacements, and forces on the nodes: of loads (external) and of stresses (internal);
@@ -111,6 +108,9 @@ namespace Touchstone
      * one. */
     Vector                           increment, solved_increment;
     std::unique_ptr<TimeIntegration> integration;
+    std::unique_ptr<StepSystem>      system;
+    /** All that has history of its own. */
+    std::vector<Stateful *> parts;
     /** Fraction of the step after which the first gap closes, by the first guess of its end; 1 if
      * none does. */
     double touch         = 1.;
@@ -121,20 +121,13 @@ namespace Touchstone
     Vector before_increment;
     double admissible_part = 1.;
     /** @} */
-    ConstraintGraph                  graph;
-    std::unique_ptr<LinearSystem>    system;
-    std::unique_ptr<CondensedSystem> condensed;
-    std::vector<double>              extra;
-    unsigned int                     assemblies = 0;
+    unsigned int assemblies = 0;
     /** Counts of the problems before changes of the mesh. */
     LinearSolverCounts earlier;
     unsigned int       earlier_searches = 0;
-    std::string        stabilised;
     /** Reference positions and pairs of this rank's rows that changed in the last residual(), as
      * (x, y, z, pair). */
     std::vector<std::array<double, dim + 1>> changed_rows;
-    /** Bodies that were stabilised in this step because only contact holds them. */
-    std::set<unsigned int> loose_bodies;
     /** Of the committed state: active rows and the obstacle's motion, by pair. */
     std::vector<unsigned int>           committed_active;
     std::vector<dealii::Tensor<1, dim>> committed_shift;
@@ -166,35 +159,12 @@ namespace Touchstone
     update_active_set(unsigned int damping, NewtonState &state);
     /** @} */
 
-    /** @name Parts of linearize() */
-    /** @{ */
-    void
-    begin_system();
-    void
-    add_follower_pressure();
-    /** All dofs that this rank refers to: those of its ghost layer, and those of contact terms. */
-    dealii::IndexSet
-    dofs_of_system() const;
-    void
-    constrain_system(const dealii::IndexSet &needed);
-    void
-    change_basis(const dealii::IndexSet &needed);
-    /** Stabilise bodies that nothing but contact holds. */
-    void
-    check_supports();
-    /** @} */
-    /** Whether this holds on all ranks. */
-    bool
-    everywhere(bool here) const;
     /** See worst_place(); empty if no row changed. */
     std::string
     changing_place() const;
     /** @throws ExcessiveIncrement */
     void
     check_increment() const;
-    /** @throws InputError for bodies that have no support and no contact pair. */
-    void
-    check_bodies_without_support();
     /** Remember what check_loose_bodies() compares with, after a commit. */
     void
     remember_contact();
@@ -204,12 +174,9 @@ namespace Touchstone
     /** Motion of the obstacle of each pair since time 0; zero without one. Collective. */
     std::vector<dealii::Tensor<1, dim>>
     obstacle_shifts() const;
-    /** Remove from nodal forces their part along prescribed directions, which supports carry. */
+    /** Commit the present state, which has these forces. */
     void
-    remove_supported(Vector &force) const;
-    /** Commit the present state, which has these forces and energies. */
-    void
-    keep(const StepForces &forces, const Energies &end);
+    keep(const StepForces &forces);
     /** See try_commit(). */
     double
     acceptable_part(const Energies &end) const;

@@ -4,6 +4,7 @@
 #define touchstone_drive_time_integration_h
 
 #include <touchstone/algebra/vector.h>
+#include <touchstone/base/stateful.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/time_parameters.h>
 #include <touchstone/solid/energies.h>
@@ -53,11 +54,9 @@ namespace Touchstone
    * the step loads, stresses and inertia enter the balance; contact forces are those of the end of
    * the step.
    */
-  class TimeIntegration
+  class TimeIntegration : public Stateful
   {
   public:
-    virtual ~TimeIntegration() = default;
-
     /** @brief The displacement at time 0, without ghosts. Collective. */
     virtual Vector
     initial_displacement() const = 0;
@@ -113,12 +112,14 @@ namespace Touchstone
     end_step(const Vector &u, const StepForces &forces) = 0;
 
     /** @brief Keep the end of the step as end_step() found it, with its energies. */
-    virtual void
-    commit(const Vector &u, const StepForces &forces, const Energies &end) = 0;
+    void
+    commit() override;
 
-    /** @brief The step is repeated. */
-    virtual void
-    rollback() = 0;
+    /** Includes the energies and the time. */
+    void
+    save(ArchiveWriter &archive) const override;
+    void
+    load(const ArchiveReader &archive) override;
 
     /** @brief The committed energies. */
     const Energies &
@@ -126,13 +127,6 @@ namespace Touchstone
     {
       return committed;
     }
-
-    /**
-     * @brief Vectors of the committed state other than the displacement, by name, for checkpoints.
-     * None has ghosts.
-     */
-    virtual std::vector<std::pair<std::string, Vector *>>
-    state() = 0;
 
     /** @brief Velocity and acceleration, to be transferred to another mesh; empty in statics. */
     virtual std::vector<const Vector *>
@@ -152,7 +146,7 @@ namespace Touchstone
     {
     }
 
-    /** @brief Set time and energies of the committed state, which are not part of state(). */
+    /** @brief Set time and energies of the committed state. */
     void
     resume(double time, const Energies &energies);
 
@@ -168,7 +162,7 @@ namespace Touchstone
      * @param step Nominal length of the steps, time.
      * @param slaves First dofs of the owned slave nodes that are not tied to their master.
      * @param committed_u The displacement at the beginning of a step, kept by reference: it must
-     * not change before commit() has returned.
+     * not change between end_step() and commit().
      * Collective.
      */
     static std::unique_ptr<TimeIntegration>
@@ -179,8 +173,12 @@ namespace Touchstone
          const Vector                    &committed_u);
 
   protected:
-    double   committed_time = 0.;
-    Energies committed;
+    /** Of the committed state and of the end of the step; energies of the latter by end_step(). */
+    double   committed_time = 0., time = 0.;
+    Energies committed, end;
+    /** Vectors of the committed state other than the displacement, by their names in checkpoints;
+     * none has ghosts. */
+    std::vector<std::pair<std::string, Vector *>> fields;
   };
 } // namespace Touchstone
 

@@ -4,6 +4,7 @@
 #define touchstone_solid_solid_h
 
 #include <touchstone/algebra/vector.h>
+#include <touchstone/base/stateful.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/nonlinear_cells.h>
@@ -27,7 +28,7 @@ namespace Touchstone
    *
    * The three displacement components of node k are the dofs 3k, 3k+1, 3k+2.
    */
-  class Solid
+  class Solid : public Stateful
   {
   public:
     /** @param bodies In the order of the forest; kept by reference.
@@ -166,18 +167,23 @@ namespace Touchstone
 
     /** @brief Keep the state of the last internal_force(); no time passes any more. */
     void
-    commit()
+    commit() override
     {
       nonlinear->commit();
       nonlinear->set_step_length(0.);
     }
 
     void
-    rollback()
+    rollback() override
     {
       nonlinear->rollback();
       nonlinear->set_step_length(0.);
     }
+
+    void
+    save(ArchiveWriter &archive) const override;
+    void
+    load(const ArchiveReader &archive) override;
 
     /** @brief Committed state of an owned active cell; empty if it has none. The numbers of
      * its quadrature points follow one another. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#ifndef touchstone_contact_stateful_h
-#define touchstone_contact_stateful_h
+#ifndef touchstone_base_stateful_h
+#define touchstone_base_stateful_h
 
 namespace Touchstone
 {

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_drive_step_system_h
+#define touchstone_drive_step_system_h
+
+#include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/linear_solver.h>
+#include <touchstone/contact/contact.h>
+#include <touchstone/drive/time_integration.h>
+#include <touchstone/scene/scene.h>
+#include <touchstone/solid/boundary_conditions.h>
+#include <touchstone/solid/rigid_body_modes.h>
+
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief The linear system of one Newton iteration of an implicit step, doc/theory.md 5:
+   * stiffness of the time integration, prescribed displacements, conditions and springs of contact,
+   * loads that follow the deformation, and a diagonal shift for bodies that nothing but contact
+   * holds. Its conditions are also what the residual is projected with.
+   *
+   * Per iteration: prescribe(), assemble(), solve(), recover(). All functions are collective;
+   * vectors are over the owned dofs.
+   */
+  class StepSystem
+  {
+  public:
+    /** @brief What the system is made from; kept by reference. */
+    struct Parts
+    {
+      const Scene              &scene;
+      const Solid              &solid;
+      const BoundaryConditions &boundary_conditions;
+      Contact                  &contact;
+      TimeIntegration          &integration;
+    };
+
+    /** @brief The state at which the system is linearised. */
+    struct State
+    {
+      double time;
+      /** Displacement, length. */
+      const Vector &u;
+      /** Forces on the nodes: all but those of contact as the time integration weighs them, and
+       * their sum with contact, before reactions. */
+      const Vector &applied, &unbalanced;
+      /** Relative residual to which the system is to be solved. */
+      double tolerance;
+      /** Frozen iterations of this step have gained too little (ForcingTerm::slow()). */
+      bool slow;
+    };
+
+    /** The bodies' stiffness must have been assembled. */
+    explicit StepSystem(const Parts &parts);
+
+    /** @brief A step begins: forget which bodies needed stabilisation. */
+    void
+    begin_step();
+
+    /** @brief Begin with the prescribed displacements at time @p t. @return the largest one that
+     * @p u misses, length. */
+    double
+    prescribe(double t, const Vector &u);
+
+    /** @brief Remove from nodal forces their part along prescribed directions, which supports
+     * carry. */
+    void
+    remove_supported(Vector &force) const;
+
+    /** @brief Set up the system. */
+    void
+    assemble(const State &state);
+
+    /** @brief Solve it for the increment of displacements, length. @return iterations, -1 for a
+     * direct solver. @throws LinearSolverFailure */
+    int
+    solve(Vector &increment);
+
+    /** @brief Take the contact forces of the last solution. */
+    void
+    recover(const Vector &increment);
+
+    /** @throws InputError for bodies that have no support and no contact pair. */
+    void
+    check_bodies_without_support(const Vector &u);
+
+    /** @brief Conditions accepted so far. */
+    const ConstraintGraph &
+    conditions() const
+    {
+      return graph;
+    }
+
+    LinearSolver &
+    linear_solver() const
+    {
+      return *solver;
+    }
+
+    /** @brief The free motions that needed stabilisation in the last assemble(), in words. */
+    const std::string &
+    stabilised() const
+    {
+      return free_motions;
+    }
+
+    /** @brief Bodies that were stabilised in this step because only contact holds them. */
+    const std::set<unsigned int> &
+    loose_bodies() const
+    {
+      return loose;
+    }
+
+  private:
+    Parts                            parts;
+    std::shared_ptr<LinearSolver>    solver;
+    RigidBodyModes                   modes;
+    ConstraintGraph                  graph;
+    std::unique_ptr<LinearSystem>    system;
+    std::unique_ptr<CondensedSystem> condensed;
+    /** Solution of the dofs beyond the displacements: multipliers. */
+    std::vector<double>    extra;
+    std::string            free_motions;
+    std::set<unsigned int> loose;
+    /** Diameter of the smallest cell, length. */
+    double length;
+
+    void
+    begin(const State &state);
+    /** Whether contact is linearised consistently here. */
+    bool
+    consistent(const State &state) const;
+    void
+    add_follower_pressure(const State &state);
+    /** All dofs that this rank refers to: those of its ghost layer, and those of contact terms. */
+    dealii::IndexSet
+    dofs_of_system() const;
+    void
+    constrain(const dealii::IndexSet &needed);
+    void
+    change_basis(const dealii::IndexSet &needed);
+    /** Stabilise bodies that nothing but contact holds. */
+    void
+    check_supports(const State &state);
+    /** Whether this holds on all ranks. */
+    bool
+    everywhere(bool here) const;
+    /** Number of dofs, as linear solvers decide by it. */
+    int
+    size() const
+    {
+      return static_cast<int>(parts.solid.dof_handler.n_dofs());
+    }
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/archive/archive.h>
+#include <touchstone/base/non_convergence.h>
+#include <touchstone/drive/step_problem.h>
+
+#include <algorithm>
+#include <cmath>
+
+// History of an implicit step: what is kept of a converged one, taken back, carried over to another
+// mesh, and written to checkpoints. Each part with history is Stateful and listed once, in `parts`;
+// here is what concerns several of them.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  double
+  StepProblem::try_commit(const double smallest_part)
+  {
+    double part = 1.;
+    with_forces([&](const StepForces &forces) {
+      // The energies are known only with the forces at the end; in dynamics they decide whether the
+      // step is short enough. A part below the smallest one is not worth a repetition: the step is
+      // then kept as it is.
+      const Energies end = integration->end_step(u, forces);
+      if (smallest_part <= 1.)
+        part = acceptable_part(end);
+      if (part < smallest_part)
+        part = 1.;
+      if (part == 1.)
+        keep(forces);
+    });
+    return part;
+  }
+
+
+
+  void
+  StepProblem::keep(const StepForces &forces)
+  {
+    if (forces.velocity_constraints != nullptr)
+      contact.add_impulses(*forces.velocity_constraints, time - committed_time);
+    for (Stateful *part : parts)
+      part->commit();
+    committed_u         = u;
+    committed_time      = time;
+    largest_force_scale = std::max(largest_force_scale, force_scale);
+    remember_contact();
+  }
+
+
+
+  void
+  StepProblem::with_forces(const std::function<void(const StepForces &)> &use)
+  {
+    // Statics has no energy balance and needs none of these forces.
+    if (!integration->dynamic())
+      return use(StepForces());
+    Vector normal(solid.owned, solid.communicator), tangential(normal), support(unbalanced);
+    contact.add_forces(normal, ForcePart::normal);
+    contact.add_forces(tangential, ForcePart::tangential);
+    // What the supports add is what is missing to the balance of the nodes.
+    support *= -1.;
+    std::vector<VelocityConstraint> constraints;
+    // Impacts without rebound change velocities, and need the conditions of the nodes in contact.
+    const bool plastic = scene.time_integration.plastic_impacts();
+    if (plastic && time > committed_time)
+      constraints = velocity_constraints(contact, system->conditions(), time - committed_time);
+    use({&external,
+         &internal,
+         &normal,
+         &tangential,
+         &support,
+         plastic ? &constraints : nullptr,
+         [this](Vector &force) { system->remove_supported(force); },
+         contact.work_of_obstacles(ForcePart::normal),
+         contact.work_of_obstacles(ForcePart::tangential)});
+  }
+
+
+
+  double
+  StepProblem::acceptable_part(const Energies &end) const
+  {
+    if (!integration->dynamic())
+      return 1.;
+    const TimeIntegrationParameters &parameters = scene.time_integration;
+    // Energy that nothing has supplied comes from the discretisation in time; a shorter step
+    // reduces it, hence the exception.
+    if (end.gain() > parameters.gain_tolerance * end.largest)
+      throw EnergyGain("energy " + std::to_string(end.gain() / end.largest) +
+                       " times the largest so far came from nowhere ('Time integration/Gain "
+                       "tolerance')");
+    // An impact in the middle of a step: repeat it such that it ends where the first gap closes, as
+    // estimated from the first guess.
+    const double change = end.contact - integration->committed_energies().contact;
+    const bool   impact = parameters.adapts_to_impacts() && touch < 1. - 1e-6 &&
+                        std::abs(change) > parameters.impact_tolerance * end.largest;
+    return impact ? touch : 1.;
+  }
+
+
+
+  void
+  StepProblem::rollback()
+  {
+    u = committed_u;
+    for (Stateful *part : parts)
+      part->rollback();
+  }
+
+
+
+  StepTransfer
+  StepProblem::transfer() const
+  {
+    StepTransfer result;
+    // Both states: the committed one as history, the present one as initial guess on the new mesh
+    // (doc/theory.md 11, "History"). The order of the fields is the interface to adopt().
+    for (const bool of_committed : {true, false})
+      {
+        result.fields.push_back(of_committed ? committed_u : u);
+        for (Vector &field : contact.fields(of_committed))
+          result.fields.push_back(std::move(field));
+      }
+    for (const Vector *field : integration->rates())
+      result.fields.push_back(*field);
+    result.momenta             = integration->momenta();
+    result.committed_time      = committed_time;
+    result.energies            = integration->committed_energies();
+    result.largest_force_scale = largest_force_scale;
+    result.counts              = {linear_counts(), assemblies, n_searches()};
+    return result;
+  }
+
+
+
+  void
+  StepProblem::adopt(const StepTransfer &before, const double t)
+  {
+    earlier             = before.counts.linear;
+    earlier_searches    = before.counts.searches;
+    largest_force_scale = before.largest_force_scale;
+    committed_time      = before.committed_time;
+    assemblies += before.counts.assemblies;
+    // At time 0 the energies are those that the first velocities mean on this mesh.
+    if (committed_time > 0.)
+      integration->resume(committed_time, before.energies);
+
+    const std::vector<Vector> &fields  = before.fields;
+    const std::size_t          n_rates = integration->rates().size();
+    // Fields: committed displacement and contact, the same of the present state, and the rates at
+    // the end; see transfer().
+    const auto middle = fields.begin() + (fields.size() - n_rates) / 2;
+    const auto rates  = fields.end() - n_rates;
+    // Before the first step there is no history but what start() makes.
+    if (committed_time > 0.)
+      {
+        committed_u = u = fields.front();
+        // Twice: first the committed state becomes the history, then the present one the initial
+        // guess.
+        contact.update(u, committed_time);
+        contact.adopt({fields.begin() + 1, middle}, true);
+        if (integration->dynamic())
+          {
+            boundary_conditions.external_force(committed_time, u, external);
+            solid.internal_force(u, internal);
+            unbalanced = 0.;
+          }
+        with_forces([&](const StepForces &forces) {
+          integration->adopt({rates, fields.end()}, forces, before.momenta);
+        });
+      }
+    u = *middle;
+    contact.update(u, t);
+    contact.adopt({middle + 1, rates}, false);
+  }
+
+
+
+  void
+  StepProblem::forget()
+  {
+    // Factors or a multigrid hierarchy of earlier steps change the last digits of later ones; a run
+    // that resumes has none.
+    system->linear_solver().clear_cache();
+    // The round-off of finite-strain forces is estimated with the present tangent, so it must be
+    // that of the committed state in both runs.
+    if (!solid.linear())
+      solid.assemble(u);
+  }
+
+
+
+  void
+  StepProblem::save(ArchiveWriter &archive)
+  {
+    forget();
+    archive.put("committed time", committed_time);
+    archive.put_field("displacement", committed_u);
+    archive.put("largest force scale", largest_force_scale);
+    // Counts go on over a restart, so that the summary is that of the whole run.
+    archive.put("linear solver counts", linear_counts());
+    archive.put("assemblies", assemblies);
+    archive.put("searches", n_searches());
+    for (const Stateful *part : parts)
+      part->save(archive);
+  }
+
+
+
+  void
+  StepProblem::load(const ArchiveReader &archive)
+  {
+    time = committed_time = archive.get<double>("committed time");
+    u = committed_u = archive.field("displacement");
+    for (Stateful *part : parts)
+      part->load(archive);
+    // Needs the contact that has just been loaded: check_loose_bodies() compares the next step with
+    // it.
+    remember_contact();
+    if (archive.has("largest force scale")) // not in checkpoints of earlier versions
+      largest_force_scale = archive.get<double>("largest force scale");
+    forget();
+    // The work done since the start of this process (search of the initial state) was done by the
+    // saved run as well, and must not count twice.
+    earlier          = archive.get<LinearSolverCounts>("linear solver counts");
+    assemblies       = archive.get<unsigned int>("assemblies");
+    earlier_searches = archive.get<unsigned int>("searches") - contact.n_searches();
+  }
+} // namespace Touchstone

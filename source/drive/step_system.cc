@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/input_error.h>
+#include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/drive/step_system.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+#include <limits>
+
+// The order in which conditions enter the system is their precedence: prescribed displacements,
+// contact in the order of the pairs, friction; springs come last, because they determine no
+// displacement. A condition that the earlier ones imply already is not accepted
+// (algebra/constraint_graph).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  StepSystem::StepSystem(const Parts &parts)
+    : parts(parts)
+    , solver(LinearSolverRegistry::make(parts.scene.linear_solver.type, parts.scene.linear_solver))
+    , modes(parts.solid)
+    , length(Utilities::MPI::min(GridTools::minimal_cell_diameter(
+                                   parts.solid.dof_handler.get_triangulation()),
+                                 parts.solid.communicator))
+  {
+  }
+
+
+
+  void
+  StepSystem::begin_step()
+  {
+    free_motions.clear();
+    loose.clear();
+  }
+
+
+
+  double
+  StepSystem::prescribe(const double t, const Vector &u)
+  {
+    graph.clear();
+    return parts.boundary_conditions.prescribe(t, u, graph);
+  }
+
+
+
+  // Supports can act along any direction of a node, so their part is projected out node by node and
+  // not by components (doc/theory.md 5, "Convergence").
+  void
+  StepSystem::remove_supported(Vector &forces) const
+  {
+    for (Index k = 0; k < parts.solid.owned.n_elements() / dim; ++k)
+      {
+        const Index    node = parts.solid.owned.nth_index_in_set(dim * k) / dim;
+        Tensor<1, dim> force;
+        for (unsigned int d = 0; d < dim; ++d)
+          force[d] = forces.begin()[dim * k + d];
+        force = graph.free_part(node, force);
+        for (unsigned int d = 0; d < dim; ++d)
+          forces.begin()[dim * k + d] = force[d];
+      }
+  }
+
+
+
+  // With friction slip makes the system unsymmetric anyway, so that the derivatives of normals and
+  // contact points cost no other factorisation. Without friction a symmetric factorisation saves
+  // more than the additional iterations of frozen ones cost; and with an iterative solver the
+  // derivatives of averaged rows cost as much as all the rest (doc/theory.md 5, "Linearisation";
+  // doc/benchmarks.md, "Frozen or consistent"). Whatever the default, frozen iterations that have
+  // gained too little are not repeated in this step.
+  bool
+  StepSystem::consistent(const State &state) const
+  {
+    using Linearisation      = ContactParameters::Linearisation;
+    const auto linearisation = parts.scene.contact.linearisation;
+    if (solver->symmetric_only() || linearisation == Linearisation::frozen)
+      return false;
+    return linearisation == Linearisation::consistent || state.slow ||
+           (parts.scene.has_friction() && !solver->wants_basis_change(size()));
+  }
+
+
+
+  void
+  StepSystem::assemble(const State &state)
+  {
+    begin(state);
+    if (consistent(state))
+      parts.contact.differentiate();
+    Enforcement &enforcement = parts.contact.enforcement();
+    // Friction needs to know which conditions of contact were accepted.
+    enforcement.enforce(parts.contact, graph, *system);
+    add_follower_pressure(state);
+    enforcement.add_friction(parts.contact, *system);
+    if (!parts.integration.dynamic())
+      check_supports(state);
+    // Only now are all terms known, and hence the dofs of other ranks that they refer to.
+    const IndexSet needed = dofs_of_system();
+    constrain(needed);
+    if (solver->wants_basis_change(size()))
+      change_basis(needed);
+    condensed = std::make_unique<CondensedSystem>(*system, solver->applies_operator(size()));
+  }
+
+
+
+  void
+  StepSystem::begin(const State &state)
+  {
+    system            = std::make_unique<LinearSystem>();
+    system->stiffness = &parts.integration.stiffness();
+    system->rhs.reinit(parts.solid.owned, parts.solid.communicator);
+    system->rhs               = state.applied;
+    system->first_extra       = system->rhs.size();
+    system->tolerance         = state.tolerance;
+    system->keep_symmetric    = solver->symmetric_only();
+    system->symmetric         = system->keep_symmetric || parts.solid.symmetric();
+    system->takes_multipliers = solver->factorises(size());
+  }
+
+
+
+  void
+  StepSystem::add_follower_pressure(const State &state)
+  {
+    if (parts.boundary_conditions.follower_pressure().empty())
+      return;
+    const std::size_t before = system->terms.size();
+    parts.boundary_conditions.follower_pressure().add_stiffness(state.time,
+                                                                state.u,
+                                                                system->keep_symmetric,
+                                                                system->terms);
+    for (std::size_t k = before; k < system->terms.size(); ++k)
+      for (auto &entry : system->terms[k].left)
+        // Loads at the end of the step enter the balance with this weight, and so does their
+        // stiffness.
+        entry.second *= parts.integration.weight();
+    // The load stiffness is unsymmetric in general (doc/theory.md 2.3); systems that have to be
+    // symmetric get its symmetric part.
+    system->symmetric = system->symmetric && system->keep_symmetric;
+  }
+
+
+
+  IndexSet
+  StepSystem::dofs_of_system() const
+  {
+    // Contact terms may refer to nodes that are far from this rank's cells, and to
+    // components of them that no condition knows of.
+    std::set<Index> far;
+    for (const RankOneTerm &term : system->terms)
+      for (const LinearForm *form : {&term.left, &term.right})
+        for (const auto &[i, value] : *form)
+          if (i < system->rhs.size() && !parts.solid.relevant.is_element(i))
+            far.insert(i);
+    IndexSet needed = parts.solid.relevant;
+    needed.add_indices(far.begin(), far.end());
+    return needed;
+  }
+
+
+
+  // Decisions about the kind of system must be the same on all ranks: an unsymmetric row on one
+  // makes the whole system unsymmetric.
+  bool
+  StepSystem::everywhere(const bool here) const
+  {
+    return Utilities::MPI::min(static_cast<int>(here), parts.solid.communicator) == 1;
+  }
+
+
+
+  void
+  StepSystem::constrain(const IndexSet &needed)
+  {
+    system->constraints =
+      graph.constraints(parts.solid.hanging, parts.solid.owned, needed, parts.solid.communicator);
+    // Friction in slip and consistent linearisation: test functions that do no work against the
+    // forces of the conditions, doc/theory.md 6.3, equation (22).
+    if (!everywhere(graph.symmetric()))
+      {
+        system->test_constraints = graph.test_constraints(parts.solid.hanging,
+                                                          parts.solid.owned,
+                                                          needed,
+                                                          parts.solid.communicator);
+        system->symmetric        = false;
+      }
+    system->symmetric = everywhere(system->symmetric);
+  }
+
+
+
+  // Stiff springs spoil multigrid; with their elongations as dofs each becomes a diagonal entry
+  // (doc/theory.md 7, "Stiff springs", equation (23)).
+  void
+  StepSystem::change_basis(const IndexSet &needed)
+  {
+    // After all conditions: springs determine no displacement and must not take a component that
+    // a condition needs.
+    for (const ContactRow &row : parts.contact.rows())
+      for (const Condition &spring : friction_springs(row, parts.contact.state(row)))
+        graph.accept(spring, ConstraintGraph::Treatment::spring);
+    system->basis_change =
+      graph.basis_change(system->constraints, parts.solid.owned, needed, parts.solid.communicator);
+    if (!system->keep_symmetric && !everywhere(graph.symmetric(ConstraintGraph::Treatment::spring)))
+      {
+        system->test_basis_change =
+          graph.test_basis_change(system->test_constraints ? *system->test_constraints
+                                                           : system->constraints,
+                                  parts.solid.owned,
+                                  needed,
+                                  parts.solid.communicator);
+        system->symmetric = false;
+      }
+  }
+
+
+
+  // Only supports count here. A body that they leave free and that takes part in no contact pair
+  // can never be held: an input error (doc/theory.md 9).
+  void
+  StepSystem::check_bodies_without_support(const Vector &u)
+  {
+    prescribe(0., u);
+    const FreeMotion motion = modes.free_motion(graph.accepted());
+    for (const unsigned int body : motion.bodies)
+      {
+        const std::string &name  = parts.scene.bodies[body].name;
+        bool               meets = false;
+        for (const ContactPairParameters &pair : parts.scene.pairs)
+          meets = meets || pair.slave_body == name || pair.master_body == name;
+        if (!meets)
+          throw InputError("Body " + name,
+                           "Fixed",
+                           "",
+                           "nothing holds the bodies in place: " + motion.description,
+                           "add to 'Fixed' or 'Symmetry', prescribe a displacement, or define a "
+                           "contact pair.");
+      }
+  }
+
+
+
+  // Bodies held by contact alone (doc/theory.md 9): where the accepted conditions leave rigid
+  // motions free, a diagonal shift on these bodies keeps the increment finite. It is not in the
+  // residual, so the equilibrium does not depend on it.
+  void
+  StepSystem::check_supports(const State &state)
+  {
+    std::vector<Condition> supports = graph.accepted();
+    for (const ContactRow &row : parts.contact.rows())
+      {
+        const auto springs = elastic_stick(row, parts.contact.state(row));
+        // Springs of stick hold a body against sliding although they impose no condition.
+        supports.insert(supports.end(), springs.begin(), springs.end());
+      }
+    const FreeMotion motion = modes.free_motion(supports);
+    if (motion.n_modes == 0)
+      return;
+    // The shift is chosen by the distance that a body may move in one iteration. Before contact:
+    // about the smallest open gap, so that the body does not pass through the surface that will
+    // hold it. In contact the body can still slide: there the shift must outweigh the geometric
+    // stiffness of the contact forces, relative to the stiffness about pressure over Young's
+    // modulus, which the tangent lacks; otherwise the iterates would oscillate about the
+    // equilibrium.
+    double       distance = std::numeric_limits<double>::max();
+    double       size     = 0.;
+    unsigned int active   = 0;
+    for (const ContactRow &row : parts.contact.rows())
+      if (row.has_partner)
+        {
+          const bool is_active = parts.contact.state(row).active();
+          size                 = std::max(size, row.size);
+          active += is_active;
+          if (!is_active && row.gap > 0.)
+            distance = std::min(distance, row.gap);
+        }
+    distance = Utilities::MPI::min(distance, parts.solid.communicator);
+    size     = Utilities::MPI::max(size, parts.solid.communicator);
+    active   = Utilities::MPI::sum(active, parts.solid.communicator);
+    // No row has a partner yet.
+    if (size == 0.)
+      size = length;
+    distance = active > 0 ? 1e-3 * size : std::clamp(1.01 * distance, 1e-3 * size, size);
+    system->diagonal_shift =
+      modes.stabilisation(motion, state.unbalanced, distance, active > 0 ? 1e-3 : 1e-7);
+    free_motions = motion.description;
+    loose.insert(motion.bodies.begin(), motion.bodies.end());
+  }
+
+
+
+  int
+  StepSystem::solve(Vector &increment)
+  {
+    const unsigned int before = solver->counts().iterations;
+    Epetra_Vector      solution(condensed->rows());
+    solver->solve(*condensed, modes.motions(), solution);
+    const Index n = parts.solid.owned.n_elements();
+    // Eliminated dofs follow from the constraints.
+    condensed->expand(solution, increment);
+    extra.assign(solution.Values() + n, solution.Values() + solution.MyLength());
+    // Frees its memory before the forces are recovered, which need the full system only.
+    condensed.reset();
+    const unsigned int iterations = solver->counts().iterations - before;
+    return iterations == 0 ? -1 : static_cast<int>(iterations);
+  }
+
+
+
+  void
+  StepSystem::recover(const Vector &increment)
+  {
+    parts.contact.enforcement().take(
+      {*system, graph, increment, extra, [this](Vector &force) { parts.solid.condense(force); }});
+  }
+} // namespace Touchstone
