@@ -254,6 +254,25 @@ namespace Touchstone
   void
   ArchiveReader::connect(const DoFHandler<dim> &dof_handler)
   {
+    const Matches matches = match_mesh(dof_handler);
+    const auto    rank    = Utilities::MPI::this_mpi_process(dof_handler.get_communicator());
+    for (unsigned int k = 0; k < n_pieces; ++k)
+      take_piece((rank + k) % n_pieces, matches, dof_handler);
+    // Entries were set by their owners only; compress() is collective nonetheless, and all ranks
+    // have the same fields since each reads all pieces.
+    for (auto &[name, field] : fields)
+      field.compress(VectorOperation::insert);
+    translate_references(matches.nodes, dof_handler);
+    // Free the last piece: the data of this rank are taken out.
+    present = numbers::invalid_unsigned_int;
+    blocks.clear();
+  }
+
+
+
+  ArchiveReader::Matches
+  ArchiveReader::match_mesh(const DoFHandler<dim> &dof_handler)
+  {
     const unsigned int rank = Utilities::MPI::this_mpi_process(dof_handler.get_communicator());
 
     std::map<CellId::binary_type, typename DoFHandler<dim>::active_cell_iterator> cells;
@@ -263,16 +282,16 @@ namespace Touchstone
         cells.emplace(cell->id().template to_binary<dim>(), cell);
 
     // Each rank begins with its own piece: then they do not all read the same file.
-    std::unordered_map<Index, Index>       present_nodes;
-    std::vector<std::vector<unsigned int>> present_cells(n_pieces);
-    std::size_t                            found_cells = 0, all_cells = 0;
+    Matches result;
+    result.cells.resize(n_pieces);
+    std::size_t found_cells = 0, all_cells = 0;
     for (unsigned int k = 0; k < n_pieces; ++k)
       {
         const unsigned int i    = (rank + k) % n_pieces;
         const CellList     list = unpack<CellList>(block(piece(i), cells_block));
         all_cells += list.size();
         const std::size_t n = list.size() > 0 ? list.nodes.size() / list.size() : 0;
-        present_cells[i].assign(list.size(), numbers::invalid_unsigned_int);
+        result.cells[i].assign(list.size(), numbers::invalid_unsigned_int);
         for (std::size_t c = 0; c < list.size(); ++c)
           {
             const auto found = cells.find(list.id(c));
@@ -282,10 +301,10 @@ namespace Touchstone
             // All nodes of known cells, not only owned ones: records on this rank may refer to
             // neighbours' nodes, and the owner of a node publishes its number below.
             for (unsigned int m = 0; m < std::min(n, nodes.size()); ++m)
-              present_nodes[list.nodes[c * n + m]] = nodes[m];
+              result.nodes[list.nodes[c * n + m]] = nodes[m];
             if (found->second->is_locally_owned() && n == nodes.size())
               {
-                present_cells[i][c] = found->second->active_cell_index();
+                result.cells[i][c] = found->second->active_cell_index();
                 ++found_cells;
               }
           }
@@ -296,61 +315,58 @@ namespace Touchstone
     if (Utilities::MPI::sum(found_cells, dof_handler.get_communicator()) != all_cells ||
         all_cells != mesh.n_global_active_cells())
       throw ArchiveError("it has another mesh, of " + std::to_string(all_cells) + " cells");
+    return result;
+  }
 
-    for (unsigned int k = 0; k < n_pieces; ++k)
-      {
-        const unsigned int i   = (rank + k) % n_pieces;
-        const Blocks      &all = piece(i);
-        // The present number of a node of the file, if this rank owns it: each value is taken by
-        // its one owner.
-        const auto own_place = [&](const Index node) {
-          const auto found = present_nodes.find(node);
-          return found != present_nodes.end() &&
-                     dof_handler.locally_owned_dofs().is_element(dim * found->second)
-                   ? found->second
-                   : invalid_index;
-        };
-        for_each_block(all, ArchiveWriter::field_prefix, [&](const auto &name, const auto &bytes) {
-          const FieldPart part  = unpack<FieldPart>(bytes);
-          Vector         &field = fields[name];
-          if (field.size() == 0)
-            field.reinit(dof_handler.locally_owned_dofs(), dof_handler.get_communicator());
-          for (std::size_t j = 0; j < part.values.size(); j += dim)
-            if (const Index node = own_place((part.first + j) / dim); node != invalid_index)
-              for (unsigned int d = 0; d < dim; ++d)
-                field(dim * node + d) = part.values[j + d];
-        });
-        for_each_block(all, ArchiveWriter::cell_prefix, [&](const auto &name, const auto &bytes) {
-          const auto values = unpack<std::vector<std::vector<double>>>(bytes);
-          auto      &data   = cell_data[name];
-          data.resize(mesh.n_active_cells());
-          for (std::size_t c = 0; c < values.size(); ++c)
-            if (present_cells[i][c] != numbers::invalid_unsigned_int)
-              data[present_cells[i][c]] = values[c];
-        });
-        for_each_block(all, ArchiveWriter::node_prefix, [&](const auto &name, const auto &bytes) {
-          auto &mine = records[name];
-          for (NodeRecord &record : unpack<std::vector<NodeRecord>>(bytes))
-            if (const Index node = own_place(record.node); node != invalid_index)
-              {
-                record.node = node;
-                mine.emplace(node, std::move(record));
-              }
-        });
-        for_each_block(all, ArchiveWriter::key_prefix, [&](const auto &name, const auto &bytes) {
-          const auto part = unpack<KeyPairs>(bytes);
-          auto      &list = key_pairs[name];
-          list.insert(list.end(), part.begin(), part.end());
-        });
-      }
-    // Entries were set by their owners only; compress() is collective nonetheless, and all ranks
-    // have the same fields since each reads all pieces.
-    for (auto &[name, field] : fields)
-      field.compress(VectorOperation::insert);
-    translate_references(present_nodes, dof_handler);
-    // Free the last piece: the data of this rank are taken out.
-    present = numbers::invalid_unsigned_int;
-    blocks.clear();
+
+
+  void
+  ArchiveReader::take_piece(const unsigned int     i,
+                            const Matches         &matches,
+                            const DoFHandler<dim> &dof_handler)
+  {
+    const Blocks &all = piece(i);
+    // The present number of a node of the file, if this rank owns it: each value is taken by
+    // its one owner.
+    const auto own_place = [&](const Index node) {
+      const auto found = matches.nodes.find(node);
+      return found != matches.nodes.end() &&
+                 dof_handler.locally_owned_dofs().is_element(dim * found->second)
+               ? found->second
+               : invalid_index;
+    };
+    for_each_block(all, ArchiveWriter::field_prefix, [&](const auto &name, const auto &bytes) {
+      const FieldPart part  = unpack<FieldPart>(bytes);
+      Vector         &field = fields[name];
+      if (field.size() == 0)
+        field.reinit(dof_handler.locally_owned_dofs(), dof_handler.get_communicator());
+      for (std::size_t j = 0; j < part.values.size(); j += dim)
+        if (const Index node = own_place((part.first + j) / dim); node != invalid_index)
+          for (unsigned int d = 0; d < dim; ++d)
+            field(dim * node + d) = part.values[j + d];
+    });
+    for_each_block(all, ArchiveWriter::cell_prefix, [&](const auto &name, const auto &bytes) {
+      const auto values = unpack<std::vector<std::vector<double>>>(bytes);
+      auto      &data   = cell_data[name];
+      data.resize(dof_handler.get_triangulation().n_active_cells());
+      for (std::size_t c = 0; c < values.size(); ++c)
+        if (matches.cells[i][c] != numbers::invalid_unsigned_int)
+          data[matches.cells[i][c]] = values[c];
+    });
+    for_each_block(all, ArchiveWriter::node_prefix, [&](const auto &name, const auto &bytes) {
+      auto &mine = records[name];
+      for (NodeRecord &record : unpack<std::vector<NodeRecord>>(bytes))
+        if (const Index node = own_place(record.node); node != invalid_index)
+          {
+            record.node = node;
+            mine.emplace(node, std::move(record));
+          }
+    });
+    for_each_block(all, ArchiveWriter::key_prefix, [&](const auto &name, const auto &bytes) {
+      const auto part = unpack<KeyPairs>(bytes);
+      auto      &list = key_pairs[name];
+      list.insert(list.end(), part.begin(), part.end());
+    });
   }
 
 

@@ -332,12 +332,12 @@ namespace Touchstone
   void
   Simulation::load_stepping()
   {
-    const LoadSteppingParameters &parameters = scene.load_stepping;
-    const double                  nominal    = parameters.end_time / parameters.steps;
+    const double end = scene.load_stepping.end_time, nominal = end / scene.load_stepping.steps;
     // A resumed run starts with the position of its checkpoint; size zero stands for a run from the
     // beginning.
-    double       time = start.time, size = start.size > 0. ? start.size : nominal;
-    unsigned int step = start.step, cuts = start.cuts;
+    Position at = start;
+    if (at.size <= 0.)
+      at.size = nominal;
     /**
      * Fraction of the step size that is made next, below 1 if the step is to end where bodies meet
      * ("Adapt steps" of doc/time_integration.md). It is not a cut: later steps have their full size
@@ -345,99 +345,115 @@ namespace Touchstone
      */
     double part = 1.;
     // The tolerance stands for the round-off of summing up step sizes.
-    while (time < parameters.end_time * (1. - 1e-12))
+    while (at.time < end * (1. - 1e-12))
       {
         // The last step ends exactly at the end time: neither beyond it, nor just before it, which
         // would leave a step of the size of round-off.
-        size              = std::min(size, parameters.end_time - time);
-        const double next = parameters.end_time - time - part * size < 1e-9 * nominal
-                              ? parameters.end_time
-                              : time + part * size;
+        at.size = std::min(at.size, end - at.time);
+        const double next =
+          end - at.time - part * at.size < 1e-9 * nominal ? end : at.time + part * at.size;
         // Number of steps in all if none is cut from here on, for the display only.
         const unsigned int expected =
-          step - 1 +
-          static_cast<unsigned int>(std::ceil((parameters.end_time - time) / size - 1e-9));
-        const double now = next - time;
-        progress.begin_step(step, expected, next);
+          at.step - 1 + static_cast<unsigned int>(std::ceil((end - at.time) / at.size - 1e-9));
+        progress.begin_step(at.step, expected, next);
         try
           {
-            // Solve, adapt the mesh, and solve again; all of it from the same committed state.
-            unsigned int newton = solve_step(next);
-            newton += adapt(step, next);
-            // Checks that can still reject the step (bodies thrown off, contact that rows cannot
-            // describe) come before try_commit(), since a committed state cannot be withdrawn.
-            const StepFindings findings = problem->findings();
-            part = problem->try_commit(scene.time_integration.smallest_step * nominal / now);
-            if (part < 1.)
-              {
-                // try_commit() returns a fraction of the step just made, which may itself have been
-                // shortened: converted to a fraction of the nominal size of this step. The same
-                // step is then made again from the committed state.
-                part *= (next - time) / size;
-                problem->rollback();
-                progress.shorten_step(part * size);
-                continue;
-              }
-            if (!findings.remarks.empty())
-              log.line("  " + findings.remarks);
-            // From here on the step counts. Failures of later steps are not compared with earlier
-            // ones.
-            committed_time = time = next;
-            repeated_failure.forget();
-            progress.end_step(newton);
-            for (const std::string &text : findings.warnings)
-              warnings.add(text);
-            record_step(step, time, now, newton, cuts);
-            log.check();
-            summary.steps = step;
-            ++step;
-            // Each converged step undoes one cut: the difficulty is often local in time, and the
-            // size returns to the user's.
-            if (cuts > 0)
-              {
-                size *= 2.;
-                --cuts;
-              }
-            if (checkpoint_due({time, size, step, cuts}))
-              write_checkpoint({time, size, step, cuts});
+            part = make_step(at, next);
           }
         catch (const NonConvergence &failure)
           {
-            const bool repeated =
-              repeated_failure.add(failure, last_state, problem->difficulty().position);
-            // A failure that repeats itself with half the step does not depend on the step size,
-            // and other failures say themselves that a smaller step is no remedy: further cuts
-            // would only take time.
-            const bool        hopeless = repeated || !failure.shorter_step_may_help();
-            const std::string reason   = describe(failure, repeated);
-            problem->rollback();
             part = 1.;
-            if (cuts >= parameters.maximum_cuts || hopeless)
-              {
-                // The checkpoint of a failed run has the nominal step size: with other parameters
-                // (solver, tolerances) the run may resume from there.
-                stop(reason + " (step " + std::to_string(step) + " at time " +
-                       std::to_string(next) + ", cut " + std::to_string(cuts) + " times)",
-                     {time, nominal, step, 0});
-                return;
-              }
-            ++cuts;
-            size *= 0.5;
-            progress.cut_step(reason, size);
+            if (!cut_step(failure, at, next))
+              return;
           }
         catch (const InputError &error)
           {
             // A formula without a finite value at this time is a mistake of the input, found only
             // now: results of earlier steps are kept and written.
             problem->rollback();
-            stop(error.what(), {time, nominal, step, 0});
+            stop(error.what(), {at.time, nominal, at.step, 0});
             throw;
           }
       }
     if (scene.output.vtu_interval > 0)
-      write_vtu(step - 1, time);
-    write_last_checkpoint({time, size, step, cuts});
+      write_vtu(at.step - 1, at.time);
+    write_last_checkpoint(at);
     summary.converged = true;
+  }
+
+
+
+  double
+  Simulation::make_step(Position &at, const double next)
+  {
+    const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
+    const double length  = next - at.time;
+    // Solve, adapt the mesh, and solve again; all of it from the same committed state.
+    unsigned int newton = solve_step(next);
+    newton += adapt(at.step, next);
+    // Checks that can still reject the step (bodies thrown off, contact that rows cannot describe)
+    // come before try_commit(), since a committed state cannot be withdrawn.
+    const StepFindings findings = problem->findings();
+    const double       part =
+      problem->try_commit(scene.time_integration.smallest_step * nominal / length);
+    if (part < 1.)
+      {
+        // try_commit() returns a fraction of the step just made, which may itself have been
+        // shortened: converted to a fraction of the nominal size of this step. The same step is
+        // then made again from the committed state.
+        const double of_size = part * (length / at.size);
+        problem->rollback();
+        progress.shorten_step(of_size * at.size);
+        return of_size;
+      }
+    if (!findings.remarks.empty())
+      log.line("  " + findings.remarks);
+    // From here on the step counts. Failures of later steps are not compared with earlier ones.
+    committed_time = at.time = next;
+    repeated_failure.forget();
+    progress.end_step(newton);
+    for (const std::string &text : findings.warnings)
+      warnings.add(text);
+    record_step(at.step, at.time, length, newton, at.cuts);
+    log.check();
+    summary.steps = at.step;
+    ++at.step;
+    // Each converged step undoes one cut: the difficulty is often local in time, and the size
+    // returns to the user's.
+    if (at.cuts > 0)
+      {
+        at.size *= 2.;
+        --at.cuts;
+      }
+    if (checkpoint_due(at))
+      write_checkpoint(at);
+    return 1.;
+  }
+
+
+
+  bool
+  Simulation::cut_step(const NonConvergence &failure, Position &at, const double next)
+  {
+    const bool repeated = repeated_failure.add(failure, last_state, problem->difficulty().position);
+    // A failure that repeats itself with half the step does not depend on the step size, and other
+    // failures say themselves that a smaller step is no remedy: further cuts would only take time.
+    const bool        hopeless = repeated || !failure.shorter_step_may_help();
+    const std::string reason   = describe(failure, repeated);
+    problem->rollback();
+    if (at.cuts >= scene.load_stepping.maximum_cuts || hopeless)
+      {
+        // The checkpoint of a failed run has the nominal step size: with other parameters (solver,
+        // tolerances) the run may resume from there.
+        stop(reason + " (step " + std::to_string(at.step) + " at time " + std::to_string(next) +
+               ", cut " + std::to_string(at.cuts) + " times)",
+             {at.time, scene.load_stepping.end_time / scene.load_stepping.steps, at.step, 0});
+        return false;
+      }
+    ++at.cuts;
+    at.size *= 0.5;
+    progress.cut_step(reason, at.size);
+    return true;
   }
 
 

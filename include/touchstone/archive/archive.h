@@ -197,6 +197,20 @@ namespace Touchstone
     piece(unsigned int number) const;
     static const std::vector<char> &
     block(const Blocks &piece, const std::string &name);
+    /** What the present mesh makes of the numbers in the archive. */
+    struct Matches
+    {
+      /** Present numbers of the nodes that this rank knows. */
+      std::unordered_map<Index, Index> nodes;
+      /** Present active indices of the cells of each piece that this rank owns, else invalid. */
+      std::vector<std::vector<unsigned int>> cells;
+    };
+    /** @throws ArchiveError on all ranks, if the meshes differ. */
+    Matches
+    match_mesh(const dealii::DoFHandler<dim> &dof_handler);
+    /** Take what piece @p i has of this rank's fields, cells and records. */
+    void
+    take_piece(unsigned int i, const Matches &matches, const dealii::DoFHandler<dim> &dof_handler);
     /** Give the nodes that records refer to their present numbers, some of which only
      * other ranks know. */
     void

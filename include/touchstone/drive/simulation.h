@@ -153,6 +153,15 @@ namespace Touchstone
     void
     load_stepping();
     /**
+     * Solve the step from @p at to the time @p next and keep it; @p at moves on. @return 1, or the
+     * part of the step size that is to be made instead. @throws NonConvergence, InputError
+     */
+    double
+    make_step(Position &at, double next);
+    /** Halve the step size after a failure, or stop the run. @return whether it goes on. */
+    bool
+    cut_step(const NonConvergence &failure, Position &at, double next);
+    /**
      * A step cannot be solved: write the last committed state, and a checkpoint if these are
      * active.
      */
