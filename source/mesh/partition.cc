@@ -111,10 +111,12 @@ namespace Touchstone
   std::unique_ptr<parallel::TriangulationBase<dim>>
   whole_mesh(const BodyMesh &mesh, const unsigned int refinements, const MPI_Comm communicator)
   {
-    using Mesh         = parallel::shared::Triangulation<dim>;
+    using Mesh = parallel::shared::Triangulation<dim>;
+    // On one rank there are no artificial cells, but functions that exchange data with ghost cells
+    // ask for the kind of mesh that could have them.
     auto triangulation = std::make_unique<Mesh>(communicator,
                                                 Mesh::limit_level_difference_at_vertices,
-                                                /*allow_artificial_cells=*/false,
+                                                /*allow_artificial_cells=*/true,
                                                 Mesh::partition_zorder);
     create_triangulation(mesh, *triangulation);
     triangulation->refine_global(refinements);
