@@ -6,7 +6,7 @@ namespace Touchstone
 {
   /** Add a cell to the batch. Stiffness matrices are computed for eight cells at once, so cells
    * are collected until a batch is full. Ghost cells without any row of this rank would
-   * contribute nothing and are skipped; their entries in the lists are removed again. */
+   * contribute nothing and are skipped; their entries in the list are removed again. */
   void
   LinearCells::add(const typename dealii::DoFHandler<dim>::active_cell_iterator &cell,
                    Matrix                                                       &matrix)
@@ -18,14 +18,15 @@ namespace Touchstone
       {
         rows.push_back(matrix.row(dofs[kernel.local_dof(a, 0)]));
         any = any || rows.back() >= 0;
-        nodes.push_back(matrix.node(dofs[kernel.local_dof(a, 0)]));
       }
     if (!any)
       {
         rows.resize(n * n_waiting);
-        nodes.resize(n * n_waiting);
         return;
       }
+    // Only nodes of cells that have a row of this rank are known to the matrix.
+    for (unsigned int a = 0; a < n; ++a)
+      nodes.push_back(matrix.node(dofs[kernel.local_dof(a, 0)]));
     kernel.reinit(cell);
     kernel.become(n_waiting, stiffness);
     if (++n_waiting == 8)
