@@ -17,10 +17,9 @@ namespace Touchstone
   {
     constexpr unsigned int max_opposite_steps = 20;
 
-    /** Steps of Newton's method, in face coordinates. Convergence is quadratic: after a step by
-     * less than the first the error is round-off, and one by less than the second is round-off
-     * itself, as between planes. */
-    constexpr double last_step = 1e-6, no_step = 1e-13;
+    /** A step of Newton's method, in face coordinates, that is linear up to round-off: position
+     * and tangents need not be evaluated again. */
+    constexpr double linear_step = 1e-8;
 
     /** Coordinates that belong to a point on a face or beside it. */
     constexpr double largest_coordinate = 2.;
@@ -63,16 +62,17 @@ namespace Touchstone
         const auto   b      = inverse_directions(point, plane);
         const double d[2]   = {b[0] * (x - point.x), b[1] * (x - point.x)};
         const double length = std::max(std::abs(d[0]), std::abs(d[1]));
-        if (length < no_step)
-          return true;
         for (unsigned int a = 0; a < 2; ++a)
           xi[a] += d[a];
+        if (length < linear_step)
+          {
+            point.x += d[0] * point.tangents[0] + d[1] * point.tangents[1];
+            return true;
+          }
         // Also false if not a number, where the surface is seen edge-on.
         if (!(std::abs(xi[0]) < largest_coordinate && std::abs(xi[1]) < largest_coordinate))
           return false;
         point = master.evaluate(xi);
-        if (length < last_step)
-          return true;
       }
     return false;
   }
