@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Points on the common parts of faces: the pieces of a face that a turned grid covers add up to
-// its mass matrix, whatever their number of corners; coincident edges; corners cut off. And which
+// its mass matrix, whatever their number of corners; coincident edges; corners cut off. That what
+// the quadrature leaves depends neither on the numbering of nodes nor on directions. And which
 // faces are connected over common nodes.
 
 #include <touchstone/contact/geometry/overlap.h>
@@ -86,6 +87,61 @@ namespace
     std::cout << std::endl;
   }
 
+  /** The face with its nodes numbered from another corner, @p turns times the next one. */
+  Face
+  renumbered(const Face &face, const unsigned int turns)
+  {
+    std::array<Point<dim>, 4> x;
+    for (unsigned int m = 0; m < 4; ++m)
+      x[m] = face.position(m);
+    for (unsigned int t = 0; t < turns; ++t)
+      x = {{x[1], x[3], x[0], x[2]}};
+    return make_face(x);
+  }
+
+  /** The mirror image in the plane x = 0, its normal outward as before. */
+  Face
+  mirrored(const Face &face)
+  {
+    std::array<Point<dim>, 4> x;
+    for (unsigned int m = 0; m < 4; ++m)
+      {
+        x[m] = face.position(m);
+        x[m][0] *= -1.;
+      }
+    return make_face({{x[1], x[0], x[3], x[2]}});
+  }
+
+  /** The integral over an overlap of what no polynomial of the face coordinates is.
+   * @param sign -1 for a mirror image. */
+  double
+  integral(const Face &slave, const Face &master, const double sign)
+  {
+    double result = 0.;
+    for (const OverlapPoint &p : overlap(slave, master))
+      {
+        const Point<dim> x = evaluate(slave, nullptr, p.slave).x;
+        const Point<dim> y = evaluate(master, nullptr, p.master).x;
+        result += p.weight * std::exp(sign * x[0] + 0.5 * x[1]) * (1. + y[2]);
+      }
+    return result;
+  }
+
+  /** Warped faces that overlap in a polygon of many corners: another first corner of either, or a
+   * mirror image, leaves the integral as it is. */
+  void
+  compare_orders(const std::string &name, const Face &slave, const Face &master)
+  {
+    const double expected = integral(slave, master, 1.);
+    double       error    = std::abs(integral(mirrored(slave), mirrored(master), -1.) - expected);
+    for (unsigned int i = 0; i < 4; ++i)
+      for (unsigned int j = 0; j < 4; ++j)
+        error =
+          std::max(error,
+                   std::abs(integral(renumbered(slave, i), renumbered(master, j), 1.) - expected));
+    std::cout << name << ": differs by " << small(error / expected, 1e-12) << std::endl;
+  }
+
   /** Faces by the numbers of their nodes: components as numbers of their first faces. */
   void
   connect(const std::string &name, const std::vector<std::array<Index, 4>> &nodes)
@@ -151,6 +207,21 @@ main()
   cover("corner cut off", square, {diamond(1.75)}, 0.5 * 0.5 * 0.5, false);
   cover("corner left out", square, {diamond(-0.25)}, 4. - 0.5 * 0.5 * 0.5, false);
   cover("beside", square, {parallelogram(Point<dim>(2., 0., 0.), x, y, true)}, 0., false);
+
+  // Corners of the overlaps: 8, 5 and 3.
+  const Face warped      = make_face({{Point<dim>(-1., -0.9, 0.),
+                                       Point<dim>(1.1, -1., 0.1),
+                                       Point<dim>(-0.9, 1., 0.05),
+                                       Point<dim>(0.8, 1.1, -0.1)}});
+  const auto warped_over = [](const double shift) {
+    return make_face({{Point<dim>(shift, shift - 1.3, 0.2),
+                       Point<dim>(shift - 1.3, shift, 0.15),
+                       Point<dim>(shift + 1.4, shift, 0.25),
+                       Point<dim>(shift, shift + 1.35, 0.2)}});
+  };
+  compare_orders("eight corners", warped, warped_over(0.));
+  compare_orders("five corners", warped, warped_over(-0.5));
+  compare_orders("three corners", warped, warped_over(1.4));
 
   connect("no face", {});
   connect("a strip", {{{0, 1, 2, 3}}, {{2, 3, 4, 5}}, {{4, 5, 6, 7}}});

@@ -84,18 +84,6 @@ namespace Touchstone
 
 
 
-  std::pair<Point<dim>, Tensor<1, dim>>
-  FaceGeometry::position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const
-  {
-    const FacePoint point =
-      // The shapes at hand are of use for biquadratic faces only; bilinear faces and patches are
-      // cheaper by themselves.
-      patch || data.degree == 1 ? evaluate(xi) : Touchstone::evaluate(data, exact, shapes);
-    return {point.x, interpolates_normals() ? interpolated_normal(shapes, point) : point.normal()};
-  }
-
-
-
   std::array<Tensor<1, dim>, 3>
   FaceGeometry::second_derivatives(const std::array<double, 2> &xi) const
   {
@@ -171,7 +159,7 @@ namespace Touchstone
   Tensor<1, dim>
   FaceGeometry::normal(const std::array<double, 2> &xi) const
   {
-    return position_and_normal(xi, FaceShapes(data.degree, xi)).second;
+    return normal(FaceShapes(data.degree, xi), evaluate(xi));
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/pairing/opposite_point.h>
 #include <touchstone/contact/pairing/overlap_derivative.h>
 
 // Adds quadrature points to the integrals of one slave and one master face with derivatives. Those
@@ -12,11 +13,14 @@ namespace Touchstone
 
   template <unsigned int n>
   void
-  OverlapDerivative<n>::add(const OverlapPointDerivative<n> &point,
+  OverlapDerivative<n>::add(const OverlapPointDerivative<n> &of_facets,
                             const FaceDifferentiator        &on_slave,
                             const FaceDifferentiator        &on_master)
   {
-    const FacePosition               slave_point  = on_slave.position(point.slave);
+    const FacePosition        slave_point = on_slave.position(of_facets.slave);
+    OverlapPointDerivative<n> point       = of_facets;
+    if (!differentiate_opposite_point<n>(on_slave.geometry, slave_point, on_master.geometry, point))
+      return;
     const FaceDerivative             master_point = on_master.at(point.master);
     OverlapSample<n, PositionFad<n>> sample;
     if (!differentiate<n>(

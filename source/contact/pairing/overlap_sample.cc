@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/facing_part.h>
+#include <touchstone/contact/pairing/opposite_point.h>
 #include <touchstone/contact/pairing/overlap_sample.h>
 
 // What is integrated at one quadrature point of an overlap: weight, shapes, gap vector and normal,
@@ -18,20 +19,24 @@ namespace Touchstone
            const Tensor<1, dim>     &plane,
            OverlapSample<n, double> &sample)
   {
-    const FaceShapes shapes(slave.face().degree, point.slave);
-    const FaceShapes master_shapes(master.face().degree, point.master);
+    const FaceShapes      shapes(slave.face().degree, point.slave);
+    const Point<dim>      x  = slave.position(point.slave, shapes);
+    std::array<double, 2> xi = point.master;
+    FacePoint             on_master;
+    if (!find_opposite_point(slave, x, master, plane, xi, on_master))
+      return false;
     // The contact normal is that of the master surface, possibly averaged or smoothed; the cosine
     // below is about the surface itself.
-    const auto [x, normal] = master.position_and_normal(point.master, master_shapes);
-    const double part =
-      FacingPart(facing_cosine(plane, normal, master.face(), master.exact_surface(), point.master))
-        .value;
+    const FaceShapes     master_shapes(master.face().degree, xi);
+    const Tensor<1, dim> normal = master.normal(master_shapes, on_master);
+    const double         part =
+      FacingPart(facing_cosine(plane, normal, master.face(), master.exact_surface(), xi)).value;
     // Master surface too steep here: the point counts as not covered.
     if (part == 0.)
       return false;
     // Gap vector from master to slave, as in pointwise rows: g = n . gap < 0 is penetration
     // (doc/theory.md 1).
-    const Tensor<1, dim> gap = slave.position(point.slave, shapes) - x;
+    const Tensor<1, dim> gap = x - on_master.x;
     sample.weight            = part * point.weight;
     for (unsigned int m = 0; m < n; ++m)
       {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 // The master point that belongs to a slave node: the closest point over the faces nearby, with
 // rules that make the choice unique and independent of the partition, keep it from alternating
@@ -177,10 +176,11 @@ namespace Touchstone
   {
     const FaceGeometry shape = received.geometry(*candidate.face);
     ContactPartner     partner;
-    partner.face = candidate.face;
-    partner.xi   = candidate.projection.xi;
-    std::tie(partner.x, partner.normal) =
-      shape.position_and_normal(partner.xi, FaceShapes(shape.face().degree, partner.xi));
+    partner.face              = candidate.face;
+    partner.xi                = candidate.projection.xi;
+    const FacePoint on_master = shape.evaluate(partner.xi);
+    partner.x                 = on_master.x;
+    partner.normal = shape.normal(FaceShapes(shape.face().degree, partner.xi), on_master);
     // Beyond an edge at which xi was bounded and faces meet at a sharp angle, the normal of either
     // face is not the direction of the gap.
     Tensor<1, dim> edge;

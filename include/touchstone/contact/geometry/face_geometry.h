@@ -59,9 +59,13 @@ namespace Touchstone
     dealii::Point<dim>
     position(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
 
-    /** @brief Position and normal() from one evaluation. @param shapes Shape functions at @p xi. */
-    std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>
-    position_and_normal(const std::array<double, 2> &xi, const FaceShapes &shapes) const;
+    /** @brief normal() from what is known there. @param shapes Shape functions at xi.
+     * @param point The evaluate() there. */
+    dealii::Tensor<1, dim>
+    normal(const FaceShapes &shapes, const FacePoint &point) const
+    {
+      return interpolates_normals() ? interpolated_normal(shapes, point) : point.normal();
+    }
 
     /** @brief Second derivatives of the position with respect to xi: 11, 12, 22;
      * length. Those of an exact surface are central differences of its projection

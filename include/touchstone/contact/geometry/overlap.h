@@ -25,9 +25,10 @@ namespace Touchstone
    * @brief Quadrature on the overlap of two faces in their current position.
    *
    * Both faces are projected onto the tangent plane at the centre of the slave
-   * face; the polygons are clipped there exactly, and each piece is divided into
-   * quadrilaterals and at most one triangle, with rules of degree 5. Biquadratic faces are
-   * divided into four bilinear ones first. Puso (2004), Int. J. Numer. Meth. Engng 59.
+   * face; the polygons are clipped there exactly, and each piece of more than four corners is
+   * divided into triangles from its centroid, with rules that do not depend on the order of
+   * corners. Biquadratic faces are divided into four bilinear ones first. Puso (2004), Int. J.
+   * Numer. Meth. Engng 59.
    */
   std::vector<OverlapPoint>
   overlap(const Face &slave, const Face &master);

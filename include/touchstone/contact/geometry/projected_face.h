@@ -139,65 +139,104 @@ namespace Touchstone
 
   namespace internal
   {
-    /** The corner that is farthest in a direction along which faces have hardly ever an edge.
-     * Where edges coincide round-off decides which corner clipping begins with. */
+    /** The centroid of a polygon that is not degenerate. */
     template <typename Number>
-    std::size_t
-    first_corner(const Polygon<Number> &corners)
+    Point2<Number>
+    centroid(const Polygon<Number> &corners)
     {
-      const auto distance = [&](const std::size_t i) {
-        return 0.927 * value_of(corners[i].x) + 0.375 * value_of(corners[i].y);
-      };
-      std::size_t first = 0;
-      for (std::size_t i = 1; i < corners.size(); ++i)
-        if (distance(i) > distance(first))
-          first = i;
-      return first;
+      const Point2<Number> origin = corners[0];
+      Number               sum = 0., x = 0., y = 0.;
+      for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+        {
+          // Each triangle (origin, i, i + 1) counts at the mean of its corners.
+          const Point2<Number> a = corners[i] - origin, b = corners[i + 1] - origin;
+          const Number         double_area = cross(a, b);
+          sum += double_area;
+          x += double_area * (a.x + b.x);
+          y += double_area * (a.y + b.y);
+        }
+      return {origin.x + x / (3. * sum), origin.y + y / (3. * sum)};
     }
 
-    /** Visit points of a polygon, with weights that integrate shape functions of degree one
-     * and their squares exactly on plane facets: of quadrilaterals with a common corner, and of a
-     * triangle if the number of corners is odd. The error on others depends on the corner that
-     * comes first: if that changed in each iteration, nothing would converge. */
+    /** Visit the points of @p rule on the triangle with the corners @p origin, @p origin + @p a and
+     * @p origin + @p b. */
+    template <typename Number, typename Visitor>
+    void
+    for_each_point_of_triangle(const dealii::Quadrature<2> &rule,
+                               const Point2<Number>        &origin,
+                               const Point2<Number>        &a,
+                               const Point2<Number>        &b,
+                               const Visitor               &visit)
+    {
+      const Number double_area = cross(a, b);
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const double r = rule.point(q)[0], s = rule.point(q)[1];
+          visit(Point2<Number>{origin.x + r * a.x + s * b.x, origin.y + r * a.y + s * b.y},
+                Number(rule.weight(q) * double_area));
+        }
+    }
+
+    /** The same on a quadrilateral, bilinear. */
+    template <typename Number, typename Visitor>
+    void
+    for_each_point_of_quadrilateral(const dealii::Quadrature<2> &rule,
+                                    const Polygon<Number>       &corners,
+                                    const Visitor               &visit)
+    {
+      // origin + r a + s c + r s (b - a - c)
+      const Point2<Number> origin = corners[0], a = corners[1] - origin, b = corners[2] - origin,
+                           c = corners[3] - origin;
+      const Point2<Number> mixed{b.x - a.x - c.x, b.y - a.y - c.y};
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          const double         r = rule.point(q)[0], s = rule.point(q)[1];
+          const Point2<Number> by_r{a.x + s * mixed.x, a.y + s * mixed.y};
+          const Point2<Number> by_s{c.x + r * mixed.x, c.y + r * mixed.y};
+          visit(Point2<Number>{origin.x + r * by_r.x + s * c.x, origin.y + r * by_r.y + s * c.y},
+                Number(rule.weight(q) * cross(by_r, by_s)));
+        }
+    }
+
+    /** Visit points of a polygon, with weights that integrate products of two shape functions
+     * exactly on plane facets that are parallelograms. On others shape functions are rational, and
+     * on curved surfaces gaps and normals are no polynomials: there an error is left, which must
+     * not depend on the corner that comes first, for numbers of nodes, mirrored meshes or round-off
+     * would change it. The rules of a triangle and of a square are symmetric; a polygon of more
+     * corners is divided into triangles from its centroid (Puso and Laursen 2004), not from one
+     * of its corners. */
     template <typename Number, typename Visitor>
     void
     for_each_point(const Polygon<Number> &corners, const unsigned int degree, const Visitor &visit)
     {
       using namespace dealii;
-      // Products of two functions of this degree, each in both directions.
+      // Products of two functions of this degree in both directions: 4 or 8 in all. A bilinear map
+      // adds one in each direction by its Jacobian.
       static const QGauss<2>                   squares[2]   = {QGauss<2>(3), QGauss<2>(5)};
       static const QWitherdenVincentSimplex<2> triangles[2] = {QWitherdenVincentSimplex<2>(3),
                                                                QWitherdenVincentSimplex<2>(5)};
-      const Quadrature<2> &of_square = squares[degree - 1], &of_triangle = triangles[degree - 1];
-      const std::size_t    n = corners.size(), first = first_corner(corners);
-      const auto           corner = [&](const std::size_t i) { return corners[(first + i) % n]; };
-      const Point2<Number> origin = corner(0);
-      for (std::size_t i = 1; i + 1 < n; i += 2)
+      // Of these there are many in a polygon: points for no higher degree than needed.
+      static const QWitherdenVincentSimplex<2> sectors[2] = {
+        QWitherdenVincentSimplex<2>(2, /*use_odd_order=*/false),
+        QWitherdenVincentSimplex<2>(4, /*use_odd_order=*/false)};
+      const std::size_t n = corners.size();
+      if (n == 3)
+        for_each_point_of_triangle(triangles[degree - 1],
+                                   corners[0],
+                                   corners[1] - corners[0],
+                                   corners[2] - corners[0],
+                                   visit);
+      else if (n == 4)
+        for_each_point_of_quadrilateral(squares[degree - 1], corners, visit);
+      else
         {
-          const Point2<Number> a = corner(i) - origin, b = corner(i + 1) - origin;
-          if (i + 2 == n)
-            {
-              const Number double_area = cross(a, b);
-              for (unsigned int q = 0; q < of_triangle.size(); ++q)
-                {
-                  const double r = of_triangle.point(q)[0], s = of_triangle.point(q)[1];
-                  visit(Point2<Number>{origin.x + r * a.x + s * b.x, origin.y + r * a.y + s * b.y},
-                        Number(of_triangle.weight(q) * double_area));
-                }
-              continue;
-            }
-          // origin + r a + s c + r s (b - a - c)
-          const Point2<Number> c = corner(i + 2) - origin;
-          const Point2<Number> mixed{b.x - a.x - c.x, b.y - a.y - c.y};
-          for (unsigned int q = 0; q < of_square.size(); ++q)
-            {
-              const double         r = of_square.point(q)[0], s = of_square.point(q)[1];
-              const Point2<Number> by_r{a.x + s * mixed.x, a.y + s * mixed.y};
-              const Point2<Number> by_s{c.x + r * mixed.x, c.y + r * mixed.y};
-              visit(Point2<Number>{origin.x + r * by_r.x + s * c.x,
-                                   origin.y + r * by_r.y + s * c.y},
-                    Number(of_square.weight(q) * cross(by_r, by_s)));
-            }
+          const Point2<Number> centre = centroid(corners);
+          for (std::size_t i = 0; i < n; ++i)
+            for_each_point_of_triangle(sectors[degree - 1],
+                                       centre,
+                                       corners[i] - centre,
+                                       corners[(i + 1) % n] - centre,
+                                       visit);
         }
     }
   } // namespace internal
