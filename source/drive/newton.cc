@@ -100,11 +100,11 @@ namespace Touchstone
     int                     linear  = 0;
     NewtonState             state;
     double                  best  = std::numeric_limits<double>::max();
-    unsigned int            stuck = 0, n_iterations = 0;
+    unsigned int            stuck = 0, n_iterations = 0, settled = 0;
     LineSearch              line_search(parameters);
     // A front between stick and slip that moves over nodes on the cone, as under a belt, advances
-    // by one node in each iteration: while the active set changes, a step may take twice as many
-    // iterations (doc/theory.md 5, "Convergence").
+    // by one node in each iteration: iterations in which the active set changes are not counted,
+    // but all together are no more than twice as many (doc/theory.md 5, "Convergence").
     const unsigned int longest = 2 * parameters.maximum_iterations;
     for (unsigned int iteration = 0; iteration <= longest; ++iteration)
       {
@@ -129,8 +129,8 @@ namespace Touchstone
         best  = all_else ? std::min(best, state.residual) : std::numeric_limits<double>::max();
         if (stuck >= 3 && state.residual <= 100. * parameters.residual_tolerance)
           return iteration;
-        if (iteration == longest ||
-            (iteration >= parameters.maximum_iterations && state.changes == 0))
+        settled += (state.changes == 0);
+        if (iteration == longest || settled > parameters.maximum_iterations)
           break;
 
         // An active set that recurs would recur for ever. Each recurrence raises the damping level:

@@ -27,6 +27,13 @@ namespace Touchstone
      * it: keeps nodes from chattering between stick and slip. */
     constexpr double on_the_cone = 1e-8;
 
+    /** Gap over the size of a face up to which a row that the last linear system had closed is
+     * open only because normals and contact points have changed with the increment. Whether it
+     * opens is for the sign of its force to say: scaled by the stiffness of a cell this gap
+     * outweighs the force of a thin body, and a band on a drum would lose all its rows whenever it
+     * slides. A row that is farther off has not met what it was linearised about. */
+    constexpr double gap_of_linearisation = 0.1;
+
     /**
      * The status with which a row closes. The normal force that closes the gap and the tangential
      * force that takes back the slip are estimated with the same stiffness E A / h: the row sticks
@@ -67,8 +74,13 @@ namespace Touchstone
 
 
 
+    /** @param solved The state is the outcome of a linear system, in which the gaps of active rows
+     * were closed. */
     StatusViolation
-    status_violation(const ContactRow &row, const RowState &state, const double gap_tolerance)
+    status_violation(const ContactRow &row,
+                     const RowState   &state,
+                     const double      gap_tolerance,
+                     const bool        solved)
     {
       if (row.tied || state.status == ContactStatus::no_partner)
         return {};
@@ -76,7 +88,10 @@ namespace Touchstone
         return {-row.gap / row.size > gap_tolerance ? -row.gap / row.size : 0.,
                 status_of_closing(row)};
       const double scale = row.stiffness * row.size;
-      const double trial = state.lambda / scale - row.gap / row.size;
+      const double gap   = row.gap / row.size;
+      const bool   closed =
+        solved && state.accepted > 0 && state.normal_accepted && gap < gap_of_linearisation;
+      const double trial = state.lambda / scale - (closed ? 0. : gap);
       if (trial < -gap_tolerance)
         return {-trial, ContactStatus::open};
       if (!row.friction || state.dropped())
@@ -206,7 +221,7 @@ namespace Touchstone
     const MPI_Comm     communicator = contact.communicator();
     const ContactRows &rows         = contact.rows();
     const auto         violation    = [&](const ContactRow &row) {
-      return status_violation(row, row_states[row], gap_tolerance).size;
+      return status_violation(row, row_states[row], gap_tolerance, after_solve).size;
     };
 
     // Damping level 1: only rows change whose violation is at least half of the largest one.
@@ -236,7 +251,7 @@ namespace Touchstone
             continue;
           }
         result.gap                 = std::max(result.gap, violated_gap(row, state));
-        const StatusViolation next = status_violation(row, state, gap_tolerance);
+        const StatusViolation next = status_violation(row, state, gap_tolerance, after_solve);
         if (next.size > 0. && next.size >= threshold && (only.empty() || only == order(row)))
           {
             change_status(row, next.status);
@@ -249,6 +264,7 @@ namespace Touchstone
             result.signature += signature(row, state.status);
           }
       }
+    after_solve      = false;
     result.gap       = Utilities::MPI::max(result.gap, communicator);
     result.active    = Utilities::MPI::sum(result.active, communicator);
     result.changes   = Utilities::MPI::sum(result.changes, communicator);

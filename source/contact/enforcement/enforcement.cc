@@ -165,6 +165,7 @@ namespace Touchstone
       for (RowArrayBase *array : arrays)
         array->keep();
     set_forces(contact);
+    after_solve = true;
   }
 
 
@@ -178,6 +179,7 @@ namespace Touchstone
     for (RowArrayBase *array : arrays)
       array->restore();
     set_forces(contact);
+    after_solve = true;
     for (const ContactRow &row : contact.rows())
       {
         RowState       &state  = row_states[row];
@@ -234,6 +236,7 @@ namespace Touchstone
   void
   Enforcement::rollback()
   {
+    after_solve = false;
     for (RowArrayBase *array : arrays)
       array->rollback();
   }

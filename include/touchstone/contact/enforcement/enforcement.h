@@ -231,6 +231,9 @@ namespace Touchstone
   private:
     /** The states and all memory. */
     std::vector<RowArrayBase *> arrays;
+    /** Displacement and forces are those of a linear solution, and the active set has not been
+     * updated since. */
+    bool after_solve = false;
 
     void
     find_shared_nodes(const Contact &contact, const ConstraintGraph &supports);
