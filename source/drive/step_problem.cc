@@ -7,12 +7,19 @@
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
+#include <touchstone/solid/hyperelastic_law.h>
 
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_values.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
 #include <set>
+#include <tuple>
 
 // One implicit step as Newton's method sees it (doc/theory.md 5). In each iteration residual()
 // updates the contact geometry, the forces and the active set, linearize() makes the linear system
@@ -37,6 +44,106 @@ namespace Touchstone
       return scene.contact.linearisation == ContactParameters::Linearisation::consistent ||
              (scene.contact.linearisation == ContactParameters::Linearisation::automatic &&
               scene.has_friction() && !iterates);
+    }
+
+
+
+    /** A value at a quadrature point of a body, and where that is in the reference state. */
+    struct ExtremePoint
+    {
+      double     value = std::numeric_limits<double>::max();
+      Point<dim> position;
+      double     body = 0.;
+
+      /** By position where values are equal, so that the order does not depend on the partition. */
+      bool
+      operator<(const ExtremePoint &other) const
+      {
+        return std::tie(value, position[0], position[1], position[2]) <
+               std::tie(other.value, other.position[0], other.position[1], other.position[2]);
+      }
+
+      /** Body and position in words. */
+      std::string
+      place(const Scene &scene) const
+      {
+        char text[80];
+        std::snprintf(text,
+                      sizeof(text),
+                      "(%.4g, %.4g, %.4g)",
+                      position[0] + 0.,
+                      position[1] + 0.,
+                      position[2] + 0.);
+        return "body '" + scene.bodies[static_cast<unsigned int>(body)].name + "' at " + text;
+      }
+    };
+
+
+
+    /** The point of bodies with a nonlinear law where a function of body and deformation gradient
+     * is smallest. Collective. */
+    ExtremePoint
+    smallest(const Scene                                                       &scene,
+             const Solid                                                       &solid,
+             const Vector                                                      &u,
+             const std::function<double(unsigned int, const Tensor<2, dim> &)> &function)
+    {
+      Vector ghosted(solid.owned, solid.relevant, solid.communicator);
+      ghosted = u;
+      const QGauss<dim>           quadrature(solid.fe.degree + 1);
+      FEValues<dim>               values(solid.mapping,
+                           solid.fe,
+                           quadrature,
+                           update_gradients | update_quadrature_points);
+      std::vector<Tensor<2, dim>> gradients(quadrature.size());
+      ExtremePoint                found;
+      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned() && !scene.bodies[cell->material_id()].material.linear())
+          {
+            values.reinit(cell);
+            values[FEValuesExtractors::Vector(0)].get_function_gradients(ghosted, gradients);
+            for (const unsigned int q : values.quadrature_point_indices())
+              {
+                const Tensor<2, dim> F = gradients[q] + unit_symmetric_tensor<dim>();
+                found                  = std::min(found,
+                                 {function(cell->material_id(), F),
+                                                   values.quadrature_point(q),
+                                                   static_cast<double>(cell->material_id())});
+              }
+          }
+      const std::vector<double> mine{
+        found.value, found.position[0], found.position[1], found.position[2], found.body};
+      for (const auto &of : Utilities::MPI::all_gather(solid.communicator, mine))
+        found = std::min(found, {of[0], Point<dim>(of[1], of[2], of[3]), of[4]});
+      return found;
+    }
+
+
+
+    /** Where a body is compressed so far that its law resists further compression no longer:
+     * n_i N_J A_iJkL n_k N_L < 0 with the direction N of the largest compression and n = F N /
+     * |F N|. Laws for small strains do so (doc/theory.md 2.2), and then no step size helps. Empty
+     * if there is no such point. Collective. */
+    std::string
+    unstable_place(const Scene &scene, const Solid &solid, const Vector &u)
+    {
+      std::vector<std::shared_ptr<HyperelasticLaw>> laws;
+      for (const BodyParameters &body : scene.bodies)
+        laws.push_back(HyperelasticRegistry::knows(body.material.law.name)
+                         ? body.material.law.make<HyperelasticRegistry>(body.material)
+                         : nullptr);
+      const auto resistance = [&](const unsigned int body, const Tensor<2, dim> &F) {
+        if (!laws[body] || !(determinant(F) > 0.))
+          return std::numeric_limits<double>::max();
+        // In descending order.
+        const auto           eigen = eigenvectors(symmetrize(transpose(F) * F));
+        const Tensor<1, dim> N     = eigen[dim - 1].second;
+        const Tensor<1, dim> n     = F * N / (F * N).norm();
+        const Tensor<2, dim> nN    = outer_product(n, N);
+        return scalar_product(nN, double_contract<2, 0, 3, 1>(laws[body]->tangent(F), nN));
+      };
+      const ExtremePoint found = smallest(scene, solid, u, resistance);
+      return found.value < 0. ? found.place(scene) : "";
     }
   } // namespace
 
@@ -756,7 +863,10 @@ namespace Touchstone
         // The load stepping then cuts the step.
         if (halvings == 6)
           throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
-                              "increment");
+                              "increment: " +
+                              smallest(scene, solid, trial, [](unsigned int, const auto &F) {
+                                return determinant(F);
+                              }).place(scene));
         increment *= 0.5;
         admissible_part *= 0.5;
         trial = u;
@@ -810,10 +920,14 @@ namespace Touchstone
   StepDifficulty
   StepProblem::difficulty() const
   {
-    return {worst_place(),
-            stabilised.empty()
-              ? ""
-              : "; held by contact alone, perhaps against no resistance: " + stabilised};
+    std::string suspicion;
+    if (!stabilised.empty())
+      suspicion = "; held by contact alone, perhaps against no resistance: " + stabilised;
+    if (!solid.linear())
+      if (const std::string place = unstable_place(scene, solid, u); !place.empty())
+        suspicion += "; the material of " + place +
+                     " is compressed so far that by its 'Law' it resists no longer";
+    return {worst_place(), suspicion};
   }
 
 
