@@ -9,6 +9,7 @@
 
 #include "contact_support.h"
 #include <array>
+#include <map>
 #include <set>
 
 using namespace Touchstone;
@@ -258,6 +259,8 @@ end
     Contact            contact;
     Touchstone::Vector u;
     unsigned int       n_rows = 0, n_penetrate = 0;
+    /** Normal and tangential force that the springs of each row begin with. */
+    std::map<std::size_t, std::pair<double, Tensor<1, dim>>> starts;
 
     template <class Change>
     void
@@ -281,6 +284,7 @@ end
         row, state.status, augmented * row.normal + (row.friction ? tangential : Tensor<1, dim>()));
       if (row.friction)
         state.friction.base = tangential;
+      starts[row.index] = {augmented, tangential};
     }
 
     /** Forces are unknowns, or follow from the balance. */
@@ -300,6 +304,18 @@ end
         change_states([&](const ContactRow &row, RowState &state) {
           if (row.friction && state.active())
             state.lambda = -100. * made.scene.contact.penalty_factor * row.stiffness * row.gap;
+        });
+      // So are the forces of augmented Lagrange, of stick too.
+      if (enforcement_name == "augmented lagrange")
+        change_states([&](const ContactRow &row, RowState &state) {
+          if (row.friction && state.active())
+            {
+              const auto &[normal, tangential] = starts.at(row.index);
+              const double epsilon             = 20. * row.stiffness;
+              state.lambda                     = normal - epsilon * row.gap;
+              if (state.fully_constrained())
+                state.friction.base = tangential - epsilon * row.friction->kinematics.slip;
+            }
         });
       contact.enforcement().recover(contact,
                                     made.displacement([](const Point<dim> &, unsigned int) {

@@ -332,7 +332,8 @@ namespace Touchstone
         // The load stepping then cuts the step.
         if (halvings == 6)
           throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
-                              "increment");
+                              "increment: " +
+                              inverted_place(trial));
         increment *= 0.5;
         admissible_part *= 0.5;
         trial = u;
@@ -396,10 +397,14 @@ namespace Touchstone
   StepDifficulty
   StepProblem::difficulty() const
   {
-    return {worst_place(),
-            system->stabilised().empty()
-              ? ""
-              : "; held by contact alone, perhaps against no resistance: " + system->stabilised()};
+    std::string suspicion;
+    if (!system->stabilised().empty())
+      suspicion = "; held by contact alone, perhaps against no resistance: " + system->stabilised();
+    if (!solid.linear())
+      if (const std::string place = unstable_place(); !place.empty())
+        suspicion += "; the material of " + place +
+                     " is compressed so far that by its 'Law' it resists no longer";
+    return {worst_place(), suspicion};
   }
 
 

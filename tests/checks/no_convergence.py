@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A run that does not converge says so with exit code and reason, and leaves the last converged state
-on disk."""
+on disk; and names the law of a material that gives way."""
 # ctest: label = quick
 
 import re
 import shutil
 
-from touchstone_test import Run, check, checks, finish, folder, launch
+from touchstone_test import Run, check, checks, finish, folder, launch, run
 
 for ranks in 1, 2:
     shutil.rmtree(folder / "results", ignore_errors=True)
@@ -14,15 +14,22 @@ for ranks in 1, 2:
     check(done.returncode == 2, f"exit code {done.returncode} instead of 2")
     check(re.search(r"^Not converged: no convergence in 1 Newton iterations: residual .*cut 1 times\)",
                     done.stdout, re.M), f"the reason is missing: {done.stdout}")
-    run = Run("no convergence", "results", done.stdout)
-    check(run.summary["converged"] is False, "summary.json says that it converged")
-    check(run.summary["steps"] == 1, "summary.json must count one step")
-    check(run.summary["failure"].startswith("no convergence in 1 Newton iterations"),
+    result = Run("no convergence", "results", done.stdout)
+    check(result.summary["converged"] is False, "summary.json says that it converged")
+    check(result.summary["steps"] == 1, "summary.json must count one step")
+    check(result.summary["failure"].startswith("no convergence in 1 Newton iterations"),
           "summary.json does not name the reason")
-    run.says("The run did not converge")
-    run.says("trying again with a step of 0.5")
+    result.says("The run did not converge")
+    result.says("trying again with a step of 0.5")
     series = (folder / "results/solution.pvd").read_text(encoding="utf-8")
     check('timestep="1"' in series, "no VTU file of the last converged state")
     check(not re.search(r'timestep="(1\.5|2)"', series), "a VTU file of a failed state")
-    check(len(run.rows()) == 1, "statistics must have one row")
+    check(len(result.rows()) == 1, "statistics must have one row")
+
+# The material has no answer: the message names the place and the law. Another law has one.
+pressed = checks / "law_gives_way.prm"
+failed = run("law_gives_way", pressed, fails=True)
+for reason in "body 'press' at (", "by its 'Law' it resists no longer":
+    failed.says(reason)
+run("law_holds", pressed, {"Body press/Material/Law": "neo-Hookean"})
 finish()

@@ -54,17 +54,6 @@ namespace Touchstone
 
     // ---------------------------------------------------------------- positions on a face
 
-    /** Shape function at a node, less this: the point is the node, up to round-off. */
-    constexpr double node_shape = 1e-9;
-
-    /** @brief Whether a point of a face is one of its nodes. @param shape Value of its shape
-     * function there. */
-    constexpr bool
-    is_node(const double shape)
-    {
-      return shape > 1. - node_shape;
-    }
-
     /** Face coordinates by which a point may lie outside of [-1, 1] by round-off. */
     constexpr double face_coordinate = 1e-9;
 

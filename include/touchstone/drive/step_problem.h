@@ -159,6 +159,13 @@ namespace Touchstone
     update_active_set(unsigned int damping, NewtonState &state);
     /** @} */
 
+    /** The cell that is farthest turned inside out at the displacement @p trial. Collective. */
+    std::string
+    inverted_place(const Vector &trial) const;
+    /** Where a body is compressed so far that its law resists further compression no longer; empty
+     * if there is no such point. Collective. */
+    std::string
+    unstable_place() const;
     /** See worst_place(); empty if no row changed. */
     std::string
     changing_place() const;

@@ -150,13 +150,8 @@ namespace Touchstone
           continue;
         RowState &state = row_states[row];
         state.lambda    = state.force * entry.normal;
-        if (!row.friction || !state.fully_constrained())
-          continue;
-        // Tangents without a condition: their springs carry the augmented force. Together it is the
-        // base t_b of the next trial force, (16).
-        for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
-          state.force += (state.friction.base * tangent) * tangent;
-        state.friction.base = state.force - state.lambda * entry.normal;
+        if (row.friction && state.fully_constrained())
+          set_stick(state, entry.normal);
       }
     solved = true;
   }

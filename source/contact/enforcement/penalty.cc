@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/archive/archive.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/contact/friction/friction_response.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 // Penalty method and augmented Lagrangian (doc/theory.md 6): each accepted condition of an active
 // row is a spring of stiffness epsilon = factor E A / h; the system stays definite and needs no
@@ -39,7 +44,36 @@ namespace Touchstone
       void
       begin_step() override
       {
-        solved = false;
+        solved   = false;
+        n_solves = 0;
+      }
+
+      void
+      commit() override
+      {
+        Enforcement::commit();
+        committed_growth = growth;
+      }
+
+      void
+      rollback() override
+      {
+        Enforcement::rollback();
+        growth = committed_growth;
+      }
+
+      void
+      save(ArchiveWriter &archive) const override
+      {
+        Enforcement::save(archive);
+        archive.put("spring growth", committed_growth);
+      }
+
+      void
+      load(const ArchiveReader &archive) override
+      {
+        Enforcement::load(archive);
+        growth = committed_growth = archive.get<double>("spring growth");
       }
 
       void
@@ -94,12 +128,16 @@ namespace Touchstone
             RowState &state = row_states[row];
             if (!state.active() || state.dropped())
               continue;
+            if (solved && row.friction && state.fully_constrained())
+              augment_unconstrained(row, state);
             if (solved && !row.friction && !by_gap(row))
               evaluate_force(row, state); // the force of the linear solve
             else
               evaluate_row(row, state);
             admit_gap(row, solved);
           }
+        if (solved && stiffens())
+          stiffen(contact.communicator());
         solved = false;
       }
 
@@ -119,7 +157,7 @@ namespace Touchstone
             {
               // The forces may have been augmented since they were evaluated, so that the friction
               // response has to be made anew for the linear system.
-              choose_formulation(row, state, factor * row.stiffness);
+              choose_formulation(row, state, epsilon(row));
               friction_response(row, state.status, normal_force(row), state.friction);
               if (system.keep_symmetric)
                 lag_friction(row, state, balancing_force(row, residual, graph));
@@ -127,13 +165,22 @@ namespace Touchstone
 
         springs.clear();
         RowTerms terms(system);
+        // As in ExactEnforcement: of two dependent conditions the graph keeps the earlier one, and
+        // those along normals precede those of stick.
+        std::vector<std::pair<const ContactRow *, Condition>> stick;
         for (const ContactRow &row : contact.rows())
           {
             start_row(row_states[row]);
-            for (const Condition &condition :
-                 row_conditions(row, row_states[row], system.keep_symmetric))
-              add_spring(row, condition, graph, system, terms);
+            const std::vector<Condition> conditions =
+              row_conditions(row, row_states[row], system.keep_symmetric);
+            for (std::size_t k = 0; k < conditions.size(); ++k)
+              if (k == 0 || row.tied)
+                add_spring(row, conditions[k], graph, system, terms);
+              else
+                stick.emplace_back(&row, conditions[k]);
           }
+        for (const auto &[row, condition] : stick)
+          add_spring(*row, condition, graph, system, terms);
         terms.finish();
       }
 
@@ -144,10 +191,19 @@ namespace Touchstone
           row_states[*spring.row].force = Tensor<1, dim>();
         for (const Spring &spring : springs)
           row_states[*spring.row].force += spring.force * spring.condition.direction;
+        std::set<const ContactRow *> found;
         for (const Spring &spring : springs)
-          // After the sum over all springs of a row, which are three for a tied one.
-          row_states[*spring.row].lambda = row_states[*spring.row].force * spring.normal;
+          // After the sum over all springs of a row, which can be three.
+          if (found.insert(spring.row).second)
+            {
+              const ContactRow &row   = *spring.row;
+              RowState         &state = row_states[row];
+              state.lambda            = state.force * spring.normal;
+              if (row.friction && state.fully_constrained())
+                set_stick(state, spring.normal);
+            }
         solved = true;
+        ++n_solves;
       }
 
       void
@@ -179,6 +235,13 @@ namespace Touchstone
         return true;
       }
 
+      /** Whether the springs become stiffer where an iteration closes gaps too little. */
+      virtual bool
+      stiffens() const
+      {
+        return false;
+      }
+
       /** Decide what the friction of the row starts from; @p epsilon is the
        * stiffness of the normal spring. */
       virtual void
@@ -198,6 +261,57 @@ namespace Touchstone
       const double        factor;
       std::vector<Spring> springs; // of rows that do not go by_gap()
       bool                solved = false;
+      /** How many times stiffer the springs are than when the run began, and after the last step;
+       * the linear solves of the step. */
+      double       growth = 1., committed_growth = 1.;
+      unsigned int n_solves = 0;
+
+      /** Stiffness of the springs of a row, force per length. */
+      double
+      epsilon(const ContactRow &row) const
+      {
+        return growth * factor * row.stiffness;
+      }
+
+      /** Component of gap or slip along the condition of a spring, at present. */
+      static double
+      violation(const Spring &spring)
+      {
+        const ContactRow     &row       = *spring.row;
+        const Tensor<1, dim> &direction = spring.condition.direction;
+        if (row.tied)
+          return row.gap_vector * direction;
+        // Tangents are perpendicular to the normal of the linear system.
+        const bool normal = direction * spring.normal > 0.5;
+        return normal ? row.gap : row.friction->kinematics.slip * direction;
+      }
+
+      /**
+       * Stiffer springs from now on if the last linear solve has not closed the gaps
+       * by a factor of four. The method of multipliers reduces them by 1/(1 + epsilon s), with s
+       * the eigenvalues of B K^-1 B^T: slowly where the bodies are much stiffer than E A / h, as
+       * near incompressibility, and not at all for small negative ones, where the tangent is
+       * indefinite and only contact makes the state stable. The first solve of a step brings the
+       * change of the load, and is not judged. Bertsekas (1982), Constrained Optimization and
+       * Lagrange Multiplier Methods, section 2.2.
+       */
+      void
+      stiffen(const MPI_Comm communicator)
+      {
+        constexpr double closes = 0.25, by = 10., stiffest = 1e3;
+        double           before = 0., after = 0.;
+        for (const Spring &spring : springs)
+          if (row_states[*spring.row].active())
+            {
+              const double size = spring.row->size;
+              before            = std::max(before, std::abs(spring.condition.value) / size);
+              after             = std::max(after, std::abs(violation(spring)) / size);
+            }
+        before = Utilities::MPI::max(before, communicator);
+        after  = Utilities::MPI::max(after, communicator);
+        if (n_solves > 1 && after > closes * before)
+          growth = std::min(by * growth, stiffest);
+      }
 
       /**
        * The normal force that would balance the slave node, as the last linear solution intended.
@@ -222,25 +336,23 @@ namespace Touchstone
       double
       normal_force(const ContactRow &row) const
       {
-        return !row.friction || by_gap(row)
-                 ? augmentation[row].lambda - factor * row.stiffness * row.gap
-                 : row_states[row].lambda;
+        return !row.friction || by_gap(row) ? augmentation[row].lambda - epsilon(row) * row.gap
+                                            : row_states[row].lambda;
       }
 
       /** Forces of an active row from its gap and slip. */
       void
       evaluate_row(const ContactRow &row, RowState &state)
       {
-        const double epsilon = factor * row.stiffness;
         if (row.tied)
           {
-            state.force  = augmentation[row].rest - epsilon * row.gap_vector;
+            state.force  = augmentation[row].rest - epsilon(row) * row.gap_vector;
             state.lambda = state.force * row.normal;
             return;
           }
         state.lambda = normal_force(row);
         if (row.friction)
-          choose_formulation(row, state, epsilon);
+          choose_formulation(row, state, epsilon(row));
         evaluate_force(row, state);
       }
 
@@ -259,15 +371,16 @@ namespace Touchstone
           system.symmetric = false;
         // The force after the iteration is lambda_k - epsilon (g + dg),
         // and the condition's value is -g.
-        const double         epsilon   = factor * row.stiffness;
+        const double         stiffness = epsilon(row);
         const Tensor<1, dim> direction = condition.force();
-        const double         augmented =
-          row.tied ? augmentation[row].rest * direction : augmentation[row].lambda;
-        const double force = augmented + epsilon * condition.value;
+        Tensor<1, dim>       augmented = augmentation[row].rest;
+        if (!row.tied)
+          augmented += (augmentation[row].lambda - augmented * row.normal) * row.normal;
+        const double force = augmented * condition.direction + stiffness * condition.value;
         terms.add_load(row, force * direction);
-        terms.add_stiffness(row, epsilon * direction, condition.motion_form());
+        terms.add_stiffness(row, stiffness * direction, condition.motion_form());
         if (!by_gap(row))
-          springs.push_back({&row, condition, force, epsilon, row.normal});
+          springs.push_back({&row, condition, force, stiffness, row.normal});
       }
     };
 
@@ -343,6 +456,12 @@ namespace Touchstone
     private:
       const bool merged;
 
+      bool
+      stiffens() const override
+      {
+        return merged;
+      }
+
       void
       admit_gap(const ContactRow &row, const bool solved) override
       {
@@ -353,13 +472,14 @@ namespace Touchstone
           augment(row);
       }
 
-      /** Without friction the force is that of the linearised gap. One of the gap itself would
-       * turn the change of normals and contact points into forces, the larger the stiffer the
-       * springs. */
+      /** Merged, the force is that of the linearised gap and slip. One of the gap itself would turn
+       * the change of normals and contact points into forces, the larger the stiffer the
+       * springs; with friction these move nodes along the surface, change stick and slip, and the
+       * iteration does not converge. */
       bool
-      by_gap(const ContactRow &row) const override
+      by_gap(const ContactRow &) const override
       {
-        return !merged || row.friction;
+        return !merged;
       }
 
       void
@@ -367,17 +487,16 @@ namespace Touchstone
                          RowState         &state,
                          const double      epsilon) const override
       {
+        // Merged: as with multipliers, but springs meet the conditions of stick.
+        choose_friction(row, state);
         FrictionForce &f = state.friction;
-        if (!row.friction->exact || f.shared)
-          {
-            regularise_friction(row, state);
-            return;
-          }
+        if (merged || f.carried)
+          return;
         // Augmented friction: no condition and no elastic slip, the base is the force of the last
         // augmentation (table in doc/theory.md 6.1).
-        f.constrained = f.carried = false;
-        f.c                       = epsilon;
-        f.base                    = augmentation[row].rest;
+        f.constrained = false;
+        f.c           = epsilon;
+        f.base        = augmentation[row].rest;
       }
     };
 

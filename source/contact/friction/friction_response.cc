@@ -124,6 +124,18 @@ namespace Touchstone
 
 
 
+  // Tangents without a condition: their springs carry the augmented force. Together it is the base
+  // t_b of the next trial force, (16).
+  void
+  set_stick(RowState &state, const Tensor<1, dim> &normal)
+  {
+    for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
+      state.force += (state.friction.base * tangent) * tangent;
+    state.friction.base = state.force - state.lambda * normal;
+  }
+
+
+
   namespace
   {
     /** Bound of the stiffness kappa_T across the slip direction over E A / h: kappa_T grows like

@@ -278,8 +278,9 @@ namespace Touchstone
       const Tensor<1, dim> plane = plane_normal(slave);
 
       // Integrals over what each master face covers: M_jk and Q_jc of doc/theory.md 4.
-      std::vector<OverlapIntegrals<n, double>> parts(masters.size());
-      OverlapSample<n, double>                 sample;
+      std::vector<OverlapIntegrals<n, double>> parts(
+        masters.size(), OverlapIntegrals<n, double>(face_length(slave)));
+      OverlapSample<n, double> sample;
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
           const FaceGeometry &on_master = geometry(*masters[f].master);

@@ -20,9 +20,9 @@ namespace Touchstone
    * slips with t = L t_tr / |t_tr|. Formulations differ in base and c:
    * - regularised (elastic-plastic slip): the force at the start of the step,
    *   carried along with the slave surface, and alpha_t;
-   * - augmented Lagrangian: the force at the last augmentation, and its penalty;
+   * - augmented Lagrangian in an outer loop: the force at the last augmentation, and its penalty;
    * - exact: the force of the last iteration, and the complementarity constant.
-   *   The node is then constrained while it sticks.
+   *   The node is then constrained while it sticks, by conditions or by springs that meet them.
    *
    * Simo and Laursen (1992), Comput. Struct. 42; Alart and Curnier (1991), Comput.
    * Methods Appl. Mech. Engng 92; Hueeber, Stadler and Wohlmuth (2008), SIAM J. Sci.

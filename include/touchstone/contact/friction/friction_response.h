@@ -50,6 +50,12 @@ namespace Touchstone
   void
   augment_unconstrained(const ContactRow &row, RowState &state);
 
+  /** @brief The force of stick after a linear solve, in which the conditions of the row have made
+   * RowState::force: with what the springs along unconstrained tangents carry, it is the base of
+   * the next trial force. @param normal Of the row in the linear system. */
+  void
+  set_stick(RowState &state, const dealii::Tensor<1, dim> &normal);
+
   /** @brief The slip of the present step without its elastic part, the change of
    * the springs that regularised friction stores its force in.
    * @param force The present tangential force. */

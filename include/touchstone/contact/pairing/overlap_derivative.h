@@ -32,8 +32,9 @@ namespace Touchstone
     };
     ByNormals least_by_normals, own_by_normals[n];
 
-    explicit OverlapDerivative(const FaceGeometry &master)
-      : master(&master.face())
+    OverlapDerivative(const Face &slave, const FaceGeometry &master)
+      : OverlapIntegrals<n, PositionFad<n>>(face_length(slave))
+      , master(&master.face())
       , master_smooth(master.smooth())
     {
     }

@@ -40,12 +40,17 @@ namespace Touchstone
     std::array<std::array<Number, n>, n> mass{};
     /** Q: area, area times length for the gap. */
     std::array<std::array<Number, n_columns>, n> q{};
-    /** The smallest gap along the normal at any point or corner of the overlap, and that at the
-     * slave nodes, where they are covered; length. */
+    /** The smallest gap along the normal at any point or corner of the overlap, and that at each
+     * slave node; length. Where a node is not covered, the closest corner stands for it, with a gap
+     * that is larger by the distance h (1 - N_j) from the node: a node that comes to lie on the
+     * other side of the edge of the cover, as it does by round-off beside a plane of symmetry, must
+     * not change its gap by a jump (doc/theory.md 3.1, equation (7)). */
     Number                least = std::numeric_limits<double>::max();
     std::array<Number, n> own;
 
-    OverlapIntegrals()
+    /** @param length Size h of the slave face, reference state. */
+    explicit OverlapIntegrals(const double length)
+      : length(length)
     {
       own.fill(Number(std::numeric_limits<double>::max()));
     }
@@ -60,8 +65,11 @@ namespace Touchstone
       if (value_of(sample.weight) == 0.)
         {
           for (unsigned int j = 0; j < n; ++j)
-            if (Tolerances::is_node(value_of(sample.slave_shape[j])) && distance < own[j])
-              own[j] = distance;
+            {
+              const Number from_node = distance + length * (1. - sample.slave_shape[j]);
+              if (from_node < own[j])
+                own[j] = from_node;
+            }
           return;
         }
       for (unsigned int j = 0; j < n; ++j)
@@ -79,7 +87,19 @@ namespace Touchstone
             q[j][OverlapColumns::master + m] += weight * sample.master_shape[m];
         }
     }
+
+  private:
+    double length;
   };
+
+  /** @brief The length h by which distances on a slave face are measured: the mean of its
+   * diagonals, which does not depend on the order of its nodes. */
+  inline double
+  face_length(const Face &slave)
+  {
+    return 0.5 * (slave.reference[0].distance(slave.reference[3]) +
+                  slave.reference[1].distance(slave.reference[2]));
+  }
 
   /** @brief The mass matrix of what several master faces cover of a slave face.
    * @param parts Their OverlapIntegrals. */

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Augmented Lagrange goes the way of the multipliers where it is merged with Newton's iterations:
+on curved and warped surfaces, over edges, with friction and near incompressibility it finds what
+elimination finds, without a cut step and in about as many iterations."""
+# ctest: goldens = hard_corner, hard_edge_and_back, hard_mu_two, hard_incompressible
+
+from touchstone_test import (AUGMENTED, below, check, checks, finish, golden, relative, run, same,
+                             tests)
+
+for name in "hard_corner", "hard_edge_and_back", "hard_mu_two", "hard_incompressible":
+    exact = golden(name)
+    augmented = run(name, tests / f"{name}.prm", AUGMENTED)
+    check(augmented.cuts() == 0, f"{name}: {augmented.cuts()} steps were cut")
+    below(f"{name}, Newton iterations over those of elimination",
+          augmented.iterations() / exact.iterations(), 1.5)
+    same(exact, augmented, 1e-6)
+
+# To half the height, by both. Steps that are cut are not the same: 1e-5 is their difference.
+halved = checks / "rubber_half_height.prm"
+exact = run("halved", halved)
+augmented = run("halved_augmented", halved, AUGMENTED)
+for k in range(3):
+    below(f"half the height, force {k}",
+          relative(augmented.force("high")[k], exact.force("high")[k]), 1e-4)
+finish()
