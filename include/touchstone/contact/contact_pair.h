@@ -3,12 +3,12 @@
 #ifndef touchstone_contact_contact_pair_h
 #define touchstone_contact_contact_pair_h
 
+#include <touchstone/base/stateful.h>
 #include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/friction/friction.h>
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/row.h>
-#include <touchstone/base/stateful.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/solid/solid.h>
 

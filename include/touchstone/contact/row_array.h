@@ -3,9 +3,9 @@
 #ifndef touchstone_contact_row_array_h
 #define touchstone_contact_row_array_h
 
+#include <touchstone/base/stateful.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/contact/row_archive.h>
-#include <touchstone/base/stateful.h>
 
 #include <algorithm>
 #include <string>
