@@ -22,10 +22,12 @@ namespace Touchstone
                       "Largest gap or penetration of an active node, relative to "
                       "the size of the slave faces. [no unit]",
                       Patterns::Double(0., 1.));
-    prm.add_parameter("Maximum iterations",
-                      maximum_iterations,
-                      "A step that needs more Newton iterations is cut.",
-                      Patterns::Integer(1));
+    prm.add_parameter(
+      "Maximum iterations",
+      maximum_iterations,
+      "A step that needs more Newton iterations is cut. Those that change the active set do not "
+      "count, up to as many again.",
+      Patterns::Integer(1));
     line_search.declare(
       prm,
       "Line search",
