@@ -25,7 +25,7 @@ namespace Touchstone
 
   GapCorrection::GapCorrection(const CoverSums &sums, const double mean, const double size)
   {
-    // The corrections of equations (6) and (7) with derivatives by the five
+    // phi of equation (7) and the correction of equation (6) with derivatives by the five
     // quantities that they depend on: g mean, g_min, g_s, D_kk and a_k - D_kk.
     using Number         = Sacado::Fad::SFad<double, 5>;
     const double covered = sums.own < std::numeric_limits<double>::max() ? 1. : 0.;
@@ -43,17 +43,13 @@ namespace Touchstone
         // omega of equation (7): 1 if another point than the node is the closest.
         const Number other =
           smooth_step(Number((own - least) / difference), 0., Tolerances::elsewhere);
-        // As long as it is the node, the gap is that of the node itself and not the smallest one:
-        // along a line of contact a neighbour is as close or closer, and rows that take its gap in
-        // common would be linearly dependent.
-        const Number of_node = own - at_mean;
-        result               = (1. - other) * of_node;
-        if (own < 0.)
-          result *= 1. - smooth_step(Number(-own / of_node), 0., Tolerances::deep_node);
-        if (least > 0.)
-          result +=
-            other * difference *
-            smooth_step(Number(least / size), Tolerances::hardly_open, Tolerances::well_open);
+        Number part = 1. - other;
+        if (least < 0.)
+          part *= 1. - smooth_step(Number(-least / difference), 0., Tolerances::deep_node);
+        else
+          part += other *
+                  smooth_step(Number(least / size), Tolerances::hardly_open, Tolerances::well_open);
+        result = part * difference;
       }
     // 0.01 h r^4 of equation (6): the row opens before its area vanishes.
     if (given > 0.)
