@@ -92,11 +92,12 @@ oblique = golden("oblique_impact")
 below("oblique, impulse along the plane is not mu times that across",
       relative(oblique.after("  impulse", 1), -0.2 * oblique.after("  impulse", 3)), 1e-4)
 never_grows(oblique, "energy: friction", -1, 1e-9)
-# Steps that are cut in the middle of it: the iterations allowed do not suffice.
+# Steps that are cut in the middle of it: the iterations allowed do not suffice. Those in which nodes
+# come into contact do not count.
 askew = {"Body block/Initial velocity z": "-1 + 0.2 * x + 0.1 * y"}
 uncut = run("uncut", tests / "oblique_impact.prm", askew)
 cut = run("cut", tests / "oblique_impact.prm",
-          {**askew, "Newton/Maximum iterations": 3, "Newton/Residual tolerance": 1e-8,
+          {**askew, "Newton/Maximum iterations": 2, "Newton/Residual tolerance": 1e-8,
            "Newton/Gap tolerance": 1e-7})
 check(cut.cuts() >= 3, f"cut: {cut.cuts()} cuts are not three or more")
 below("cut, impulse differs from that of whole steps",
