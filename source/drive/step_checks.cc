@@ -24,17 +24,13 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  namespace
+  std::string
+  StepProblem::readable(const Point<dim> &x)
   {
-    /** Coordinates as text; adding zero turns -0 into 0. */
-    std::string
-    readable(const double *x)
-    {
-      char text[80];
-      std::snprintf(text, sizeof(text), "(%.4g, %.4g, %.4g)", x[0] + 0., x[1] + 0., x[2] + 0.);
-      return text;
-    }
-  } // namespace
+    char text[80];
+    std::snprintf(text, sizeof(text), "(%.4g, %.4g, %.4g)", x[0] + 0., x[1] + 0., x[2] + 0.);
+    return text;
+  }
 
 
 
@@ -192,7 +188,7 @@ namespace Touchstone
       return "";
     const auto &pair = scene.pairs[static_cast<unsigned int>(first[dim])];
     return "rows of pair '" + pair.name + "' that change, one of them at " +
-           readable(first.data()) + " of body '" + pair.slave_body + "'";
+           readable({first[0], first[1], first[2]}) + " of body '" + pair.slave_body + "'";
   }
 
 
@@ -245,7 +241,7 @@ namespace Touchstone
                }))
         pairs[1] = row.pair;
     std::string text = "body '" + scene.bodies[static_cast<unsigned int>(worst[4])].name + "' at " +
-                       readable(worst.data() + 1);
+                       readable({worst[1], worst[2], worst[3]});
     for (unsigned int role = 0; role < 2; ++role)
       if (const int p = Utilities::MPI::max(pairs[role], solid.communicator); p >= 0)
         return text + (role == 0 ? ", a slave node of pair '" : ", a master node of pair '") +

@@ -8,7 +8,6 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <tuple>
@@ -39,14 +38,8 @@ namespace Touchstone
       std::string
       place(const Scene &scene) const
       {
-        char text[80];
-        std::snprintf(text,
-                      sizeof(text),
-                      "(%.4g, %.4g, %.4g)",
-                      position[0] + 0.,
-                      position[1] + 0.,
-                      position[2] + 0.);
-        return "body '" + scene.bodies[static_cast<unsigned int>(body)].name + "' at " + text;
+        return "body '" + scene.bodies[static_cast<unsigned int>(body)].name + "' at " +
+               StepProblem::readable(position);
       }
     };
 
@@ -60,8 +53,7 @@ namespace Touchstone
              const Vector                                                      &u,
              const std::function<double(unsigned int, const Tensor<2, dim> &)> &function)
     {
-      Vector ghosted(solid.owned, solid.relevant, solid.communicator);
-      ghosted = u;
+      const Vector                ghosted = solid.ghosted(u);
       const QGauss<dim>           quadrature(solid.fe.degree + 1);
       FEValues<dim>               values(solid.mapping,
                            solid.fe,

@@ -8,8 +8,6 @@
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
 
-#include <deal.II/grid/grid_tools.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -67,11 +65,8 @@ namespace Touchstone
     system      = std::make_unique<StepSystem>(
       StepSystem::Parts{scene, solid, boundary_conditions, contact, *integration});
     parts = {integration.get(), &solid, &contact};
-    // Three lengths: of the smallest cell, against which missed prescribed displacements are
-    // judged; of the largest coordinate, which sets the round-off of positions; and of the box
+    // Two lengths: of the largest coordinate, which sets the round-off of positions; and of the box
     // around all bodies, beyond which no increment makes sense.
-    length = GridTools::minimal_cell_diameter(solid.dof_handler.get_triangulation());
-    length = Utilities::MPI::min(length, solid.communicator);
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         extent = std::max(extent, cell->center().norm());
@@ -212,7 +207,7 @@ namespace Touchstone
     // their directions. Contact is added in linearize().
     missed = system->prescribe(time, u);
     // Exact up to round-off after the first full increment; a shortened increment misses a part.
-    state.prescribed = missed <= scene.newton.gap_tolerance * length;
+    state.prescribed = missed <= scene.newton.gap_tolerance * system->smallest_cell();
   }
 
 

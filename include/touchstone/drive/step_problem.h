@@ -52,6 +52,10 @@ namespace Touchstone
     void
     prepare(double t) override;
 
+    /** @brief Coordinates as text, for messages; adding zero turns -0 into 0. */
+    static std::string
+    readable(const dealii::Point<dim> &x);
+
   private:
     /** @name Interface to Newton's method */
     /** @{ */
@@ -139,8 +143,6 @@ namespace Touchstone
     double      diameter = 0., missed = 0.;
     ForcingTerm forcing_term;
 
-    /** Length against which a missed prescribed displacement is measured. */
-    double length = 1.;
     /** Magnitude of the coordinates, for their round-off. */
     double extent = 0.;
 

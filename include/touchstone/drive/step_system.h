@@ -116,6 +116,13 @@ namespace Touchstone
       return loose;
     }
 
+    /** @brief Diameter of the smallest cell, length. */
+    double
+    smallest_cell() const
+    {
+      return length;
+    }
+
   private:
     Parts                            parts;
     std::shared_ptr<LinearSolver>    solver;
