@@ -9,15 +9,16 @@ import re
 import shutil
 import subprocess
 
-from touchstone_test import check, fail, finish, folder, prm, program, source
+from touchstone_test import check, fail, finish, folder, prm, processors, program, source
 
 sample = source / "contrib/skeletons/outside"
 
 
 def step(what, *command):
     """Output of a command that must succeed; without it nothing else makes sense."""
-    result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
-                            stderr=subprocess.STDOUT, text=True, check=False)
+    with processors():
+        result = subprocess.run([str(word) for word in command], stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True, check=False)
     if result.returncode != 0:
         fail(f"{what}: {' '.join(map(str, command))}\n{result.stdout[-3000:]}")
         finish()
