@@ -40,7 +40,7 @@ check(subprocess.run(["installed/outside", "bad.prm"], capture_output=True, chec
       "a bad scene has exit code 0")
 
 step("configure with the sources", "cmake", "-G", "Unix Makefiles", "-S", sample, "-B", "subdirectory",
-     "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS=-fsyntax-only",
+     "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-fsyntax-only",
      f"-DTOUCHSTONE_SOURCE_DIR={source}", "-DTOUCHSTONE_UNITY=ON")
 with open("subdirectory/CMakeCache.txt", encoding="utf-8") as cache:
     check("TOUCHSTONE_TESTS:BOOL=OFF" in cache.read(),
@@ -50,6 +50,6 @@ if os.environ.get("TOUCHSTONE_OUTSIDE") == "full":
     check(step("run", "subdirectory/outside", prm / "patch_test.prm") == output,
           "another result with add_subdirectory")
 else:
-    # The object file alone: headers, flags and definitions must come with the target.
+    # The sample alone, and no code: headers, flags and definitions must come with the target.
     step("compile with the sources", "cmake", "--build", "subdirectory", "--target", "main.cc.o")
 finish()
