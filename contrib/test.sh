@@ -17,9 +17,9 @@ install_packages
 build_program $targets
 
 say "Testing"
-# Two at a time at most: no test compares times, but some run on several ranks.
-jobs=$(number_of_jobs)
-[ "$jobs" -le 2 ] || jobs=2
+# Each run waits for a processor per rank (tests/processors.py): with twice as many tests as
+# processors there is always one that has what is free.
+jobs=$((2 * $(number_of_jobs)))
 log=$build/test.log
 failed=$build/test.failed
 rm -f "$failed"

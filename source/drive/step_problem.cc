@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/base/input_error.h>
-#include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
-#include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>

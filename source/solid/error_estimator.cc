@@ -39,86 +39,107 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
+
+    /** Stresses and volumes of quadrature points, cell by cell. Loops over the owned cells visit
+     * points in the same order as for_each_stress(), so that a running index suffices. */
+    struct PointStresses
+    {
+      std::vector<SymmetricTensor<2, dim>> stress;
+      std::vector<double>                  volume;
+    };
+
+    using StressField = std::array<LinearAlgebra::distributed::Vector<double>, n_components>;
+
+    /** Averages of the stresses at the nodes, weighted with the volumes: int N sigma over int N, a
+     * projection with lumped mass. What belongs to hanging nodes goes to those that they follow.
+     * Collective. */
+    StressField
+    recover(const PointStresses &points, const DoFHandler<dim> &nodes, FEValues<dim> &values)
+    {
+      IndexSet relevant;
+      DoFTools::extract_locally_relevant_dofs(nodes, relevant);
+      AffineConstraints<double> hanging(relevant);
+      DoFTools::make_hanging_node_constraints(nodes, hanging);
+      hanging.close();
+
+      LinearAlgebra::distributed::Vector<double> volume(nodes.locally_owned_dofs(),
+                                                        relevant,
+                                                        nodes.get_communicator());
+      StressField                                stress;
+      for (auto &field : stress)
+        field.reinit(volume);
+      std::vector<Index>     dofs(nodes.get_fe().n_dofs_per_cell());
+      dealii::Vector<double> local(dofs.size());
+      std::size_t            at = 0;
+      for (const auto &cell : nodes.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            values.reinit(cell);
+            cell->get_dof_indices(dofs);
+            for (unsigned int c = 0; c <= n_components; ++c)
+              {
+                local = 0.;
+                for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                  for (unsigned int i = 0; i < dofs.size(); ++i)
+                    local(i) += values.shape_value(i, q) * points.volume[at + q] *
+                                (c < n_components ? points.stress[at + q].access_raw_entry(c) : 1.);
+                hanging.distribute_local_to_global(local,
+                                                   dofs,
+                                                   c < n_components ? stress[c] : volume);
+              }
+            at += values.n_quadrature_points;
+          }
+      volume.compress(VectorOperation::add);
+      for (auto &field : stress)
+        {
+          field.compress(VectorOperation::add);
+          for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
+            if (volume.local_element(i) != 0.)
+              field.local_element(i) /= volume.local_element(i);
+          hanging.distribute(field);
+          field.update_ghost_values();
+        }
+      return stress;
+    }
+  } // namespace
+
+
+
   /** The energy of the difference between the discontinuous stress of the elements and a
    * continuous stress field sigma* that is recovered from it [31]. Bodies share no nodes, so
    * sigma* is continuous within each body only. Collective. */
   dealii::Vector<double>
   recovery_errors(const Solid &solid, const Vector &u)
   {
-    using NodeField                     = LinearAlgebra::distributed::Vector<double>;
-    constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
-
     const auto     &triangulation = solid.dof_handler.get_triangulation();
     const FE_Q<dim> node_fe(solid.fe.degree);
     DoFHandler<dim> nodes(triangulation);
     nodes.distribute_dofs(node_fe);
-    IndexSet relevant;
-    DoFTools::extract_locally_relevant_dofs(nodes, relevant);
-    AffineConstraints<double> hanging(relevant);
-    DoFTools::make_hanging_node_constraints(nodes, hanging);
-    hanging.close();
-
-    // Averages, weighted with the volumes: int N sigma over int N, a projection with
-    // lumped mass. What belongs to hanging nodes goes to those that they follow.
-    NodeField volume(nodes.locally_owned_dofs(), relevant, solid.communicator);
-    std::array<NodeField, n_components> stress;
-    for (NodeField &field : stress)
-      field.reinit(volume);
-    FEValues<dim>                        values(solid.mapping,
+    FEValues<dim> values(solid.mapping,
                          node_fe,
                          QGauss<dim>(solid.fe.degree + 1),
                          update_values | update_JxW_values);
-    const unsigned int                   n_points = values.n_quadrature_points;
-    std::vector<Index>                   dofs(node_fe.n_dofs_per_cell());
-    std::vector<SymmetricTensor<2, dim>> point_stress;
-    std::vector<double>                  point_volume;
+    PointStresses points;
     solid.for_each_stress(u,
                           [&](const unsigned int,
                               const Point<dim> &,
                               const SymmetricTensor<2, dim> &sigma,
                               const double                   v) {
-                            point_stress.push_back(sigma);
-                            point_volume.push_back(v);
+                            points.stress.push_back(sigma);
+                            points.volume.push_back(v);
                           });
-    // Both loops over the cells visit points in the same order as for_each_stress(), so a running
-    // index suffices.
-    std::size_t            at = 0;
-    dealii::Vector<double> local(node_fe.n_dofs_per_cell());
-    for (const auto &cell : nodes.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          values.reinit(cell);
-          cell->get_dof_indices(dofs);
-          for (unsigned int c = 0; c <= n_components; ++c)
-            {
-              local = 0.;
-              for (unsigned int q = 0; q < n_points; ++q)
-                for (unsigned int i = 0; i < dofs.size(); ++i)
-                  local(i) += values.shape_value(i, q) * point_volume[at + q] *
-                              (c < n_components ? point_stress[at + q].access_raw_entry(c) : 1.);
-              hanging.distribute_local_to_global(local,
-                                                 dofs,
-                                                 c < n_components ? stress[c] : volume);
-            }
-          at += n_points;
-        }
-    volume.compress(VectorOperation::add);
-    for (NodeField &field : stress)
-      {
-        field.compress(VectorOperation::add);
-        for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
-          if (volume.local_element(i) != 0.)
-            field.local_element(i) /= volume.local_element(i);
-        hanging.distribute(field);
-        field.update_ghost_values();
-      }
+    const StressField stress = recover(points, nodes, values);
 
     // (sigma* - sigma) : C^-1 : (sigma* - sigma) with the isotropic compliance, e : C^-1 : e =
     // ((1 + nu) e : e - nu (tr e)^2) / E. It is that of the elastic law at small strain for all
     // materials, as an indicator needs no more.
+    const unsigned int               n_points = values.n_quadrature_points;
     dealii::Vector<double>           result(triangulation.n_active_cells());
     std::vector<std::vector<double>> recovered(n_components, std::vector<double>(n_points));
-    at = 0;
+    std::size_t                      at = 0;
     for (const auto &cell : nodes.active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -131,10 +152,10 @@ namespace Touchstone
             {
               SymmetricTensor<2, dim> e;
               for (unsigned int c = 0; c < n_components; ++c)
-                e.access_raw_entry(c) = recovered[c][q] - point_stress[at].access_raw_entry(c);
+                e.access_raw_entry(c) = recovered[c][q] - points.stress[at].access_raw_entry(c);
               const double t = trace(e);
               result(cell->active_cell_index()) +=
-                ((1. + nu) * (e * e) - nu * t * t) / E * point_volume[at];
+                ((1. + nu) * (e * e) - nu * t * t) / E * points.volume[at];
             }
         }
     return result;

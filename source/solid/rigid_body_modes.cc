@@ -47,6 +47,15 @@ namespace Touchstone
         -threshold, threshold, 1e-3 * threshold, eigenvalues, eigenvectors);
       return eigenvalues.size() == 0;
     }
+
+    double
+    largest_entry(const std::vector<double> &entries)
+    {
+      double result = 0.;
+      for (const double entry : entries)
+        result = std::max(result, std::abs(entry));
+      return result;
+    }
   } // namespace
 
 
@@ -100,12 +109,11 @@ namespace Touchstone
 
 
 
-  /** The rigid motions of all bodies that no condition resists: the null space of the Gram matrix
-   * R^T B^T B R of section 9. A condition of one body gives a row over its six motions; one of
-   * contact a row over those of both bodies, with opposite signs. The matrix is tiny and the same
-   * on all ranks. Collective. */
-  FreeMotion
-  RigidBodyModes::free_motion(const std::vector<Condition> &conditions) const
+  /** The Gram matrix R^T B^T B R of section 9, by rows. A condition of one body gives a row over
+   * its six motions; one of contact a row over those of both bodies, with opposite signs. The
+   * matrix is tiny and the same on all ranks. Collective. */
+  std::vector<double>
+  RigidBodyModes::gram_matrix(const std::vector<Condition> &conditions) const
   {
     const unsigned int  n_bodies = solid.bodies.size();
     const unsigned int  n        = 6 * n_bodies;
@@ -140,55 +148,66 @@ namespace Touchstone
         const double  highest = *std::max_element(block, block + 36);
         if (highest == 0. || !positive_definite(block, 1e-8 * highest))
           continue;
-        double all = 0.;
-        for (unsigned int i = 0; i < n * n; ++i)
-          all = std::max(all, std::abs(gram[i]));
+        const double all = largest_entry(gram);
         for (unsigned int k = 0; k < 6; ++k)
           gram[(6 * b + k) * n + 6 * b + k] += all;
       }
+    return gram;
+  }
 
-    // A motion counts as free if the conditions resist it by less than one part
-    // in 1e8 of the best-resisted one (a resistance over a hundredth of a body's
-    // size is 1e4 times larger).
-    LAPACKFullMatrix<double> matrix(n, n);
-    double                   largest = 0.;
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int j = 0; j < n; ++j)
-        {
-          matrix(i, j) = gram[i * n + j];
-          largest      = std::max(largest, std::abs(gram[i * n + j]));
-        }
-    dealii::Vector<double> eigenvalues;
-    FreeMotion             result;
-    FullMatrix<double>    &eigenvectors = result.basis;
+
+
+  /** The rigid motions of all bodies that no condition resists: the null space of the Gram matrix.
+   * A motion counts as free if the conditions resist it by less than one part in 1e8 of the
+   * best-resisted one (a resistance over a hundredth of a body's size is 1e4 times larger).
+   * Collective. */
+  FreeMotion
+  RigidBodyModes::free_motion(const std::vector<Condition> &conditions) const
+  {
+    const std::vector<double> gram    = gram_matrix(conditions);
+    const unsigned int        n       = 6 * solid.bodies.size();
+    const double              largest = largest_entry(gram);
+    FreeMotion                result;
     if (largest == 0.)
       {
-        eigenvectors   = IdentityMatrix(n);
+        result.basis   = IdentityMatrix(n);
         result.n_modes = n;
       }
     else
       {
+        LAPACKFullMatrix<double> matrix(n, n);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            matrix(i, j) = gram[i * n + j];
+        dealii::Vector<double> eigenvalues;
         matrix.compute_eigenvalues_symmetric(
-          -largest, 1e-8 * largest, 1e-12 * largest, eigenvalues, eigenvectors);
+          -largest, 1e-8 * largest, 1e-12 * largest, eigenvalues, result.basis);
         result.n_modes = eigenvalues.size();
       }
-    if (result.n_modes == 0)
-      return result;
+    if (result.n_modes > 0)
+      describe(result);
+    return result;
+  }
 
-    // How much of each elementary motion lies in the free space.
+
+
+  /** How much of each elementary motion lies in the free space, in words. */
+  void
+  RigidBodyModes::describe(FreeMotion &motion) const
+  {
     std::ostringstream text;
     const char        *names = "xyz";
-    for (unsigned int b = 0; b < n_bodies; ++b)
+    for (unsigned int b = 0; b < solid.bodies.size(); ++b)
       {
         std::string mixed;
         for (unsigned int k = 0; k < 6; ++k)
           {
             double share = 0.;
-            for (unsigned int v = 0; v < result.n_modes; ++v)
-              share += std::pow(eigenvectors(6 * b + k, v), 2);
+            for (unsigned int v = 0; v < motion.n_modes; ++v)
+              share += std::pow(motion.basis(6 * b + k, v), 2);
             if (share > 1e-3)
               {
-                result.bodies.insert(b);
+                motion.bodies.insert(b);
                 mixed += (mixed.empty() ? "" : " or ");
                 mixed += (k < dim ? "move in " : "turn about ");
                 mixed += names[k % dim];
@@ -200,8 +219,7 @@ namespace Touchstone
           text << (text.str().empty() ? "" : "; ") << "body '" << solid.bodies[b].name << "' can "
                << mixed;
       }
-    result.description = text.str();
-    return result;
+    motion.description = text.str();
   }
 
 

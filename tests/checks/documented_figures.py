@@ -4,6 +4,7 @@
 import subprocess
 import sys
 
-from touchstone_test import program, source
+from touchstone_test import processors, program, source
 
-sys.exit(subprocess.call([sys.executable, source / "contrib/check_figures", "--program", program]))
+with processors():
+    sys.exit(subprocess.call([sys.executable, source / "contrib/check_figures", "--program", program]))

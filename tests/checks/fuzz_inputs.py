@@ -5,7 +5,8 @@ are right; none shows the text of a library."""
 import subprocess
 import sys
 
-from touchstone_test import folder, program, source
+from touchstone_test import folder, processors, program, source
 
-sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_inputs", "--program", program,
-                          "--output", folder, "--time-limit", "2", "30", "7"]))
+with processors():
+    sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_inputs", "--program", program,
+                              "--output", folder, "--time-limit", "2", "30", "7"]))

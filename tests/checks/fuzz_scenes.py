@@ -7,13 +7,14 @@ springs turned the error of linearised gaps into forces, and a ball at the edge 
 import subprocess
 import sys
 
-from touchstone_test import check, finish, folder, program, source
+from touchstone_test import check, finish, folder, processors, program, source
 
 
 def scenes(seed, numbers, *options):
-    code = subprocess.call([sys.executable, source / "contrib/fuzz_scenes", "--quick", "--strict",
-                            "--time-limit", "60", "--program", program, "--output", folder, "--only",
-                            numbers, *options, "0", str(seed)])
+    with processors():
+        code = subprocess.call([sys.executable, source / "contrib/fuzz_scenes", "--quick", "--strict",
+                                "--time-limit", "60", "--program", program, "--output", folder,
+                                "--only", numbers, *options, "0", str(seed)])
     check(code == 0, f"seed {seed}: exit code {code}")
 
 

@@ -25,7 +25,7 @@ def slip(name, cells, half_widths, pressure, shear, settings=None, ranks=1):
 
 coarse = slip("coarse", 6, 0.04, 0.01, 0.08)
 medium = slip("medium", 12, 0.025, 0.006, 0.02)
-same(medium, slip("ranks", 12, 0.025, 0.006, 0.02, ranks=2), 1e-6)
+same(coarse, slip("ranks", 6, 0.04, 0.01, 0.08, ranks=2), 1e-6)
 same(medium, slip("multipliers", 12, 0.025, 0.006, 0.02, MULTIPLIERS), 1e-6)
 slip("augmented", 12, 0.025, 0.006, 0.02, AUGMENTED)
 slip("averaged", 12, 0.025, 0.006, 0.02, {"Contact pair contact/Pairing": "averaged"})

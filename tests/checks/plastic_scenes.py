@@ -19,7 +19,7 @@ hill = BENCHMARKS / "hill_tube.prm"
 values = re.search("^ *set Values = (.*)", hill.read_text(encoding="utf-8"), re.M)[1]
 errors(run("hill", hill), contact_pressure_mean=1e-3, elastic_plastic_radius=2e-3, stress_l2=0.005)
 errors(run("residual", hill, {"Load stepping/End time": 2, STEPS: 20,
-                              "Reference solution/Values": f"{values}, unloaded: 1"}, 2),
+                              "Reference solution/Values": f"{values}, unloaded: 1"}),
        elastic_plastic_radius=2e-3, stress_l2=0.01)
 
 # Near-incompressible: full integration of degree 1 locks and misses by half.
@@ -32,7 +32,7 @@ errors(run("degree_2", cook, {"Body membrane/Geometry/Cells": "8, 8, 1", DEGREE:
 plates = [run(f"plate_{ranks}", prm / "plate_drop.prm",
               {FACTOR: 0.25, "Load stepping/End time": 5e-7, STEPS: 25}, ranks) for ranks in (1, 2)]
 rods = [run(f"taylor_{ranks}", BENCHMARKS / "taylor_bar.prm",
-            {"Body rod/Geometry/Cells": "2, 2, 12", "Load stepping/End time": 1e-5, STEPS: 50}, ranks)
+            {"Body rod/Geometry/Cells": "2, 2, 12", "Load stepping/End time": 2e-6, STEPS: 10}, ranks)
         for ranks in (1, 2)]
 same(*plates, 1e-6)
 same(*rods, 1e-4)

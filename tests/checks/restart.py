@@ -12,7 +12,8 @@ import subprocess
 import time
 
 from touchstone_test import (AUGMENTED, GMRES, MULTIPLIERS, RESIDUAL, STEPS, Run, check, checks,
-                             fail, finish, folder, launch, program, same, settings_options, tests)
+                             fail, finish, folder, launch, processors, program, same,
+                             settings_options, tests)
 
 scene, plate = checks / "restart.prm", checks / "thin_plate.prm"
 adaptive = tests / "adaptive_sliding.prm"
@@ -207,7 +208,8 @@ for attempt in range(6):
     before = checkpoints("killed")[:1]
     command = [program, "--results-only", *settings_options(MANY), "--output", "killed",
                *(["--resume"] if attempt else []), scene]
-    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+    with processors(), subprocess.Popen(command, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.DEVNULL) as process:
         while process.poll() is None:
             parts = sorted(killed.glob("checkpoint_*.part"))
             if not parts:

@@ -21,7 +21,8 @@ import sys
 
 sys.dont_write_bytecode = True  # no folders __pycache__ among the sources
 program, source, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
-sys.path.insert(0, str(source / "contrib"))
+sys.path[:0] = str(source / "contrib"), str(source / "tests")
+from processors import processors  # pylint: disable=wrong-import-position
 tests, checks, prm = source / "tests", source / "tests/checks", source / "prm"
 folder.mkdir(parents=True, exist_ok=True)
 os.chdir(folder)
@@ -82,8 +83,9 @@ def settings_options(settings):
 def launch(*arguments, ranks=1, timeout=None):
     """Start the program; returns subprocess.CompletedProcess with all that it says in stdout."""
     command = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
-    return subprocess.run([*command, program, *map(str, arguments)], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
+    with processors(ranks):
+        return subprocess.run([*command, program, *map(str, arguments)], stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
 
 
 class Run:

@@ -20,6 +20,10 @@ import shlex
 import subprocess
 import sys
 
+sys.dont_write_bytecode = True  # no folders __pycache__ among the sources
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from processors import processors  # pylint: disable=wrong-import-position
+
 NUMBER = re.compile(r"[-+]?\d[\d,]*\.?\d*(?:[eE][-+]?\d+)?")
 failures = []
 
@@ -50,8 +54,9 @@ def run(page, command, program, project, folder):
         words[1:1] = ["--output", str(folder)]
     environment = dict(os.environ, OPENBLAS_NUM_THREADS="1")
     environment.pop("TOUCHSTONE_OPTIONS", None)
-    done = subprocess.run(words, cwd=project, env=environment, text=True, check=False,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    with processors():
+        done = subprocess.run(words, cwd=project, env=environment, text=True, check=False,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode:
         fail(page, f"{command}\nends with exit code {done.returncode}:\n{done.stdout[-800:]}")
         return [], {}

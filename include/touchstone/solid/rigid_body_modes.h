@@ -73,6 +73,12 @@ namespace Touchstone
     std::unique_ptr<RigidMotions>   rigid;
     std::vector<dealii::Point<dim>> centres;
     std::vector<double>             sizes;
+
+    std::vector<double>
+    gram_matrix(const std::vector<Condition> &conditions) const;
+    /** @brief Names the bodies and motions of @p motion. */
+    void
+    describe(FreeMotion &motion) const;
   };
 } // namespace Touchstone
 

@@ -166,8 +166,7 @@ namespace Touchstone
                              const double                     largest)
     : fine(matrix.vector_partitioner())
   {
-    const unsigned int n_nodes = matrix.n_nodes();
-    std::vector<float> diagonal(dim * n_nodes);
+    std::vector<float> diagonal(dim * matrix.n_nodes());
     {
       const VectorType inverse = matrix.inverse_diagonal();
       for (unsigned int i = 0; i < diagonal.size(); ++i)
@@ -176,25 +175,44 @@ namespace Touchstone
     BlockMatrix<float>::Rows rows(matrix);
     const Aggregates         aggregates = aggregate(couplings(rows, diagonal, group), body);
 
-    // P_0: the near-kernel restricted to the nodes of each aggregate, orthonormal by QR. Q are
-    // columns of P_0, in six vectors over the dofs of this level; R are the values of the
-    // near-kernel on the coarse level, so that P_0 R reproduces it exactly there.
     std::vector<std::vector<unsigned int>> nodes(aggregates.n);
-    for (unsigned int node = 0; node < n_nodes; ++node)
+    for (unsigned int node = 0; node < matrix.n_nodes(); ++node)
       if (aggregates.of_node[node / group] >= 0)
         nodes[aggregates.of_node[node / group]].push_back(node);
-    const int        n_mine = aggregates.n * static_cast<int>(n_modes);
-    const Epetra_Map coarse_map(-1, n_mine, 0, near_kernel.Comm());
-    const Index      first = static_cast<Index>(coarse_map.MinMyGID()) / n_modes;
-    coarse_kernel          = std::make_unique<Epetra_MultiVector>(coarse_map, n_modes);
     body_of_aggregate.resize(aggregates.n);
-    std::vector<std::vector<double>> tentative(n_modes, std::vector<double>(dim * n_nodes, 0.));
-    std::vector<double>              target(dim * n_nodes, no_aggregate);
-    const unsigned int               n_given = near_kernel.NumVectors();
-    std::vector<Modes>               q;
     for (int a = 0; a < aggregates.n; ++a)
+      body_of_aggregate[a] = body[nodes[a].front() / group];
+
+    const Tentative tentative = restrict_to_aggregates(near_kernel, nodes);
+    // Nothing is coupled, on any rank.
+    if (coarse_kernel->GlobalLength() == 0)
+      return;
+    const LocalTentative local = exchange(tentative);
+    smooth(rows, diagonal, local, 4. / 3. / largest);
+  }
+
+
+
+  // P_0: the near-kernel restricted to the nodes of each aggregate, orthonormal by QR. Q are
+  // columns of P_0, in six vectors over the dofs of this level; R are the values of the
+  // near-kernel on the coarse level, so that P_0 R reproduces it exactly there.
+  Prolongation::Tentative
+  Prolongation::restrict_to_aggregates(const Epetra_MultiVector                     &near_kernel,
+                                       const std::vector<std::vector<unsigned int>> &nodes)
+  {
+    const unsigned int n_dofs = fine->locally_owned_size(), n_given = near_kernel.NumVectors();
+    const Epetra_Map   coarse_map(-1,
+                                static_cast<int>(nodes.size() * n_modes),
+                                0,
+                                near_kernel.Comm());
+    const Index        first = static_cast<Index>(coarse_map.MinMyGID()) / n_modes;
+    coarse_kernel            = std::make_unique<Epetra_MultiVector>(coarse_map, n_modes);
+    Tentative result{std::vector<double>(n_dofs, no_aggregate), {}};
+    for (auto &column_of_mode : result.columns)
+      column_of_mode.resize(n_dofs, 0.);
+    std::vector<Modes> q;
+    for (std::size_t a = 0; a < nodes.size(); ++a)
       {
-        body_of_aggregate[a] = body[nodes[a].front() / group];
         q.assign(dim * nodes[a].size(), Modes());
         for (unsigned int k = 0; k < q.size(); ++k)
           for (unsigned int m = 0; m < n_given; ++m)
@@ -203,25 +221,28 @@ namespace Touchstone
         for (unsigned int k = 0; k < q.size(); ++k)
           {
             const unsigned int i = dim * nodes[a][k / dim] + k % dim;
-            target[i]            = static_cast<double>(first + a);
+            result.aggregate[i]  = static_cast<double>(first + a);
             for (unsigned int m = 0; m < n_modes; ++m)
-              tentative[m][i] = q[k][m];
+              result.columns[m][i] = q[k][m];
           }
         for (unsigned int m = 0; m < n_modes; ++m)
           for (unsigned int i = 0; i < n_modes; ++i)
             (*coarse_kernel)[m][n_modes * a + i] = factor[n_modes * i + m];
       }
+    return result;
+  }
 
-    // Nothing is coupled, on any rank.
-    if (coarse_map.NumGlobalElements() == 0)
-      return;
 
-    // Aggregates and motions of ghost nodes, exchanged as vectors over the dofs: the number of an
-    // aggregate travels as a double, which is exact. Aggregates met there are the ghosts of the
-    // coarse level.
-    const auto                                        aim = with_ghosts(fine, target);
+
+  // Aggregates and motions of ghost nodes, exchanged as vectors over the dofs: the number of an
+  // aggregate travels as a double, which is exact. Aggregates met there are the ghosts of the
+  // coarse level.
+  Prolongation::LocalTentative
+  Prolongation::exchange(const Tentative &tentative)
+  {
+    const auto                                        aim = with_ghosts(fine, tentative.aggregate);
     std::vector<std::unique_ptr<const GhostedVector>> shape;
-    for (const auto &values : tentative)
+    for (const auto &values : tentative.columns)
       shape.push_back(with_ghosts(fine, values));
     const unsigned int n_local = fine->locally_owned_size() + fine->n_ghost_indices();
     std::vector<Index> far;
@@ -230,27 +251,39 @@ namespace Touchstone
         for (unsigned int m = 0; m < n_modes; ++m)
           far.push_back(n_modes * static_cast<Index>(aim->local_element(i)) + m);
     std::sort(far.begin(), far.end());
-    IndexSet owned(coarse_map.NumGlobalElements()), ghosts(coarse_map.NumGlobalElements());
-    if (n_mine > 0)
-      owned.add_range(n_modes * first, n_modes * first + n_mine);
+    const Epetra_BlockMap &map = coarse_kernel->Map();
+    IndexSet               owned(map.NumGlobalElements()), ghosts(map.NumGlobalElements());
+    if (map.NumMyElements() > 0)
+      owned.add_range(map.MinMyGID(), map.MinMyGID() + map.NumMyElements());
     ghosts.add_indices(far.begin(), far.end());
     coarse = std::make_shared<Partitioner>(owned, ghosts, fine->get_mpi_communicator());
 
-    // P = (1 - omega D^-1 A) P_0. omega = 4/3 over the largest eigenvalue of D^-1 A minimises the
-    // bound of the energy of the smoothed motions (Vanek, Mandel and Brezina 1996).
-    std::vector<int>   column_of(n_local / dim, -1);
-    std::vector<float> tentative_blocks(block * column_of.size() + 2);
-    for (unsigned int node = 0; node < column_of.size(); ++node)
+    LocalTentative result{std::vector<int>(n_local / dim, -1), {}};
+    result.blocks.resize(block * result.aggregate.size() + 2);
+    for (unsigned int node = 0; node < result.aggregate.size(); ++node)
       if (const double aggregate = aim->local_element(dim * node); aggregate != no_aggregate)
         {
-          column_of[node] = static_cast<int>(
+          result.aggregate[node] = static_cast<int>(
             coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
           for (unsigned int r = 0; r < dim; ++r)
             for (unsigned int m = 0; m < n_modes; ++m)
-              tentative_blocks[block * node + n_modes * r + m] =
+              result.blocks[block * node + n_modes * r + m] =
                 static_cast<float>(shape[m]->local_element(dim * node + r));
         }
-    const double          omega = 4. / 3. / largest;
+    return result;
+  }
+
+
+
+  // P = (1 - omega D^-1 A) P_0. omega = 4/3 over the largest eigenvalue of D^-1 A minimises the
+  // bound of the energy of the smoothed motions (Vanek, Mandel and Brezina 1996).
+  void
+  Prolongation::smooth(BlockMatrix<float>::Rows &rows,
+                       const std::vector<float> &diagonal,
+                       const LocalTentative     &tentative,
+                       const double              omega)
+  {
+    const unsigned int    n_nodes = diagonal.size() / dim;
     RowOfBlocks<NodeRows> row;
     start.push_back(0);
     // More than eight aggregates in a row of P are rare; memory that is reserved and not touched
@@ -264,7 +297,7 @@ namespace Touchstone
         for (unsigned int r = 0; r < dim; ++r)
           damping[r] = omega / diagonal[dim * node + r];
         row.clear();
-        add_smoothed(rows.read(node), node, damping, column_of, tentative_blocks, row);
+        add_smoothed(rows.read(node), node, damping, tentative.aggregate, tentative.blocks, row);
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           {
             column.push_back(row.columns[k]);

@@ -127,6 +127,37 @@ namespace Touchstone
     std::unique_ptr<Epetra_MultiVector> coarse_kernel;
     std::vector<unsigned int>           body_of_aggregate;
 
+    /** P_0 over the dofs of this rank: the global number of the aggregate of each, or a mark
+     * for none, and the columns of its motions. */
+    struct Tentative
+    {
+      std::vector<double>                      aggregate;
+      std::array<std::vector<double>, n_modes> columns;
+    };
+    /** P_0 by local nodes, ghosts included: the local number of the aggregate, or -1, and the
+     * block; two more numbers than there are entries, as in `entries`. */
+    struct LocalTentative
+    {
+      std::vector<int>   aggregate;
+      std::vector<float> blocks;
+    };
+
+    /** @brief P_0 and the near-kernel of the coarse level, from the @p nodes of each aggregate. */
+    Tentative
+    restrict_to_aggregates(const Epetra_MultiVector                     &near_kernel,
+                           const std::vector<std::vector<unsigned int>> &nodes);
+
+    /** @brief P_0 with ghosts, and the layout of the coarse level. Collective. */
+    LocalTentative
+    exchange(const Tentative &tentative);
+
+    /** @brief The entries of P. */
+    void
+    smooth(BlockMatrix<float>::Rows &rows,
+           const std::vector<float> &diagonal,
+           const LocalTentative     &tentative,
+           double                    omega);
+
     /** The rows of nodes of other ranks that this one refers to, by node: aggregates by
      * their global indices, and blocks. */
     struct FarRow
