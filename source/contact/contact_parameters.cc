@@ -222,6 +222,19 @@ namespace Touchstone
       "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
       "where a direct solver takes unsymmetric systems, and for the rest of a step "
       "in which a frozen iteration has gained little.");
+    prm.add_parameter(
+      "Contact tolerance",
+      impulse_tolerance,
+      "Of 'forward increment', in explicit dynamics: the sweeps of a cycle end when "
+      "they change no velocity by more than this, relative to the speed at which "
+      "bodies would close. [no unit]",
+      Patterns::Double(0., 0.1));
+    prm.add_parameter(
+      "Contact iterations",
+      most_sweeps,
+      "Of 'forward increment': the largest number of sweeps in a cycle. Momentum is "
+      "exact and no energy is gained wherever they end. [no unit]",
+      Patterns::Integer(1, 1000000));
     enforcement.declare_own_keys(prm);
   }
 

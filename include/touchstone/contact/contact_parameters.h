@@ -139,6 +139,10 @@ namespace Touchstone
                                          {{"automatic", Linearisation::automatic},
                                           {"consistent", Linearisation::consistent},
                                           {"frozen", Linearisation::frozen}}};
+    /** Of impulses: change of a velocity in the last sweep, relative to the closing speed; and the
+     * largest number of sweeps in a cycle. */
+    double       impulse_tolerance = 1e-10;
+    unsigned int most_sweeps       = 200;
 
     /** @param values Of this section: the enforcement decides on other keys. */
     void
