@@ -189,11 +189,14 @@ namespace Touchstone
     enforcement.declare_key(prm,
                             values,
                             "Enforcement",
-                            "How contact is enforced: 'elimination' of the slave unknowns, which "
+                            "How contact is enforced: 'automatic' is 'forward increment' in "
+                            "explicit dynamics and 'elimination' elsewhere; "
+                            "'elimination' of the slave unknowns, which "
                             "leaves a system for any linear solver; "
                             "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
                             "'augmented lagrange', springs whose forces grow until the gaps close; "
-                            "or 'penalty', springs that leave a penetration.");
+                            "or 'penalty', springs that leave a penetration.",
+                            {"automatic"});
     prm.add_parameter("Penalty factor",
                       penalty_factor,
                       "Multiplies the automatic stiffness of the springs, which is Young's "

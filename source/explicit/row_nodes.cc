@@ -43,9 +43,9 @@ namespace Touchstone
         foreign.add_index(slot.first);
     foreign.compress();
     const std::vector<unsigned int> owners =
-      Utilities::MPI::n_mpi_processes(comm) == 1 ?
-        std::vector<unsigned int>() :
-        Utilities::MPI::compute_index_owner(owned, foreign, comm);
+      Utilities::MPI::n_mpi_processes(comm) == 1
+        ? std::vector<unsigned int>()
+        : Utilities::MPI::compute_index_owner(owned, foreign, comm);
     const auto owner = [&](const Index dof) { return owners[foreign.index_within_set(dof)]; };
 
     std::map<unsigned int, std::vector<SlotRequest>> requests_to;

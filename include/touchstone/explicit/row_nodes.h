@@ -18,7 +18,16 @@ namespace Touchstone
 {
   /** @brief Pair and slave node of a row, the latter by a key that does not depend on the
    * partition: rows in ascending order of it are in the same order on any number of ranks. */
-  using RowKey = std::pair<std::uint64_t, std::uint64_t>;
+  struct RowKey
+  {
+    std::uint64_t pair = 0, slave = 0;
+
+    bool
+    operator<(const RowKey &other) const
+    {
+      return pair != other.pair ? pair < other.pair : slave < other.slave;
+    }
+  };
 
   /**
    * @brief The nodes that the contact rows of this rank refer to, wherever they live, and the
