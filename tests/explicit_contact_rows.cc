@@ -99,7 +99,7 @@ end
         map.update_ghosts(v);
         before         = v;
         const double e = energy();
-        impulses.project(u, v, out.cycles * step, step);
+        impulses.project(u, before, v, out.cycles * step, step);
         const Tensor<1, dim> p =
           total([&](const unsigned int i) { return mass[i] * (v[i] - before[i]); });
         const Tensor<1, dim> l = total([&](const unsigned int i) {

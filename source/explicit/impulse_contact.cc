@@ -194,42 +194,49 @@ namespace Touchstone
       }
     made_at = u_nodes;
     moved.resize(u_nodes.size());
+    v_before.resize(u_nodes.size());
   }
 
 
 
   void
-  ImpulseContact::import(const NodeField &u, const NodeField &v)
+  ImpulseContact::import(const NodeField &u, const NodeField &before, const NodeField &v)
   {
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
       {
         u_nodes[node]         = u[local[node]];
+        v_before[node]        = before[local[node]];
         solver.velocity[node] = v[local[node]];
       }
     solver.nodes.forward(u_nodes);
+    solver.nodes.forward(v_before);
     solver.nodes.forward(solver.velocity);
   }
 
 
 
   void
-  ImpulseContact::project(const NodeField &u, NodeField &v, const double time, const double step)
+  ImpulseContact::project(const NodeField &u,
+                          const NodeField &before,
+                          NodeField       &v,
+                          const double     time,
+                          const double     step)
   {
     if (renew_rows)
       {
         interval_start = time;
         renew(u, time);
-        import(u, v);
+        import(u, before, v);
       }
     else
       {
-        import(u, v);
+        import(u, before, v);
         for (unsigned int node = 0; node < solver.nodes.n(); ++node)
           moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
         if (motion.demands_rows(u, v, step, solver, kept_rows, moved))
           {
             renew(u, time);
-            import(u, v);
+            import(u, before, v);
           }
       }
     set_geometry(time, step);
@@ -244,8 +251,16 @@ namespace Touchstone
     counted.sweeps += counts.sweeps;
     counted.most_sweeps = std::max(counted.most_sweeps, counts.sweeps);
     counted.unconverged += !counts.converged && !control.one_sweep;
-    if (counts.rounds == 0)
-      return;
+    acted = counts.rounds > 0;
+    if (!acted)
+      {
+        for (RowHistory &row : history)
+          {
+            row.impulse = Tensor<1, dim>();
+            row.sliding = false;
+          }
+        return;
+      }
     check_feasible(step, counts.converged || control.one_sweep);
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
       v[local[node]] = solver.velocity[node];
@@ -288,9 +303,9 @@ namespace Touchstone
         h.sliding             = row.sliding;
         if (row.impulse.norm_square() == 0.)
           continue;
-        const double         p_n     = row.impulse * row.normal;
-        const Tensor<1, dim> p_t     = row.tied ? Tensor<1, dim>() : row.impulse - p_n * row.normal;
-        const Tensor<1, dim> mean    = 0.5 * (row.free_velocity + row.velocity);
+        const double         p_n  = row.impulse * row.normal;
+        const Tensor<1, dim> p_t  = row.tied ? Tensor<1, dim>() : row.impulse - p_n * row.normal;
+        const Tensor<1, dim> mean = 0.5 * (solver.relative_velocity(row, v_before) + row.velocity);
         const double         by_slip = p_t * mean;
         h.total += row.impulse;
         h.energy.normal += row.impulse * mean - by_slip;

@@ -70,15 +70,16 @@ namespace Touchstone
 
 
   Tensor<1, dim>
-  ImpulseSolver::relative_velocity(const ImpulseRow &row) const
+  ImpulseSolver::relative_velocity(const ImpulseRow                  &row,
+                                   const std::vector<Tensor<1, dim>> &v) const
   {
     Tensor<1, dim> w;
     std::size_t    s = row.first;
     for (const std::size_t end = s + row.n_nodes; s < end; ++s)
-      w += weights[order[s]] * velocity[nodes.node(order[s])];
+      w += weights[order[s]] * v[nodes.node(order[s])];
     if (row.levered)
       for (const std::size_t end = s + row.n_lever; s < end; ++s)
-        w += velocity[nodes.node(s)] * levers[s]; // transposed
+        w += v[nodes.node(s)] * levers[s]; // transposed
     return w - row.drive;
   }
 

@@ -56,11 +56,24 @@ namespace Touchstone
     /**
      * @brief Change the velocities @p v with which nodes would move during the cycle from @p time
      * to @p time + @p step so that no row penetrates at its end. Collective.
-     * @param u Displacement at the start of the cycle. @param v Of owned nodes.
+     * @param u      Displacement at the start of the cycle; ghosts as well, as of the others.
+     * @param before Velocities of the cycle before, on the mean of which and the new ones forces do
+     *               work. @param v Free velocities; of owned nodes those that contact allows.
      * @throws InfeasibleContact if supports or obstacles leave no such velocity.
      */
     void
-    project(const NodeField &u, NodeField &v, double time, double step);
+    project(const NodeField &u, const NodeField &before, NodeField &v, double time, double step);
+
+    /** @brief Call @p use(node, impulse) for each owned node, by its local number, on which contact
+     * acted in the last project(). Impulses, force times time, on supported nodes as well. */
+    template <class Use>
+    void
+    for_each_impulse(const Use &use) const
+    {
+      if (acted)
+        for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+          use(local[node], solver.impulse(node));
+    }
 
     /** @brief The interval ends with the displacement @p u: bring the rows there, and give them
      * their states and histories. Contact::commit() or rollback() follows. Collective. */
@@ -88,7 +101,9 @@ namespace Touchstone
     Vector                   displacement;
     double                   interval_start = 0.;
     bool                     renew_rows     = true;
-    ImpulseWork              counted;
+    /** There were impulses in the last cycle. */
+    bool        acted = false;
+    ImpulseWork counted;
 
     /** What is known of each row of Contact, by its index. */
     struct RowHistory
@@ -122,7 +137,7 @@ namespace Touchstone
     /** By node of the solver: number here of owned ones, displacement, reference position,
      * displacement when the rows were made, and motion since. */
     std::vector<unsigned int>                    local;
-    std::vector<dealii::Tensor<1, dim>>          u_nodes, reference, made_at, moved;
+    std::vector<dealii::Tensor<1, dim>>          u_nodes, reference, made_at, moved, v_before;
     std::vector<dealii::SymmetricTensor<2, dim>> inverse_masses;
 
     void
@@ -132,7 +147,7 @@ namespace Touchstone
     void
     make_rows();
     void
-    import(const NodeField &u, const NodeField &v);
+    import(const NodeField &u, const NodeField &before, const NodeField &v);
     void
     set_geometry(double time, double step);
     void

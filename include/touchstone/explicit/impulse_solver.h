@@ -117,6 +117,17 @@ namespace Touchstone
     void
     sort_slots(const std::vector<std::uint64_t> &keys);
 
+    /** @brief The impulses on an owned node in the last solve(), force times time. */
+    const dealii::Tensor<1, dim> &
+    impulse(const unsigned int node) const
+    {
+      return sums[node];
+    }
+
+    /** @brief Relative velocity w of a row in any velocities by node, ghosts as well. */
+    dealii::Tensor<1, dim>
+    relative_velocity(const ImpulseRow &row, const std::vector<dealii::Tensor<1, dim>> &v) const;
+
     /** @brief The slots of a row's own nodes in the order of sort_slots(). */
     std::size_t
     slot(const ImpulseRow &row, const unsigned int i) const
@@ -142,7 +153,10 @@ namespace Touchstone
     std::vector<std::size_t>            order;
 
     dealii::Tensor<1, dim>
-    relative_velocity(const ImpulseRow &row) const;
+    relative_velocity(const ImpulseRow &row) const
+    {
+      return relative_velocity(row, velocity);
+    }
     /** Set #velocity to what these impulses lead to. */
     void
     apply(const std::vector<dealii::Tensor<1, dim>> &impulses);
