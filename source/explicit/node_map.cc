@@ -7,7 +7,7 @@
 #include <cstring>
 #include <tuple>
 
-// Local local_numbers of nodes and cells for explicit dynamics, in an order that all partitions
+// Local numbers of nodes and cells for explicit dynamics, in an order that all partitions
 // agree on (doc/explicit.md, section 2).
 namespace Touchstone
 {
