@@ -39,6 +39,13 @@ namespace Touchstone
     result.external += external.value(communicator);
     result.viscous += viscous.value(communicator);
     result.damping += damped.value(communicator);
+    if (impulses)
+      {
+        const ImpulseEnergy by_contact = impulses->energy();
+        result.contact -= by_contact.normal;
+        result.friction -= by_contact.friction;
+        result.external += by_contact.obstacles;
+      }
     result.update_largest();
     return result;
   }
@@ -60,7 +67,6 @@ namespace Touchstone
     cells.commit();
     std::fill(work.begin(), work.end(), NodalWork());
     update_results();
-    contact.update(displacement, now.time);
     contact.commit();
     return 1.;
   }

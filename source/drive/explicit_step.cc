@@ -38,11 +38,7 @@ namespace Touchstone
     , velocity(displacement)
   {
     if (!scene.pairs.empty())
-      throw InputError("Time integration",
-                       "Scheme",
-                       scene.time_integration.scheme.word(),
-                       "has no contact yet",
-                       "remove the contact pairs or take another scheme");
+      impulses = std::make_unique<ImpulseContact>(contact, scene.contact, map);
     for (NodeField *field : {&now.u,
                              &now.v,
                              &now.external,
@@ -58,6 +54,22 @@ namespace Touchstone
         damping.resize(map.n_owned());
     for (unsigned int n = 0; n < damping.size(); ++n)
       damping[n] = scene.bodies[map.body(n)].material.rayleigh_mass;
+  }
+
+
+
+  void
+  ExplicitStep::set_mobilities()
+  {
+    std::vector<SymmetricTensor<2, dim>> mobilities(map.n_owned());
+    for (unsigned int i = 0; i < map.n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const Tensor<1, dim> free = supports.free_part(i, Point<dim>::unit_vector(d));
+          for (unsigned int e = d; e < dim; ++e)
+            mobilities[i][d][e] = free[e] / cells.masses()[i];
+        }
+    impulses->set_mobility(mobilities);
   }
 
 
@@ -113,6 +125,8 @@ namespace Touchstone
           text, sizeof(text), "mass scaling adds %.4g to the mass of %.4g", added, mass);
         lines.push_back(text);
       }
+    if (impulses)
+      set_mobilities();
     const double       interval = scene.load_stepping.end_time / scene.load_stepping.steps;
     const unsigned int n        = plan_cycles(interval);
     now.length                  = interval / n;
@@ -170,7 +184,9 @@ namespace Touchstone
   ExplicitStep::solve(const double t, const NewtonParameters &, const Newton::Observer &)
   {
     TimerOutput::Scope scope(timer, "assembly");
-    counts        = CycleCounts();
+    counts = CycleCounts();
+    if (impulses)
+      impulses->begin_interval();
     double length = 0.;
     for (unsigned int left = 0, done = 0; now.time < t; ++done, --left)
       {
@@ -186,6 +202,8 @@ namespace Touchstone
           now.time = t;
       }
     boundary_conditions.all_formulas().check(solid.communicator);
+    if (impulses)
+      impulses->end_interval(now.u, t);
     return 0;
   }
 
@@ -195,8 +213,9 @@ namespace Touchstone
   ExplicitStep::cycle(const double length)
   {
     kick(length);
-    // Here contact will project the velocities.
     map.update_ghosts(now.v);
+    if (impulses)
+      press(length);
     for (unsigned int i = 0; i < map.n_local(); ++i)
       now.u[i] += length * now.v[i];
     now.time += length;
@@ -236,6 +255,24 @@ namespace Touchstone
         now.support[i] = cells.masses()[i] / between * (now.v[i] - now.support[i]);
         work[i].external += 0.5 * between * (now.support[i] * (v_before[i] + now.v[i]));
       }
+  }
+
+
+
+  void
+  ExplicitStep::press(const double length)
+  {
+    impulses->project(now.u, v_before, now.v, now.time, length);
+    // What contact exerts along supported directions the supports take.
+    const double between = 0.5 * (now.length + length);
+    impulses->for_each_impulse([&](const unsigned int i, const Tensor<1, dim> &impulse) {
+      if (!supports.supported(i))
+        return;
+      const Tensor<1, dim> taken = impulse - supports.free_part(i, impulse);
+      now.support[i] -= taken / between;
+      work[i].external -= 0.5 * (taken * (v_before[i] + now.v[i]));
+    });
+    map.update_ghosts(now.v);
   }
 
 

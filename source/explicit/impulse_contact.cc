@@ -83,12 +83,12 @@ namespace Touchstone
   ImpulseContact::begin_interval()
   {
     renew_rows = true;
-    for (RowHistory &row : history)
+    // Everything from the committed state, which is what a checkpoint has: sweeps begin from no
+    // impulses.
+    for (const ContactRow &row : contact.rows())
       {
-        const RowHistory last = row;
-        row                   = RowHistory();
-        // A checkpoint has forces and no impulses: sweeps of each interval begin from nothing.
-        row.sliding = last.sliding;
+        history[row.index]         = RowHistory();
+        history[row.index].sliding = contact.state(row).status == ContactStatus::slip;
       }
   }
 

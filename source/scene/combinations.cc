@@ -120,7 +120,7 @@ namespace Touchstone
     std::vector<Rule>
     cycle_rules(const Scene &scene)
     {
-      const TimeIntegrationParameters &time  = scene.time_integration;
+      const TimeIntegrationParameters &time = scene.time_integration;
       const std::string section = "Time integration", scheme = "'Scheme' is 'central_differences'";
       return {{time.runs_in_cycles() && scene.discretisation.degree != 1,
                "Discretisation",
@@ -240,8 +240,18 @@ namespace Touchstone
       const LinearSolverParameters   &solver      = scene.linear_solver;
       // Asked of the enforcement itself, so that one that is added later is judged by the same
       // rule.
-      const bool multipliers = contact.enforcement.make(contact)->uses_multipliers();
-      return {{scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
+      const auto enforcement = contact.enforcement.make(contact);
+      const bool multipliers = enforcement->uses_multipliers();
+      const bool in_cycles   = scene.time_integration.runs_in_cycles();
+      return {{enforcement->by_impulses() != in_cycles,
+               "Contact",
+               "Enforcement",
+               contact.enforcement.name,
+               std::string(in_cycles ? "solves systems of equations, but"
+                                     : "is for explicit dynamics, but") +
+                 " 'Time integration/Scheme' is '" + scene.time_integration.scheme.word() + "'",
+               "set it to 'automatic', which goes with all schemes"},
+              {scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
                  discretised.partitioner != Partitioner::automatic,
                "Discretisation",
                "Partitioner",

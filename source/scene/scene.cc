@@ -205,7 +205,8 @@ namespace Touchstone
     // Once here, so that everything else sees the enforcement that is used; the printed scene
     // keeps the word.
     if (contact.enforcement.name == "automatic")
-      contact.enforcement = ContactParameters::default_enforcement(/*by_impulses=*/false);
+      contact.enforcement =
+        ContactParameters::default_enforcement(time_integration.runs_in_cycles());
 
     if (output.directory.empty())
       {

@@ -5,6 +5,7 @@
 
 #include <touchstone/drive/step.h>
 #include <touchstone/explicit/explicit_cells.h>
+#include <touchstone/explicit/impulse_contact.h>
 #include <touchstone/explicit/nodal_loads.h>
 #include <touchstone/explicit/node_supports.h>
 
@@ -112,10 +113,12 @@ namespace Touchstone
     Contact                   contact;
     NodeMap                   map;
     NodeSupports              supports;
-    NodalLoads                loads;
-    ExplicitCells             cells;
-    State                     now, kept;
-    std::vector<NodalWork>    work;
+    /** Null without contact pairs. */
+    std::unique_ptr<ImpulseContact> impulses;
+    NodalLoads                      loads;
+    ExplicitCells                   cells;
+    State                           now, kept;
+    std::vector<NodalWork>          work;
     /** Velocity before a cycle, and loads and viscous forces at its beginning. */
     NodeField v_before, external_before, viscous_before;
     /** Rayleigh's mass factor by owned node, 1/time; empty if there is none. */
@@ -124,6 +127,9 @@ namespace Touchstone
     /** The committed displacement and velocity for results. */
     Vector displacement, velocity;
 
+    /** Tell contact the inverse masses without the directions of supports. */
+    void
+    set_mobilities();
     /** Set initial displacements and velocities by the formulas of the bodies. */
     void
     set_initial_values();
@@ -146,6 +152,9 @@ namespace Touchstone
     kick(double length);
     void
     add_work(double length);
+    /** Let contact change the velocities of a cycle. */
+    void
+    press(double length);
     /** @throws ExplicitFailure if a cell of this rank has failed or a velocity is not finite. */
     void
     check(const CellPlace &failed) const;
