@@ -391,7 +391,7 @@ namespace Touchstone
               continue;
             }
           if (finite)
-            H += unit_symmetric_tensor<dim>();
+            H += Tensor<2, dim>(unit_symmetric_tensor<dim>());
           const double *state = present.data() + c * n_state;
           if (!finite || determinant(H) > 0.)
             law->respond({H, state, 0.}, Demand::energy, response, end.data());
