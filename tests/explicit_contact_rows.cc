@@ -15,6 +15,9 @@ using namespace dealii;
 namespace
 {
   const std::string explicit_keys = R"(
+subsection Time integration
+  set Scheme = central_differences
+end
 subsection Contact
   set Enforcement = forward increment
 end
@@ -50,8 +53,10 @@ end
   };
 
   Outcome
-  fly(const std::string &text, const std::vector<std::string> &overrides, const MPI_Comm comm)
+  fly(const std::string &text, std::vector<std::string> overrides, const MPI_Comm comm)
   {
+    for (const std::string body : {"lower", "upper"})
+      overrides.push_back("Body " + body + "/Material/Density=1");
     const Scene         scene(text + explicit_keys, "scene.prm", overrides);
     const Forest        forest(scene.forest_input(), "", comm);
     const Solid         solid(scene.bodies, 1, forest, comm);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-// Contact in a cycle (doc/explicit.md, section 3): are the rows still those of the motion; where do
+// Contact in a cycle (doc/explicit.md, section 9): are the rows still those of the motion; where do
 // they stand; what impulses do they need; and what came of them. The geometry of a cycle is in
 // impulse_geometry.cc.
 namespace Touchstone

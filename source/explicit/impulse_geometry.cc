@@ -7,8 +7,8 @@
 #include <cmath>
 
 // Where the kept rows stand at the start of a cycle: gaps, the velocity that they leave free, what
-// drives obstacles, and the levers that keep the moment of momentum (doc/explicit.md, sections 3.1
-// and 3.5).
+// drives obstacles, and the levers that keep the moment of momentum (doc/explicit.md, sections 9.1
+// and 9.5).
 namespace Touchstone
 {
   using namespace dealii;

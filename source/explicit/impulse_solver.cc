@@ -7,7 +7,7 @@
 #include <limits>
 #include <numeric>
 
-// The sweeps over the contact rows of a cycle (doc/explicit.md, sections 3.2 and 3.3): a proximal
+// The sweeps over the contact rows of a cycle (doc/explicit.md, sections 9.2 and 9.3): a proximal
 // gradient method on the dual problem in the impulses. All rows move at once, so that no order of
 // rows and no colouring is needed and the result is the same for any partition.
 namespace Touchstone

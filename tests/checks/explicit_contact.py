@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Contact of explicit dynamics against exact answers (doc/explicit.md, section 3.7): impacts of
+"""Contact of explicit dynamics against exact answers (doc/explicit.md, section 9.7): impacts of
 bars, a rod on a wall, friction, a cradle, the patch test, and scenes of implicit dynamics with
 another scheme."""
 

@@ -30,7 +30,7 @@ namespace Touchstone
 
   /**
    * @brief The contact of explicit dynamics: each cycle changes the free velocities to those that
-   * contact allows (doc/explicit.md, section 3).
+   * contact allows (doc/explicit.md, section 9).
    *
    * The rows come from Contact, that is from the same pairings as in implicit runs, and are kept
    * until motion demands others (RowMotion); in between their gaps follow the nodes. What the

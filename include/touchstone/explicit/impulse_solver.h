@@ -16,7 +16,7 @@ namespace Touchstone
   /**
    * @brief A contact row in one cycle: the relative velocity w = sum A_a v_a - drive, and the
    * impulse p on its slave side, which changes the velocities by W A^T p (doc/explicit.md, section
-   * 3.1).
+   * 9.1).
    */
   struct ImpulseRow
   {
@@ -84,7 +84,7 @@ namespace Touchstone
 
   /**
    * @brief The impulses of a cycle: minimise 1/2 |v - v*|_M^2 subject to n . w + allowed >= 0 in
-   * each row, with friction (doc/explicit.md, sections 3.1 to 3.3).
+   * each row, with friction (doc/explicit.md, sections 9.1 to 9.3).
    *
    * Each sweep moves all rows at once, by the steepest bound of the mass that they share,
    * accelerated by Nesterov's method with restarts. Impulses act with the stencils that measure

@@ -15,7 +15,7 @@ namespace Touchstone
   /**
    * @brief Tells when the rows that explicit dynamics keeps are to be made anew: before anything
    * has moved so far, relative to what it faces and to the size of the faces, that its partner,
-   * weights or normal would be others (doc/explicit.md, section 3.5).
+   * weights or normal would be others (doc/explicit.md, section 9.5).
    */
   class RowMotion
   {

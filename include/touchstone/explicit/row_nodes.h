@@ -32,7 +32,7 @@ namespace Touchstone
   /**
    * @brief The nodes that the contact rows of this rank refer to, wherever they live, and the
    * nodes of this rank that rows of any rank refer to; with the messages between both
-   * (doc/explicit.md, section 3.4).
+   * (doc/explicit.md, section 9.4).
    *
    * A slot is one mention of a node by a row. Owners send values of nodes to the rows
    * (forward()), rows send a vector for each slot to the owners, which sum them in the order of

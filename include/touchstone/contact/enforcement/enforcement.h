@@ -96,7 +96,7 @@ namespace Touchstone
     }
 
     /** @brief Whether it belongs to explicit dynamics, where contact is an impulse in each cycle and
-     * no linear system is solved: it then is an ImpulseEnforcement (doc/explicit.md, section 3). */
+     * no linear system is solved: it then is an ImpulseEnforcement (doc/explicit.md, section 9). */
     virtual bool
     by_impulses() const
     {

@@ -9,7 +9,7 @@ namespace Touchstone
 {
   /**
    * @brief Contact of explicit dynamics: each cycle takes from the velocities what would let bodies
-   * penetrate at its end, by impulses in the rows (doc/explicit.md, section 3).
+   * penetrate at its end, by impulses in the rows (doc/explicit.md, section 9).
    *
    * It holds what the impulses made of the rows; they are found by ImpulseContact, which asks
    * this object how. No linear system is solved: the functions of Newton's method are not to
