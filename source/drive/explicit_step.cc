@@ -59,15 +59,19 @@ namespace Touchstone
 
 
   void
-  ExplicitStep::set_mobilities()
+  ExplicitStep::set_mobilities(const double between)
   {
+    // An impulse acts during the cycle, together with the damping of the velocity that it leads to.
+    mobile_for = between;
     std::vector<SymmetricTensor<2, dim>> mobilities(map.n_owned());
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         {
           const Tensor<1, dim> free = supports.free_part(i, Point<dim>::unit_vector(d));
+          const double         mass =
+            cells.masses()[i] * (damping.empty() ? 1. : 1. + 0.5 * damping[i] * between);
           for (unsigned int e = d; e < dim; ++e)
-            mobilities[i][d][e] = free[e] / cells.masses()[i];
+            mobilities[i][d][e] = free[e] / mass;
         }
     impulses->set_mobility(mobilities);
   }
@@ -126,7 +130,7 @@ namespace Touchstone
         lines.push_back(text);
       }
     if (impulses)
-      set_mobilities();
+      set_mobilities(0.);
     const double       interval = scene.load_stepping.end_time / scene.load_stepping.steps;
     const unsigned int n        = plan_cycles(interval);
     now.length                  = interval / n;
@@ -262,9 +266,11 @@ namespace Touchstone
   void
   ExplicitStep::press(const double length)
   {
+    const double between = 0.5 * (now.length + length);
+    if (!damping.empty() && between != mobile_for)
+      set_mobilities(between);
     impulses->project(now.u, v_before, now.v, now.time, length);
     // What contact exerts along supported directions the supports take.
-    const double between = 0.5 * (now.length + length);
     impulses->for_each_impulse([&](const unsigned int i, const Tensor<1, dim> &impulse) {
       if (!supports.supported(i))
         return;

@@ -127,9 +127,11 @@ namespace Touchstone
     /** The committed displacement and velocity for results. */
     Vector displacement, velocity;
 
-    /** Tell contact the inverse masses without the directions of supports. */
+    /** Tell contact the inverse masses without the directions of supports, for a cycle whose forces
+     * act for the time @p between. */
     void
-    set_mobilities();
+           set_mobilities(double between);
+    double mobile_for = 0.;
     /** Set initial displacements and velocities by the formulas of the bodies. */
     void
     set_initial_values();
