@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/explicit/one_point_cells.h>
+#include <touchstone/explicit/one_point_kernels.h>
 #include <touchstone/explicit/stable_step.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -26,13 +26,6 @@ namespace Touchstone
       for (unsigned int a = 0; a < 8; ++a)
         sum += v[a] * w[a] / masses[a];
       return sum;
-    }
-
-    constexpr int
-    hourglass_sign(const unsigned int m, const unsigned int a)
-    {
-      const int x = a & 1 ? 1 : -1, y = a & 2 ? 1 : -1, z = a & 4 ? 1 : -1;
-      return m == 0 ? x * y : m == 1 ? y * z : m == 2 ? z * x : x * y * z;
     }
 
     /** Upper bound of the largest eigenvalue of a symmetric, positive semidefinite matrix, see
@@ -78,11 +71,17 @@ namespace Touchstone
           }
       }
     constexpr unsigned int n = OnePointBlock::n_modes;
-    FullMatrix<double>     A(n, n);
-    for (unsigned int m = 0; m < n; ++m)
-      for (unsigned int k = 0; k < n; ++k)
-        A(m, k) = std::sqrt(block.stiffness[m][lane] * block.stiffness[k][lane]) *
-                  product(modes[m], modes[k], masses);
+    FullMatrix<double>     A(dim * n, dim * n);
+    for (unsigned int r = 0; r < dim * n; ++r)
+      for (unsigned int s = 0; s < dim * n; ++s)
+        {
+          double edges = 0.;
+          for (unsigned int j = 0; j < dim; ++j)
+            edges +=
+              block.edges[dim * (r % dim) + j][lane] * block.edges[dim * (s % dim) + j][lane];
+          A(r, s) = std::sqrt(block.stiffness[r][lane] * block.stiffness[s][lane]) * edges *
+                    product(modes[r / dim], modes[s / dim], masses);
+        }
     // Where the two kinds of motion are not orthogonal, as in distorted cells, the bound of the
     // cosine is the norm of C = G^{-1/2} (b, gamma) Gamma^{-1/2}, whose square is a trace.
     FullMatrix<double> G(dim, dim), Gamma(n, n), mixed(dim, n), left(dim, n), right(dim, n);

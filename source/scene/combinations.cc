@@ -120,7 +120,7 @@ namespace Touchstone
     std::vector<Rule>
     cycle_rules(const Scene &scene)
     {
-      const TimeIntegrationParameters &time  = scene.time_integration;
+      const TimeIntegrationParameters &time = scene.time_integration;
       const std::string section = "Time integration", scheme = "'Scheme' is 'central_differences'";
       return {{time.runs_in_cycles() && scene.discretisation.degree != 1,
                "Discretisation",
