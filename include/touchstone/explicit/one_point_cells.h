@@ -130,8 +130,9 @@ namespace Touchstone
     hourglass_frequency(unsigned int c, const NodalMasses &masses) const;
     double
     hourglass_energy(unsigned int c, const NodeField &u, const dealii::Tensor<2, dim> &H) const;
+    /** An upper bound of the largest squared frequency of all that a cell resists. */
     double
-    strain_frequency(unsigned int c, const NodeField &u, const NodalMasses &masses) const;
+    coupled_frequency(unsigned int c, const NodeField &u, const NodalMasses &masses) const;
   };
 } // namespace Touchstone
 
