@@ -6,6 +6,7 @@
 #include <touchstone/drive/explicit_step.h>
 
 #include <algorithm>
+#include <cmath>
 
 // History of explicit dynamics: energies and momenta at the end of an output interval, what is kept
 // of it and written to checkpoints (doc/explicit.md, sections 6 and 7).
@@ -62,6 +63,14 @@ namespace Touchstone
                             " times the largest so far came from nowhere ('Time "
                             "integration/Gain tolerance'): the motion is not stable, take a "
                             "smaller 'Courant factor' or 'Step check interval'");
+    // A motion of linear bodies that is not stable keeps the energy of the ledger: its kinetic part
+    // becomes as negative as the strain energy grows. Just below the bound of the step that ratio
+    // can be large, but not as large as this.
+    constexpr double beyond = 1e9;
+    if (smallest_part <= 1. &&
+        -end.kinetic > beyond * (std::abs(end.initial) + std::abs(end.external) + end.contact))
+      throw ExplicitFailure("the motion grows without bound, as cycles are longer than is stable: "
+                            "take a smaller 'Courant factor'");
     committed = end;
     kept      = now;
     cells.commit();

@@ -175,10 +175,16 @@ namespace Touchstone
     // Far beyond what can be run: the step has collapsed.
     constexpr double most = 1e9;
     if (!(n < most))
-      throw ExplicitFailure("the stable step has collapsed to " + std::to_string(stable.length) +
-                            " at " + counts.cell +
-                            ": a cell has become very small; take a coarser mesh or a harder "
-                            "material there, or 'Mass scaling step'");
+      {
+        char text[80];
+        std::snprintf(text,
+                      sizeof(text),
+                      "the stable step has collapsed to %.3g at ",
+                      stable.length);
+        throw ExplicitFailure(text + counts.cell +
+                              ": a cell has become very small; take a coarser mesh or a harder "
+                              "material there, or 'Mass scaling step'");
+      }
     return std::max(1., n);
   }
 

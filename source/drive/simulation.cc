@@ -607,7 +607,7 @@ namespace Touchstone
 
 
 
-  void
+  std::vector<std::string>
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
@@ -616,8 +616,9 @@ namespace Touchstone
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial
     // gaps and formulas, and finds bodies that nothing holds.
-    const std::unique_ptr<Step> problem = Step::make(scene, forest, solid, timer);
-    problem->start();
+    const std::unique_ptr<Step>    problem = Step::make(scene, forest, solid, timer);
+    const std::vector<std::string> lines   = problem->start();
     problem->prepare(scene.load_stepping.end_time / scene.load_stepping.steps);
+    return problem->cycle_counts() != nullptr ? lines : std::vector<std::string>();
   }
 } // namespace Touchstone

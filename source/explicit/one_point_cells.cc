@@ -2,8 +2,11 @@
 
 #include <touchstone/explicit/cell_stiffness.h>
 #include <touchstone/explicit/one_point_cells.h>
+#include <touchstone/explicit/one_point_kernels.h>
+#include <touchstone/explicit/one_point_plasticity.h>
 #include <touchstone/explicit/stable_step.h>
 #include <touchstone/solid/finite_strain_kernel.h>
+#include <touchstone/solid/hardening_law.h>
 #include <touchstone/solid/small_strain_kernel.h>
 
 #include <algorithm>
@@ -18,171 +21,7 @@ namespace Touchstone
   {
     constexpr unsigned int n_cells = OnePointBlock::n_cells, n_nodes = OnePointBlock::n_nodes,
                            n_modes = OnePointBlock::n_modes;
-    using Lanes                    = OnePointBlock::Lanes;
-
-    /** Sign of hourglass mode @p m, xi eta, eta zeta, zeta xi, xi eta zeta, at node @p a. */
-    constexpr int
-    sign(const unsigned int m, const unsigned int a)
-    {
-      const int x = a & 1 ? 1 : -1, y = a & 2 ? 1 : -1, z = a & 4 ? 1 : -1;
-      return m == 0 ? x * y : m == 1 ? y * z : m == 2 ? z * x : x * y * z;
-    }
-
-    __attribute__((always_inline)) inline Lanes
-    load(const double *values)
-    {
-      return *reinterpret_cast<const Lanes *>(values);
-    }
-
-    __attribute__((always_inline)) inline void
-    store(const Lanes &lanes, double *values)
-    {
-      *reinterpret_cast<Lanes *>(values) = lanes;
-    }
-
-    /** Component @p i of the nodes of all cells. */
-    __attribute__((always_inline)) inline void
-    gather(const OnePointBlock &block,
-           const double        *field,
-           const unsigned int   i,
-           Lanes (&x)[n_nodes])
-    {
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        {
-          double values[n_cells];
-          for (unsigned int c = 0; c < n_cells; ++c)
-            values[c] = field[dim * block.nodes[c][a] + i];
-          x[a] = load(values);
-        }
-    }
-
-    /** The sums of the hourglass modes over the nodes. */
-    __attribute__((always_inline)) inline void
-    hourglass_sums(const Lanes (&x)[n_nodes], Lanes (&q)[n_modes])
-    {
-      // Sums and differences along xi, then of those along eta and zeta.
-      const Lanes d0 = x[1] - x[0], d1 = x[3] - x[2], d2 = x[5] - x[4], d3 = x[7] - x[6],
-                  s0 = x[1] + x[0], s1 = x[3] + x[2], s2 = x[5] + x[4], s3 = x[7] + x[6];
-      q[0] = (d1 - d0) + (d3 - d2);
-      q[1] = (s3 - s2) - (s1 - s0);
-      q[2] = (d2 + d3) - (d0 + d1);
-      q[3] = (d3 - d2) - (d1 - d0);
-    }
-
-    /** Displacement gradients, [3i+j], of eight cells. */
-    TOUCHSTONE_VECTORISED
-    void
-    set_gradients(const OnePointBlock &block, const double *u, double (*gradient)[n_cells])
-    {
-      for (unsigned int i = 0; i < dim; ++i)
-        {
-          Lanes x[n_nodes];
-          gather(block, u, i, x);
-          for (unsigned int j = 0; j < dim; ++j)
-            {
-              Lanes sum = x[0] * load(block.gradients[j]);
-              for (unsigned int a = 1; a < n_nodes; ++a)
-                sum += x[a] * load(block.gradients[dim * a + j]);
-              store(sum, gradient[dim * i + j]);
-            }
-        }
-    }
-
-    /** Forces of stress and hourglass control on the nodes, [3a+i], of eight cells, and those of
-     * viscous control. */
-    TOUCHSTONE_VECTORISED
-    void
-    set_forces(const OnePointBlock &block,
-               const double        *u,
-               const double (*gradient)[n_cells],
-               const double (*stress)[n_cells],
-               const double (*coefficient)[n_cells],
-               double (*force)[n_cells])
-    {
-      const Lanes volume = load(block.volume);
-      for (unsigned int i = 0; i < dim; ++i)
-        {
-          Lanes x[n_nodes], q[n_modes], P[dim];
-          gather(block, u, i, x);
-          hourglass_sums(x, q);
-          for (unsigned int j = 0; j < dim; ++j)
-            P[j] = volume * load(stress[dim * i + j]);
-          for (unsigned int m = 0; m < n_modes; ++m)
-            {
-              // What constant strain and rotation contribute is taken out.
-              for (unsigned int j = 0; j < dim; ++j)
-                q[m] -= load(block.warp[dim * m + j]) * load(gradient[dim * i + j]);
-              q[m] *= load(coefficient[m]);
-              for (unsigned int j = 0; j < dim; ++j)
-                P[j] -= load(block.warp[dim * m + j]) * q[m];
-            }
-          for (unsigned int a = 0; a < n_nodes; ++a)
-            {
-              Lanes f = P[0] * load(block.gradients[dim * a]) +
-                        P[1] * load(block.gradients[dim * a + 1]) +
-                        P[2] * load(block.gradients[dim * a + 2]);
-              for (unsigned int m = 0; m < n_modes; ++m)
-                f = sign(m, a) > 0 ? f + q[m] : f - q[m];
-              store(f, force[dim * a + i]);
-            }
-        }
-    }
-
-    TOUCHSTONE_VECTORISED
-    void
-    linear_elastic(const double lambda,
-                   const double mu,
-                   const double (*gradient)[n_cells],
-                   double (*stress)[n_cells])
-    {
-      const Lanes volumetric = lambda * (load(gradient[0]) + load(gradient[4]) + load(gradient[8]));
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          {
-            Lanes s = mu * (load(gradient[dim * i + j]) + load(gradient[dim * j + i]));
-            if (i == j)
-              s += volumetric;
-            store(s, stress[dim * i + j]);
-          }
-    }
-
-    /** First Piola-Kirchhoff stress, see neo_hookean.cc; @p J gets the determinants. */
-    TOUCHSTONE_VECTORISED
-    void
-    neo_hookean(const double kappa,
-                const double mu,
-                const double (*gradient)[n_cells],
-                double (*stress)[n_cells],
-                double *J)
-    {
-      Lanes F[dim * dim], norm = {};
-      for (unsigned int k = 0; k < dim * dim; ++k)
-        {
-          F[k] = load(gradient[k]);
-          if (k % (dim + 1) == 0)
-            F[k] += 1.;
-          norm += F[k] * F[k];
-        }
-      // Cofactors: J F^{-T}.
-      Lanes H[dim * dim];
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          {
-            const unsigned int p = (i + 1) % dim, q = (i + 2) % dim, r = (j + 1) % dim,
-                               s = (j + 2) % dim;
-            H[dim * i + j] = F[dim * p + r] * F[dim * q + s] - F[dim * p + s] * F[dim * q + r];
-          }
-      const Lanes det = F[0] * H[0] + F[1] * H[1] + F[2] * H[2];
-      store(det, J);
-      double root[n_cells];
-      for (unsigned int c = 0; c < n_cells; ++c)
-        root[c] = std::cbrt(J[c]);
-      const Lanes power = load(root), m = mu / (power * power),
-                  p = (0.5 * kappa * (det * det - 1.) - m * (1. / 3.) * norm) / det;
-      for (unsigned int k = 0; k < dim * dim; ++k)
-        store(m * F[k] + p * H[k], stress[k]);
-    }
-  } // namespace
+  }
 
 
 
@@ -202,11 +41,20 @@ namespace Touchstone
     else if (!body.material.linear())
       law = SmallStrainKernel(1, ElementType::full, body.material).material();
     n_state = law ? law->n_state() : 0;
-    present.resize(cells.size() * n_state);
-    for (unsigned int c = 0; c < cells.size() && n_state > 0; ++c)
-      law->start(&present[c * n_state]);
-    kept = present;
     blocks.resize((cells.size() + n_cells - 1) / n_cells);
+    // The formulas for eight cells are those of constant and of linear isotropic hardening.
+    const std::string &hardening = body.material.hardening_type.name;
+    if (finite && n_state > 0 && law->plastic() && body.material.kinematic_modulus == 0. &&
+        (hardening == "none" || hardening == "linear"))
+      formulas = Formulas::von_mises;
+    present.resize(blocks.size() * n_cells * n_state);
+    std::vector<double> virgin(n_state);
+    if (n_state > 0)
+      law->start(virgin.data());
+    for (unsigned int c = 0; c < blocks.size() * n_cells; ++c)
+      for (unsigned int k = 0; k < n_state; ++k)
+        variable(c, k) = virgin[k];
+    kept = present;
     for (unsigned int b = 0; b < blocks.size(); ++b)
       set_block(blocks[b], b * n_cells);
   }
@@ -247,43 +95,63 @@ namespace Touchstone
               {
                 block.warp[dim * m + i][lane] = 0.;
                 for (unsigned int a = 0; a < n_nodes; ++a)
-                  block.warp[dim * m + i][lane] += sign(m, a) * x[a][i];
+                  block.warp[dim * m + i][lane] += hourglass_sign(m, a) * x[a][i];
               }
-            // Exact for bending of a box along the longer of the mode's two directions.
-            const double longest     = m < dim ? std::max(square[m], square[(m + 1) % dim])
-                                               : 3. * std::max({square[0], square[1], square[2]});
-            const double k           = young * V / (48. * longest);
-            const bool   viscous     = body.hourglass == BodyParameters::Hourglass::viscous;
-            const bool   stiff       = body.hourglass == BodyParameters::Hourglass::stiffness;
-            block.stiffness[m][lane] = stiff ? factor * k : 0.;
-            // The part of critical damping of that stiffness, 8 c / mass = 2 xi omega.
-            block.viscosity[m][lane] =
-              viscous ? factor * 0.25 * mass * std::sqrt(n_nodes * k / mass) : 0.;
           }
+        const bool viscous = body.hourglass == BodyParameters::Hourglass::viscous;
+        const bool stiff   = body.hourglass == BodyParameters::Hourglass::stiffness;
+        // Exact for bending of a box: the normal strains of the modes with the modulus of bars.
+        // What is left, warping, has the stiffness of the twist of a plate.
+        const double shear    = body.material.shear_modulus();
+        const double shortest = std::min({square[0], square[1], square[2]}),
+                     longest  = std::max({square[0], square[1], square[2]});
+        const double warping  = shear * V * shortest / (12. * longest * longest);
+        for (unsigned int m = 0; m < n_modes; ++m)
+          {
+            double softest = std::numeric_limits<double>::max();
+            for (unsigned int i = 0; i < dim; ++i)
+              {
+                const bool   across = m < dim && i == (m + 2) % dim;
+                const double k =
+                  across ? warping : young * V / ((m < dim ? 48. : 144.) * square[i]);
+                softest                            = std::min(softest, k);
+                block.stiffness[dim * m + i][lane] = stiff ? factor * k : 0.;
+              }
+            // The part of critical damping of the softest direction, 8 c / mass = 2 xi omega.
+            block.viscosity[m][lane] =
+              viscous ? factor * 0.25 * mass * std::sqrt(n_nodes * softest / mass) : 0.;
+          }
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            block.edges[dim * i + j][lane] = edges[i][j] / std::sqrt(square[i]);
       }
   }
 
 
 
   unsigned int
-  OnePointCells::respond(const unsigned int first, const double step)
+  OnePointCells::respond(const unsigned int b, const double step, const double *marked)
   {
-    unsigned int     failed = numbers::invalid_unsigned_int;
-    MaterialResponse response;
-    double           end[64];
+    unsigned int       failed = numbers::invalid_unsigned_int;
+    const unsigned int first  = b * n_cells;
+    MaterialResponse   response;
+    double             begin[64], end[64];
     AssertThrow(n_state <= 64, ExcNotImplemented());
     for (unsigned int lane = 0; lane < n_cells && first + lane < cells.size(); ++lane)
       {
+        if (marked != nullptr && marked[lane] == 0.)
+          continue;
         Tensor<2, dim> F;
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
             F[i][j] = gradient[dim * i + j][lane] + (finite && i == j ? 1. : 0.);
-        double *const state = present.data() + (first + lane) * n_state;
-        response.solved     = !finite || determinant(F) > 0.;
+        get_state(first + lane, begin);
+        response.solved = !finite || determinant(F) > 0.;
         if (response.solved)
-          law->respond({F, state, step}, Demand::stress, response, end);
+          law->respond({F, begin, step}, Demand::stress, response, end);
         if (response.solved)
-          std::copy(end, end + n_state, state);
+          for (unsigned int k = 0; k < n_state; ++k)
+            variable(first + lane, k) = end[k];
         else
           failed = std::min(failed, first + lane);
         for (unsigned int k = 0; k < dim * dim; ++k)
@@ -301,10 +169,17 @@ namespace Touchstone
                                  NodeField       &force,
                                  NodeField       &viscous)
   {
-    unsigned int failed = numbers::invalid_unsigned_int;
-    const double mu = body.material.shear_modulus(), kappa = body.material.bulk_modulus();
-    const bool   damped = body.hourglass == BodyParameters::Hourglass::viscous;
-    double       forces[dim * n_nodes][n_cells], J[n_cells];
+    unsigned int      failed = numbers::invalid_unsigned_int;
+    const double      mu = body.material.shear_modulus(), kappa = body.material.bulk_modulus();
+    const bool        damped = body.hourglass == BodyParameters::Hourglass::viscous;
+    double            forces[dim * n_nodes][n_cells], J[n_cells];
+    VonMisesConstants constants{mu, kappa, 0., 0.};
+    if (formulas == Formulas::von_mises)
+      {
+        const YieldStress yield = body.material.hardening->at(0.);
+        constants.yield_stress  = yield.value;
+        constants.hardening     = yield.slope;
+      }
     // Tensors of a field stand one after the other.
     const double *const displacement = &u[0][0], *const velocity = &v[0][0];
     const auto scatter = [&](const OnePointBlock &block, const unsigned int first, NodeField &sum) {
@@ -317,25 +192,43 @@ namespace Touchstone
       {
         const OnePointBlock &block = blocks[b];
         const unsigned int   first = b * n_cells;
-        set_gradients(block, displacement, gradient);
+        OnePointKernels::set_gradients(block, displacement, gradient);
         if (formulas == Formulas::linear_elastic)
-          linear_elastic(kappa - 2. / 3. * mu, mu, gradient, stress);
+          OnePointKernels::linear_elastic(kappa - 2. / 3. * mu, mu, gradient, stress);
         else if (formulas == Formulas::neo_hookean)
           {
-            neo_hookean(kappa, mu, gradient, stress, J);
+            OnePointKernels::neo_hookean(kappa, mu, gradient, stress, J);
             for (unsigned int lane = 0; lane < n_cells && first + lane < cells.size(); ++lane)
               if (!(J[lane] > 0.))
                 failed = std::min(failed, first + lane);
           }
+        else if (formulas == Formulas::von_mises)
+          {
+            // Cells beyond the series of the formulas are few; failures show there.
+            von_mises_cycle(constants,
+                            gradient,
+                            reinterpret_cast<double(*)[n_cells]>(&present[b * n_state * n_cells]),
+                            stress,
+                            J);
+            if (std::any_of(J, J + n_cells, [](const double beyond) { return beyond != 0.; }))
+              failed = std::min(failed, respond(b, step, J));
+          }
         else
-          failed = std::min(failed, respond(first, step));
-        set_forces(block, displacement, gradient, stress, block.stiffness, forces);
+          failed = std::min(failed, respond(b, step));
+        OnePointKernels::set_forces(block,
+                                    displacement,
+                                    gradient,
+                                    stress,
+                                    finite ? OnePointKernels::Hourglass::convected
+                                           : OnePointKernels::Hourglass::fixed,
+                                    forces);
         scatter(block, first, force);
         if (damped)
           {
             const double none[dim * dim][n_cells] = {};
-            set_gradients(block, velocity, gradient);
-            set_forces(block, velocity, gradient, none, block.viscosity, forces);
+            OnePointKernels::set_gradients(block, velocity, gradient);
+            OnePointKernels::set_forces(
+              block, velocity, gradient, none, OnePointKernels::Hourglass::damped, forces);
             scatter(block, first, viscous);
           }
       }
@@ -359,29 +252,51 @@ namespace Touchstone
 
 
 
+  double
+  OnePointCells::hourglass_energy(const unsigned int    c,
+                                  const NodeField      &u,
+                                  const Tensor<2, dim> &H) const
+  {
+    const OnePointBlock &block = blocks[c / n_cells];
+    const unsigned int   lane  = c % n_cells;
+    double               sum   = 0.;
+    for (unsigned int m = 0; m < n_modes; ++m)
+      {
+        Tensor<1, dim> q, warp;
+        for (unsigned int a = 0; a < n_nodes; ++a)
+          q += hourglass_sign(m, a) * u[block.nodes[lane][a]];
+        for (unsigned int j = 0; j < dim; ++j)
+          warp[j] = block.warp[dim * m + j][lane];
+        q -= H * warp;
+        if (finite)
+          q += transpose(H) * q;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            Tensor<1, dim> edge;
+            for (unsigned int j = 0; j < dim; ++j)
+              edge[j] = block.edges[dim * i + j][lane];
+            sum += 0.5 * block.stiffness[dim * m + i][lane] * (edge * q) * (edge * q);
+          }
+      }
+    return sum;
+  }
+
+
+
   void
   OnePointCells::add_energies(const NodeField &u, CellEnergies &energies)
   {
     const double mu     = body.material.shear_modulus(),
                  lambda = body.material.bulk_modulus() - 2. / 3. * mu;
     MaterialResponse    response;
-    std::vector<double> end(n_state);
+    std::vector<double> begin(n_state), end(n_state);
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (cell(c).owned)
         {
           const OnePointBlock &block = blocks[c / n_cells];
           const unsigned int   lane  = c % n_cells;
           Tensor<2, dim>       H     = displacement_gradient(c, u);
-          for (unsigned int m = 0; m < n_modes; ++m)
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                double q = 0.;
-                for (unsigned int a = 0; a < n_nodes; ++a)
-                  q += sign(m, a) * u[block.nodes[lane][a]][i];
-                for (unsigned int j = 0; j < dim; ++j)
-                  q -= block.warp[dim * m + j][lane] * H[i][j];
-                energies.hourglass.add(0.5 * block.stiffness[m][lane] * q * q);
-              }
+          energies.hourglass.add(hourglass_energy(c, u, H));
           if (!law)
             {
               const SymmetricTensor<2, dim> strain = symmetrize(H);
@@ -392,12 +307,12 @@ namespace Touchstone
             }
           if (finite)
             H += Tensor<2, dim>(unit_symmetric_tensor<dim>());
-          const double *state = present.data() + c * n_state;
+          get_state(c, begin.data());
           if (!finite || determinant(H) > 0.)
-            law->respond({H, state, 0.}, Demand::energy, response, end.data());
+            law->respond({H, begin.data(), 0.}, Demand::energy, response, end.data());
           energies.strain.add(block.volume[lane] * response.elastic_energy);
           if (n_state > 0)
-            energies.plastic.add(block.volume[lane] * law->dissipation(state));
+            energies.plastic.add(block.volume[lane] * law->dissipation(begin.data()));
         }
   }
 
@@ -407,12 +322,19 @@ namespace Touchstone
   OnePointCells::state(const unsigned int c) const
   {
     // The bodies have the history of eight points, which are all alike here.
-    std::vector<double> result;
+    std::vector<double> result(n_nodes * n_state);
     for (unsigned int q = 0; q < n_nodes; ++q)
-      result.insert(result.end(),
-                    present.begin() + c * n_state,
-                    present.begin() + (c + 1) * n_state);
+      get_state(c, result.data() + q * n_state);
     return result;
+  }
+
+
+
+  void
+  OnePointCells::get_state(const unsigned int c, double *values) const
+  {
+    for (unsigned int k = 0; k < n_state; ++k)
+      values[k] = present[(c / n_cells * n_state + k) * n_cells + c % n_cells];
   }
 
 
@@ -422,7 +344,10 @@ namespace Touchstone
   {
     AssertThrow(values.size() == n_nodes * n_state,
                 ExcDimensionMismatch(values.size(), n_nodes * n_state));
-    std::copy(values.begin(), values.begin() + n_state, present.begin() + c * n_state);
-    std::copy(values.begin(), values.begin() + n_state, kept.begin() + c * n_state);
+    // The rest of the last block repeats the last cell.
+    const unsigned int end = c + 1 == cells.size() ? blocks.size() * n_cells : c + 1;
+    for (unsigned int other = c; other < end; ++other)
+      for (unsigned int k = 0; k < n_state; ++k)
+        kept[&variable(other, k) - present.data()] = variable(other, k) = values[k];
   }
 } // namespace Touchstone

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/explicit/one_point_cells.h>
+#include <touchstone/explicit/one_point_kernels.h>
 #include <touchstone/explicit/stable_step.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -26,13 +26,6 @@ namespace Touchstone
       for (unsigned int a = 0; a < 8; ++a)
         sum += v[a] * w[a] / masses[a];
       return sum;
-    }
-
-    constexpr int
-    hourglass_sign(const unsigned int m, const unsigned int a)
-    {
-      const int x = a & 1 ? 1 : -1, y = a & 2 ? 1 : -1, z = a & 4 ? 1 : -1;
-      return m == 0 ? x * y : m == 1 ? y * z : m == 2 ? z * x : x * y * z;
     }
 
     /** Upper bound of the largest eigenvalue of a symmetric, positive semidefinite matrix, see
@@ -78,11 +71,17 @@ namespace Touchstone
           }
       }
     constexpr unsigned int n = OnePointBlock::n_modes;
-    FullMatrix<double>     A(n, n);
-    for (unsigned int m = 0; m < n; ++m)
-      for (unsigned int k = 0; k < n; ++k)
-        A(m, k) = std::sqrt(block.stiffness[m][lane] * block.stiffness[k][lane]) *
-                  product(modes[m], modes[k], masses);
+    FullMatrix<double>     A(dim * n, dim * n);
+    for (unsigned int r = 0; r < dim * n; ++r)
+      for (unsigned int s = 0; s < dim * n; ++s)
+        {
+          double edges = 0.;
+          for (unsigned int j = 0; j < dim; ++j)
+            edges +=
+              block.edges[dim * (r % dim) + j][lane] * block.edges[dim * (s % dim) + j][lane];
+          A(r, s) = std::sqrt(block.stiffness[r][lane] * block.stiffness[s][lane]) * edges *
+                    product(modes[r / dim], modes[s / dim], masses);
+        }
     // Where the two kinds of motion are not orthogonal, as in distorted cells, the bound of the
     // cosine is the norm of C = G^{-1/2} (b, gamma) Gamma^{-1/2}, whose square is a trace.
     FullMatrix<double> G(dim, dim), Gamma(n, n), mixed(dim, n), left(dim, n), right(dim, n);
@@ -110,44 +109,79 @@ namespace Touchstone
 
 
   double
-  OnePointCells::strain_frequency(const unsigned int c,
-                                  const NodeField   &u,
-                                  const NodalMasses &masses) const
+  OnePointCells::coupled_frequency(const unsigned int c,
+                                   const NodeField   &u,
+                                   const NodalMasses &masses) const
   {
-    // With A = dP/dF of a law without history the stiffness is V sum_a,b b_a A b_b; its largest
-    // eigenvalue is that of V G A in the space of displacement gradients, made symmetric by the
-    // root of G.
-    const OnePointBlock    &block = blocks[c / OnePointBlock::n_cells];
-    const unsigned int      lane  = c % OnePointBlock::n_cells;
-    SymmetricTensor<2, dim> G;
-    for (unsigned int a = 0; a < 8; ++a)
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = i; j < dim; ++j)
-          G[i][j] +=
-            block.gradients[dim * a + i][lane] * block.gradients[dim * a + j][lane] / masses[a];
-    Tensor<2, dim> root;
-    for (const auto &[value, vector] : eigenvectors(G))
-      root += std::sqrt(std::max(0., value)) * outer_product(vector, vector);
-    const Tensor<2, dim> F = displacement_gradient(c, u) + unit_symmetric_tensor<dim>();
+    // The stiffness is C^T L C with the displacement gradients and the hourglass amplitudes C and
+    // with L, the tangent of the law times the volume and the stiffness of the modes. Its nonzero
+    // eigenvalues against the masses are those of L G, G = C M^{-1} C^T, of 9 + 12 rows. Laws
+    // without history have a tangent on the undeformed cell; others are taken for elastic on the
+    // present one.
+    const OnePointBlock &block = blocks[c / OnePointBlock::n_cells];
+    const unsigned int   lane  = c % OnePointBlock::n_cells;
+    const Tensor<2, dim> unit(unit_symmetric_tensor<dim>());
+    const Tensor<2, dim> F = finite ? displacement_gradient(c, u) + unit : unit;
     if (!(determinant(F) > 0.))
       return std::numeric_limits<double>::infinity();
     MaterialResponse response;
-    law->respond({F, nullptr, 0.}, Demand::tangent, response, nullptr);
-    // Root of G on the second index of both gradients.
-    FullMatrix<double> A(dim * dim, dim * dim);
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int k = 0; k < dim; ++k)
+    Tensor<2, dim>   push    = unit;
+    double           volume  = block.volume[lane];
+    const double     stretch = eigenvalues(symmetrize(transpose(F) * F))[0];
+    if (finite && n_state == 0)
+      law->respond({F, nullptr, 0.}, Demand::tangent, response, nullptr);
+    else
+      {
+        const double mu     = body.material.shear_modulus(),
+                     lambda = body.material.bulk_modulus() - 2. / 3. * mu;
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              response.tangent[i][i][j][j] += lambda;
+              response.tangent[i][j][i][j] += mu;
+              response.tangent[i][j][j][i] += mu;
+            }
+        push = invert(F);
+        volume *= determinant(F);
+      }
+    constexpr unsigned int n_strains = dim * dim, n_all = n_strains + dim * OnePointBlock::n_modes;
+    // Of each row of C the nodal values and the direction.
+    std::array<double, 8> values[n_all];
+    Tensor<1, dim>        directions[n_all];
+    for (unsigned int a = 0; a < 8; ++a)
+      {
+        Tensor<1, dim> gradient;
+        for (unsigned int j = 0; j < dim; ++j)
+          gradient[j] = block.gradients[dim * a + j][lane];
+        const Tensor<1, dim> moved = gradient * push;
+        for (unsigned int r = 0; r < n_strains; ++r)
+          values[r][a] = moved[r % dim];
+        for (unsigned int m = 0; m < OnePointBlock::n_modes; ++m)
+          {
+            double mode = hourglass_sign(m, a);
+            for (unsigned int j = 0; j < dim; ++j)
+              mode -= block.warp[dim * m + j][lane] * gradient[j];
+            for (unsigned int i = 0; i < dim; ++i)
+              values[n_strains + dim * m + i][a] = mode;
+          }
+      }
+    for (unsigned int r = 0; r < n_all; ++r)
+      for (unsigned int j = 0; j < dim; ++j)
+        directions[r][j] =
+          r < n_strains ? unit[r / dim][j] : block.edges[dim * ((r - n_strains) % dim) + j][lane];
+    FullMatrix<double> L(n_all, n_all), G(n_all, n_all), both(n_all, n_all);
+    for (unsigned int r = 0; r < n_all; ++r)
+      for (unsigned int s = 0; s < n_all; ++s)
         {
-          Tensor<2, dim> part;
-          for (unsigned int j = 0; j < dim; ++j)
-            part[j] = response.tangent[i][j][k];
-          part = root * part * root;
-          for (unsigned int j = 0; j < dim; ++j)
-            for (unsigned int l = 0; l < dim; ++l)
-              A(dim * i + j, dim * k + l) = block.volume[lane] * part[j][l];
+          const double cosine = directions[r] * directions[s];
+          G(r, s)             = cosine == 0. ? 0. : cosine * product(values[r], values[s], masses);
+          if (r < n_strains && s < n_strains)
+            L(r, s) = volume * response.tangent[r / dim][r % dim][s / dim][s % dim];
+          else if (r == s)
+            L(r, s) = stretch * block.stiffness[r - n_strains][lane];
         }
-    // Of an even power: negative eigenvalues, of instable material, do no harm.
-    return bound(A);
+    L.mmult(both, G);
+    return bound(both);
   }
 
 
@@ -158,8 +192,7 @@ namespace Touchstone
                                     std::vector<double>            &result)
   {
     // See KernelCells::square_frequencies().
-    constexpr double change  = 0.02;
-    const bool       tangent = finite && n_state == 0;
+    constexpr double change = 0.02;
     result.resize(cells.size());
     estimate.resize(cells.size(), 0.);
     exact.resize(cells.size(), 0.);
@@ -175,12 +208,10 @@ namespace Touchstone
                                                masses[c]);
         if (!(std::abs(now / estimate[c] - 1.) < change))
           {
-            double strain                  = tangent ? strain_frequency(c, u, masses[c]) : now;
+            // In boxes of small strain, most of all cells, both kinds of motion are orthogonal.
             const auto [hourglass, cosine] = hourglass_frequency(c, masses[c]);
-            // The largest eigenvalue of a sum of two operators whose ranges have this angle.
-            exact[c] =
-              0.5 * (strain + hourglass) +
-              std::sqrt(std::pow(0.5 * (strain - hourglass), 2) + cosine * strain * hourglass);
+            exact[c]    = finite || cosine > 1e-24 ? coupled_frequency(c, u, masses[c])
+                                                   : std::max(now, hourglass);
             estimate[c] = now;
           }
         result[c] = exact[c] * (now / estimate[c]);

@@ -25,8 +25,11 @@ namespace Touchstone
     /** Hourglass vectors times positions, [3m+i]. */
     double warp[dim * n_modes][n_cells];
     double volume[n_cells];
-    /** Stiffness of each hourglass mode, force per length, and its viscosity. */
-    double stiffness[n_modes][n_cells], viscosity[n_modes][n_cells];
+    /** Unit vectors along the edges of the undeformed cell, [3i+j], and the stiffness of each
+     * hourglass mode in these directions, [3m+i], force per length. */
+    double edges[dim * dim][n_cells], stiffness[dim * n_modes][n_cells];
+    /** Viscosity of each hourglass mode. */
+    double viscosity[n_modes][n_cells];
   };
 
   /**
@@ -88,6 +91,7 @@ namespace Touchstone
     {
       linear_elastic,
       neo_hookean,
+      von_mises,
       any_law
     };
 
@@ -96,7 +100,8 @@ namespace Touchstone
     bool                               finite;
     unsigned int                       n_state = 0;
     std::vector<OnePointBlock>         blocks;
-    std::vector<double>                present, kept;
+    /** Histories, [block][variable][cell of the block]. */
+    std::vector<double> present, kept;
     /** See KernelCells. */
     std::vector<double> exact, estimate;
     /** Gradients of the displacement of a block, and stresses. */
@@ -104,9 +109,19 @@ namespace Touchstone
 
     void
     set_block(OnePointBlock &block, unsigned int first);
-    /** Stresses by the law. @return the first cell that fails. */
+    /** Stresses of the cells of block @p b by the law, or of those that are marked. @return the
+     * first cell that fails. */
     unsigned int
-    respond(unsigned int first, double step);
+    respond(unsigned int b, double step, const double *marked = nullptr);
+    /** History variable @p k of cell @p c. */
+    double &
+    variable(const unsigned int c, const unsigned int k)
+    {
+      return present[(c / OnePointBlock::n_cells * n_state + k) * OnePointBlock::n_cells +
+                     c % OnePointBlock::n_cells];
+    }
+    void
+    get_state(unsigned int c, double *values) const;
     dealii::Tensor<2, dim>
     displacement_gradient(unsigned int c, const NodeField &u) const;
     /** Largest squared frequency of what hourglass control adds, and the largest squared cosine of
@@ -114,7 +129,10 @@ namespace Touchstone
     std::pair<double, double>
     hourglass_frequency(unsigned int c, const NodalMasses &masses) const;
     double
-    strain_frequency(unsigned int c, const NodeField &u, const NodalMasses &masses) const;
+    hourglass_energy(unsigned int c, const NodeField &u, const dealii::Tensor<2, dim> &H) const;
+    /** An upper bound of the largest squared frequency of all that a cell resists. */
+    double
+    coupled_frequency(unsigned int c, const NodeField &u, const NodalMasses &masses) const;
   };
 } // namespace Touchstone
 
