@@ -61,7 +61,6 @@ namespace Touchstone
   void
   ExplicitStep::set_mobilities(const double between)
   {
-    // An impulse acts during the cycle, together with the damping of the velocity that it leads to.
     mobile_for = between;
     std::vector<SymmetricTensor<2, dim>> mobilities(map.n_owned());
     for (unsigned int i = 0; i < map.n_owned(); ++i)
@@ -71,7 +70,7 @@ namespace Touchstone
           const double         mass =
             cells.masses()[i] * (damping.empty() ? 1. : 1. + 0.5 * damping[i] * between);
           for (unsigned int e = d; e < dim; ++e)
-            mobilities[i][d][e] = free[e] / mass;
+            mobilities[i][d][e] = free[e] / damped_mass(i, between);
         }
     impulses->set_mobility(mobilities);
   }
@@ -262,7 +261,8 @@ namespace Touchstone
     supports.set_velocities(now.time + length, length, now.u, now.v);
     for (const unsigned int i : supports.nodes())
       {
-        now.support[i] = cells.masses()[i] / between * (now.v[i] - now.support[i]);
+        // As an impulse of contact it acts together with the damping, see damped_mass().
+        now.support[i] = damped_mass(i, between) / between * (now.v[i] - now.support[i]);
         work[i].external += 0.5 * between * (now.support[i] * (v_before[i] + now.v[i]));
       }
   }

@@ -132,6 +132,13 @@ namespace Touchstone
     void
            set_mobilities(double between);
     double mobile_for = 0.;
+    /** Impulse that changes the velocity of an owned node by one: the mass, and the damping of what
+     * the velocity changes by, since that is damped with the mean of both ends. */
+    double
+    damped_mass(const unsigned int node, const double between) const
+    {
+      return cells.masses()[node] * (damping.empty() ? 1. : 1. + 0.5 * damping[node] * between);
+    }
     /** Set initial displacements and velocities by the formulas of the bodies. */
     void
     set_initial_values();
