@@ -67,8 +67,6 @@ namespace Touchstone
       for (unsigned int d = 0; d < dim; ++d)
         {
           const Tensor<1, dim> free = supports.free_part(i, Point<dim>::unit_vector(d));
-          const double         mass =
-            cells.masses()[i] * (damping.empty() ? 1. : 1. + 0.5 * damping[i] * between);
           for (unsigned int e = d; e < dim; ++e)
             mobilities[i][d][e] = free[e] / damped_mass(i, between);
         }
