@@ -58,11 +58,6 @@ namespace Touchstone
   {
     const Energies end       = energies();
     const double   tolerance = scene.time_integration.gain_tolerance;
-    if (smallest_part <= 1. && end.gain() > tolerance * end.largest)
-      throw ExplicitFailure("energy " + std::to_string(end.gain() / end.largest) +
-                            " times the largest so far came from nowhere ('Time "
-                            "integration/Gain tolerance'): the motion is not stable, take a "
-                            "smaller 'Courant factor' or 'Step check interval'");
     // A motion of linear bodies that is not stable keeps the energy of the ledger: its kinetic part
     // becomes as negative as the strain energy grows. Just below the bound of the step that ratio
     // can be large, but not as large as this.
@@ -71,6 +66,11 @@ namespace Touchstone
         -end.kinetic > beyond * (std::abs(end.initial) + std::abs(end.external) + end.contact))
       throw ExplicitFailure("the motion grows without bound, as cycles are longer than is stable: "
                             "take a smaller 'Courant factor'");
+    if (smallest_part <= 1. && end.gain() > tolerance * end.largest)
+      throw ExplicitFailure("energy " + std::to_string(end.gain() / end.largest) +
+                            " times the largest so far came from nowhere ('Time "
+                            "integration/Gain tolerance'): the motion is not stable, take a "
+                            "smaller 'Courant factor' or 'Step check interval'");
     committed = end;
     kept      = now;
     cells.commit();

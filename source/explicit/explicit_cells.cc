@@ -133,48 +133,22 @@ namespace Touchstone
 
 
 
-  double
-  ExplicitCells::volume_rate(const BodyParameters          &body,
-                             const NodeMap::Cell           &cell,
-                             const NodeField               &u,
-                             const NodeField               &v,
-                             std::array<Tensor<1, dim>, 8> &derivative) const
-  {
-    const auto x  = corners(map, cell, body.material.finite_strain() ? &u : nullptr);
-    derivative    = volume_derivative(x);
-    double volume = 0., rate = 0.;
-    for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-      {
-        volume += derivative[a] * x[a] / dim;
-        rate += derivative[a] * v[cell.nodes[a]];
-      }
-    return volume > 0. ? rate / volume : 0.;
-  }
-
-
-
   void
   ExplicitCells::add_viscosity(const NodeField &u, const NodeField &v, NodeField &viscous) const
   {
-    const double b1 = parameters.linear_viscosity, b2 = parameters.quadratic_viscosity;
-    std::array<Tensor<1, dim>, 8> derivative;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         // The length of the classical formulas is 2 kappa / (rho c omega): with it the linear part
-        // damps no mode of the cell by more than b1 of the critical damping.
+        // damps no mode of the cell by more than b_1 of the critical damping.
         const double kappa   = bodies[b].material.bulk_modulus();
         const double modulus = kappa + 4. / 3. * bodies[b].material.shear_modulus();
-        for (unsigned int c = 0; c < frequencies[b].size(); ++c)
-          {
-            const NodeMap::Cell &cell      = map.cells()[of_bodies[b]->cell_numbers()[c]];
-            const double         rate      = volume_rate(bodies[b], cell, u, v, derivative);
-            const double         time      = 2. * kappa / std::sqrt(frequencies[b][c]);
-            double               viscosity = b1 * time;
-            if (rate < 0.)
-              viscosity -= b2 * b2 * time * time / modulus * rate;
-            for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-              viscous[cell.nodes[a]] -= viscosity * rate * derivative[a];
-          }
+        const double root    = 2. * kappa * parameters.quadratic_viscosity;
+        of_bodies[b]->add_viscosity(u,
+                                    v,
+                                    {2. * kappa * parameters.linear_viscosity,
+                                     root * root / modulus},
+                                    frequencies[b],
+                                    viscous);
       }
   }
 
@@ -205,8 +179,7 @@ namespace Touchstone
     if (parameters.quadratic_viscosity > 0.)
       {
         std::array<Tensor<1, dim>, 8> derivative;
-        const NodeMap::Cell          &cell  = map.cells()[of_bodies[body]->cell_numbers()[c]];
-        const double                  rate  = volume_rate(bodies[body], cell, u, v, derivative);
+        const double                  rate  = of_bodies[body]->volume_rate(c, u, v, derivative);
         const double                  kappa = bodies[body].material.bulk_modulus();
         const double modulus = kappa + 4. / 3. * bodies[body].material.shear_modulus();
         xi += std::pow(parameters.quadratic_viscosity, 2) * 2. * kappa / modulus *

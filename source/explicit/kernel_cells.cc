@@ -267,6 +267,45 @@ namespace Touchstone
 
 
 
+  double
+  CellForces::volume_rate(const unsigned int             c,
+                          const NodeField               &u,
+                          const NodeField               &v,
+                          std::array<Tensor<1, dim>, 8> &derivative) const
+  {
+    const auto x  = corners(map, cell(c), body.material.finite_strain() ? &u : nullptr);
+    derivative    = volume_derivative(x);
+    double volume = 0., rate = 0.;
+    for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+      {
+        volume += derivative[a] * x[a] / dim;
+        rate += derivative[a] * v[cell(c).nodes[a]];
+      }
+    return volume > 0. ? rate / volume : 0.;
+  }
+
+
+
+  void
+  CellForces::add_viscosity(const NodeField           &u,
+                            const NodeField           &v,
+                            const Viscosity           &coefficients,
+                            const std::vector<double> &squares,
+                            NodeField                 &viscous)
+  {
+    std::array<Tensor<1, dim>, 8> derivative;
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        const double rate      = volume_rate(c, u, v, derivative);
+        const double viscosity = coefficients.linear / std::sqrt(squares[c]) -
+                                 coefficients.quadratic / squares[c] * std::min(0., rate);
+        for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+          viscous[cell(c).nodes[a]] -= viscosity * rate * derivative[a];
+      }
+  }
+
+
+
   std::unique_ptr<CellForces>
   CellForces::make(const NodeMap                   &map,
                    const std::vector<unsigned int> &cells,

@@ -21,7 +21,14 @@ namespace Touchstone
   {
     constexpr unsigned int n_cells = OnePointBlock::n_cells, n_nodes = OnePointBlock::n_nodes,
                            n_modes = OnePointBlock::n_modes;
-  }
+
+    /** Tensors of a field stand one after the other. */
+    const double *
+    numbers_of(const NodeField &field)
+    {
+      return reinterpret_cast<const double *>(field.data());
+    }
+  } // namespace
 
 
 
@@ -180,14 +187,7 @@ namespace Touchstone
         constants.yield_stress  = yield.value;
         constants.hardening     = yield.slope;
       }
-    // Tensors of a field stand one after the other.
-    const double *const displacement = &u[0][0], *const velocity = &v[0][0];
-    const auto scatter = [&](const OnePointBlock &block, const unsigned int first, NodeField &sum) {
-      for (unsigned int lane = 0; lane < n_cells && first + lane < cells.size(); ++lane)
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
-            sum[block.nodes[lane][a]][i] -= forces[dim * a + i][lane];
-    };
+    const double *const displacement = numbers_of(u), *const velocity = numbers_of(v);
     for (unsigned int b = 0; b < blocks.size(); ++b)
       {
         const OnePointBlock &block = blocks[b];
@@ -222,17 +222,60 @@ namespace Touchstone
                                     finite ? OnePointKernels::Hourglass::convected
                                            : OnePointKernels::Hourglass::fixed,
                                     forces);
-        scatter(block, first, force);
+        scatter(b, forces, force);
         if (damped)
           {
             const double none[dim * dim][n_cells] = {};
             OnePointKernels::set_gradients(block, velocity, gradient);
             OnePointKernels::set_forces(
               block, velocity, gradient, none, OnePointKernels::Hourglass::damped, forces);
-            scatter(block, first, viscous);
+            scatter(b, forces, viscous);
           }
       }
     return failed;
+  }
+
+
+
+  void
+  OnePointCells::scatter(const unsigned int b,
+                         const double (*forces)[n_cells],
+                         NodeField &sum) const
+  {
+    for (unsigned int lane = 0; lane < n_cells && b * n_cells + lane < cells.size(); ++lane)
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int i = 0; i < dim; ++i)
+          sum[blocks[b].nodes[lane][a]][i] -= forces[dim * a + i][lane];
+  }
+
+
+
+  void
+  OnePointCells::add_viscosity(const NodeField           &u,
+                               const NodeField           &v,
+                               const Viscosity           &coefficients,
+                               const std::vector<double> &squares,
+                               NodeField                 &viscous)
+  {
+    double forces[dim * n_nodes][n_cells], rates[dim * dim][n_cells];
+    double linear[n_cells], quadratic[n_cells];
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      {
+        for (unsigned int lane = 0; lane < n_cells; ++lane)
+          {
+            const double square =
+              squares[std::min<unsigned int>(b * n_cells + lane, cells.size() - 1)];
+            linear[lane]    = coefficients.linear / std::sqrt(square);
+            quadratic[lane] = coefficients.quadratic / square;
+          }
+        OnePointKernels::set_gradients(blocks[b], numbers_of(v), rates);
+        if (finite)
+          OnePointKernels::set_gradients(blocks[b], numbers_of(u), gradient);
+        OnePointKernels::viscous(finite ? gradient : nullptr, rates, linear, quadratic, stress);
+        OnePointKernels::set_forces(
+          blocks[b], numbers_of(v), rates, stress, OnePointKernels::Hourglass::none, forces);
+        scatter(b, forces, viscous);
+      }
   }
 
 

@@ -89,19 +89,23 @@ namespace Touchstone
   {
     const Lanes volume = load(block.volume);
     // Amplitudes of the modes, from which what constant strain and rotation contribute is taken.
-    Lanes q[dim][mode_count], P[dim][dim];
+    Lanes              q[dim][mode_count], P[dim][dim];
+    const unsigned int n_controlled = control == Hourglass::none ? 0 : mode_count;
     for (unsigned int i = 0; i < dim; ++i)
       {
-        Lanes x[n_corners];
-        gather(block, u, i, x);
-        hourglass_sums(x, q[i]);
-        for (unsigned int m = 0; m < mode_count; ++m)
+        if (control != Hourglass::none)
+          {
+            Lanes x[n_corners];
+            gather(block, u, i, x);
+            hourglass_sums(x, q[i]);
+          }
+        for (unsigned int m = 0; m < n_controlled; ++m)
           for (unsigned int j = 0; j < dim; ++j)
             q[i][m] -= load(block.warp[dim * m + j]) * load(gradient[dim * i + j]);
         for (unsigned int j = 0; j < dim; ++j)
           P[i][j] = volume * load(stress[dim * i + j]);
       }
-    for (unsigned int m = 0; m < mode_count; ++m)
+    for (unsigned int m = 0; m < n_controlled; ++m)
       {
         if (control == Hourglass::damped)
           {
@@ -143,7 +147,7 @@ namespace Touchstone
       }
     for (unsigned int i = 0; i < dim; ++i)
       {
-        for (unsigned int m = 0; m < mode_count; ++m)
+        for (unsigned int m = 0; m < n_controlled; ++m)
           for (unsigned int j = 0; j < dim; ++j)
             P[i][j] -= load(block.warp[dim * m + j]) * q[i][m];
         for (unsigned int a = 0; a < n_corners; ++a)
@@ -151,11 +155,46 @@ namespace Touchstone
             Lanes f = P[i][0] * load(block.gradients[dim * a]) +
                       P[i][1] * load(block.gradients[dim * a + 1]) +
                       P[i][2] * load(block.gradients[dim * a + 2]);
-            for (unsigned int m = 0; m < mode_count; ++m)
+            for (unsigned int m = 0; m < n_controlled; ++m)
               f = hourglass_sign(m, a) > 0 ? f + q[i][m] : f - q[i][m];
             store(f, force[dim * a + i]);
           }
       }
+  }
+
+
+
+  TOUCHSTONE_VECTORISED void
+  OnePointKernels::viscous(const double (*gradient)[lane_count],
+                           const double (*rates)[lane_count],
+                           const double *linear,
+                           const double *quadratic,
+                           double (*stress)[lane_count])
+  {
+    const Lanes zero = {};
+    Lanes       H[dim * dim], J = zero + 1., rate = zero;
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      H[k] = k % (dim + 1) == 0 ? zero + 1. : zero;
+    if (gradient != nullptr)
+      {
+        Lanes F[dim * dim];
+        for (unsigned int k = 0; k < dim * dim; ++k)
+          F[k] = load(gradient[k]) + H[k];
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              const unsigned int p = (i + 1) % dim, q = (i + 2) % dim, r = (j + 1) % dim,
+                                 s = (j + 2) % dim;
+              H[dim * i + j] = F[dim * p + r] * F[dim * q + s] - F[dim * p + s] * F[dim * q + r];
+            }
+        J = F[0] * H[0] + F[1] * H[1] + F[2] * H[2];
+      }
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      rate += H[k] * load(rates[k]);
+    rate /= J;
+    const Lanes pressure = (load(linear) - (rate < 0. ? load(quadratic) * rate : zero)) * rate;
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      store(pressure * H[k], stress[k]);
   }
 
 

@@ -64,6 +64,36 @@ namespace Touchstone
                     NodeField       &force,
                     NodeField       &viscous) = 0;
 
+    /** @brief Coefficients of the bulk viscosity of a body, see add_viscosity(). */
+    struct Viscosity
+    {
+      /** 2 kappa b_1 / omega times the frequency: force per area. */
+      double linear;
+      /** (2 kappa b_2 / omega)^2 / (kappa + 4/3 mu), times the squared frequency: force per area.
+       */
+      double quadratic;
+    };
+
+    /**
+     * @brief Add the forces of bulk viscosity to @p viscous: the pressure -(linear / omega -
+     * quadratic / omega^2 min(0, r)) r at the rate r of the volume (doc/explicit.md, section 4).
+     * @param squares Of the frequencies omega, by cell.
+     */
+    virtual void
+    add_viscosity(const NodeField           &u,
+                  const NodeField           &v,
+                  const Viscosity           &coefficients,
+                  const std::vector<double> &squares,
+                  NodeField                 &viscous);
+
+    /** @brief Rate of the volume of a cell, relative to it, and the derivative of the volume by the
+     * positions of the nodes. */
+    double
+    volume_rate(unsigned int                           c,
+                const NodeField                       &u,
+                const NodeField                       &v,
+                std::array<dealii::Tensor<1, dim>, 8> &derivative) const;
+
     /** @brief Add the energies of owned cells at the displacement of the last subtract_forces(). */
     virtual void
     add_energies(const NodeField &u, CellEnergies &energies) = 0;

@@ -134,13 +134,6 @@ namespace Touchstone
     update_frequencies(const NodeField &u);
     CellPlace
     place(unsigned int body, unsigned int c) const;
-    /** Rate of the volume of a cell, relative to it; its derivatives by the positions. */
-    double
-    volume_rate(const BodyParameters                  &body,
-                const NodeMap::Cell                   &cell,
-                const NodeField                       &u,
-                const NodeField                       &v,
-                std::array<dealii::Tensor<1, dim>, 8> &derivative) const;
     void
     add_viscosity(const NodeField &u, const NodeField &v, NodeField &viscous) const;
     double

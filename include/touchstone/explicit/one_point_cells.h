@@ -53,6 +53,12 @@ namespace Touchstone
                     NodeField       &force,
                     NodeField       &viscous) override;
     void
+    add_viscosity(const NodeField           &u,
+                  const NodeField           &v,
+                  const Viscosity           &coefficients,
+                  const std::vector<double> &squares,
+                  NodeField                 &viscous) override;
+    void
     add_energies(const NodeField &u, CellEnergies &energies) override;
     void
     square_frequencies(const NodeField                &u,
@@ -109,6 +115,9 @@ namespace Touchstone
 
     void
     set_block(OnePointBlock &block, unsigned int first);
+    /** Subtract the forces of a block, [3a+i], from those of its nodes. */
+    void
+    scatter(unsigned int b, const double (*forces)[OnePointBlock::n_cells], NodeField &sum) const;
     /** Stresses of the cells of block @p b by the law, or of those that are marked. @return the
      * first cell that fails. */
     unsigned int

@@ -31,7 +31,8 @@ namespace Touchstone
     {
       convected,
       fixed,
-      damped
+      damped,
+      none
     };
 
     /** @brief Forces on the nodes, [3a+i], of first Piola-Kirchhoff stresses, and of the control of
@@ -43,6 +44,15 @@ namespace Touchstone
                const double (*stress)[OnePointBlock::n_cells],
                Hourglass control,
                double (*force)[OnePointBlock::n_cells]);
+
+    /** @brief First Piola-Kirchhoff stress of bulk viscosity, (linear - quadratic min(0, r)) r
+     * cof(F) at the rate r of the volume. @p gradient null: small strain. */
+    void
+    viscous(const double (*gradient)[OnePointBlock::n_cells],
+            const double (*rates)[OnePointBlock::n_cells],
+            const double *linear,
+            const double *quadratic,
+            double (*stress)[OnePointBlock::n_cells]);
 
     /** @brief Stress of Hooke's law by the gradients of the displacement. */
     void
