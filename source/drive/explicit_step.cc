@@ -37,6 +37,12 @@ namespace Touchstone
     , displacement(solid.owned, solid.communicator)
     , velocity(displacement)
   {
+    if (solid.has_hanging_nodes())
+      throw InputError("Time integration",
+                       "Scheme",
+                       scene.time_integration.scheme.word(),
+                       "is for meshes without hanging nodes",
+                       "take a mesh whose cells meet at whole faces, or another scheme");
     if (!scene.pairs.empty())
       impulses = std::make_unique<ImpulseContact>(contact, scene.contact, map);
     for (NodeField *field : {&now.u,
