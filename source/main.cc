@@ -51,9 +51,13 @@ namespace
       }
     if (line.validate)
       {
-        validate(scene, folder, communicator);
+        const std::vector<std::string> remarks = validate(scene, folder, communicator);
         if (first)
-          std::cout << line.scene_file << ": valid\n";
+          {
+            std::cout << line.scene_file << ": valid\n";
+            for (const std::string &remark : remarks)
+              std::cout << "  " << remark << '\n';
+          }
         return 0;
       }
 

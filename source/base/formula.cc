@@ -43,6 +43,8 @@ namespace Touchstone
     : section(section)
     , key(key)
     , text(text)
+    , of_position(depends_on_place(text))
+    , of_time(std::regex_search(text, std::regex("\\bt\\b")))
     , function(std::make_unique<FunctionParser<dim>>(1))
   {
     // All variables are declared, also where a formula must not use them: check_expression() finds
@@ -73,7 +75,7 @@ namespace Touchstone
     // Decimal points, whatever the locale of the user.
     out.imbue(std::locale::classic());
     out << "its value is " << (std::isnan(failure->value) ? "not a number" : "infinite") << " at ";
-    if (depends_on_place(text))
+    if (of_position)
       out << "x = " << failure->x[0] << ", y = " << failure->x[1] << ", z = " << failure->x[2]
           << " and ";
     out << "t = " << failure->t;

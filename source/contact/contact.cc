@@ -163,6 +163,27 @@ namespace Touchstone
 
 
 
+  void
+  Contact::commit_positions()
+  {
+    for (const auto &pair : pairs)
+      pair->commit_positions();
+  }
+
+
+
+  void
+  Contact::record_friction(const ContactRow     &row,
+                           const Tensor<1, dim> &force,
+                           const Tensor<1, dim> &slip,
+                           const double          path,
+                           const double          work)
+  {
+    friction_rows.record(row, force, slip, path, work);
+  }
+
+
+
   // Gaps are taken to change linearly over the step. Used to cut a step of dynamics at the first
   // impact; only rows that were open when it began can have one.
   double
@@ -197,8 +218,9 @@ namespace Touchstone
   Contact::commit()
   {
     // The history needs the forces and the geometry of the step that ends, so it is made before
-    // anything is committed.
-    friction_rows.end_step(all_rows, method->states());
+    // anything is committed. With impulses it is in record_friction().
+    if (!method->by_impulses())
+      friction_rows.end_step(all_rows, method->states());
     for (Stateful *part : parts)
       part->commit();
   }

@@ -235,6 +235,26 @@ namespace Touchstone
 
 
 
+  double
+  ContactPair::part_of_overlap(const double t) const
+  {
+    return input.parameters.initial_overlap == ContactPairParameters::Overlap::ramp
+             ? std::max(0., 1. - t / input.end_time)
+             : 1.;
+  }
+
+
+
+  void
+  ContactPair::commit_positions()
+  {
+    if (!small)
+      // Sweeps of the next step start from these positions (doc/theory.md 4, "Passing through").
+      pairing_method->commit_positions(*displacement);
+  }
+
+
+
   void
   ContactPair::apply_overlap()
   {
@@ -252,9 +272,7 @@ namespace Touchstone
           overlaps[k] = std::min(row.gap, 0.);
         if (overlaps[k] < 0.)
           {
-            const double part = treatment == ContactPairParameters::Overlap::ramp
-                                  ? std::max(0., 1. - time / input.end_time)
-                                  : 1.;
+            const double part = part_of_overlap(time);
             row.gap -= part * overlaps[k];
             row.gap_vector -= part * overlaps[k] * row.normal;
           }
@@ -318,9 +336,7 @@ namespace Touchstone
   void
   ContactPair::commit()
   {
-    if (!small)
-      // Sweeps of the next step start from these positions (doc/theory.md 4, "Passing through").
-      pairing_method->commit_positions(*displacement);
+    commit_positions();
     // Derivatives are made anew in each iteration and need not be copied with the history.
     for (ContactRow &row : present)
       row.derivative.reset();

@@ -189,11 +189,14 @@ namespace Touchstone
     enforcement.declare_key(prm,
                             values,
                             "Enforcement",
-                            "How contact is enforced: 'elimination' of the slave unknowns, which "
+                            "How contact is enforced: 'automatic' is 'forward increment' in "
+                            "explicit dynamics and 'elimination' elsewhere; "
+                            "'elimination' of the slave unknowns, which "
                             "leaves a system for any linear solver; "
                             "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
                             "'augmented lagrange', springs whose forces grow until the gaps close; "
-                            "or 'penalty', springs that leave a penetration.");
+                            "or 'penalty', springs that leave a penetration.",
+                            {"automatic"});
     prm.add_parameter("Penalty factor",
                       penalty_factor,
                       "Multiplies the automatic stiffness of the springs, which is Young's "
@@ -222,6 +225,19 @@ namespace Touchstone
       "('frozen', symmetric but for slip). 'automatic' is consistent with friction "
       "where a direct solver takes unsymmetric systems, and for the rest of a step "
       "in which a frozen iteration has gained little.");
+    prm.add_parameter(
+      "Contact tolerance",
+      impulse_tolerance,
+      "Of 'forward increment', in explicit dynamics: the sweeps of a cycle end when "
+      "they change no velocity by more than this, relative to the speed at which "
+      "bodies would close. [no unit]",
+      Patterns::Double(0., 0.1));
+    prm.add_parameter(
+      "Contact iterations",
+      most_sweeps,
+      "Of 'forward increment': the largest number of sweeps in a cycle. Momentum is "
+      "exact and no energy is gained wherever they end. [no unit]",
+      Patterns::Integer(1, 1000000));
     enforcement.declare_own_keys(prm);
   }
 

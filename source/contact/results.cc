@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/exact_sum.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/contact_counts.h>
 #include <touchstone/contact/results.h>
@@ -83,24 +84,36 @@ namespace Touchstone
   std::vector<PairResult>
   pair_results(const Contact &contact, const Vector &u)
   {
+    // Sums without round-off, which do not depend on the partition.
+    struct Sums
+    {
+      std::array<ExactSum, dim> force, moment;
+      ExactSum                  area, friction_work;
+    };
     std::vector<PairResult> all(contact.n_pairs());
+    std::vector<Sums>       sums(contact.n_pairs());
     for (const ContactPoint &point : contact_points(contact, u))
       {
         PairResult &result = all[point.pair];
+        Sums       &sum    = sums[point.pair];
         // Before the test for contact: work that was done stays, also when the node has opened
         // since.
-        result.friction_work += point.friction_work;
+        sum.friction_work.add(point.friction_work);
         if (point.status != ContactStatus::no_partner && point.status != ContactStatus::tied)
           result.max_penetration = std::max(result.max_penetration, -point.gap);
         if (point.status < ContactStatus::slip)
           continue;
         const Tensor<1, dim> force = point.area * point.traction;
-        result.force += force;
         // About the origin, in the deformed state, at the point where the force acts: for rows with
         // neighbours that is not the node.
-        result.moment +=
+        const Tensor<1, dim> moment =
           cross_product_3d(point.reference_position + point.displacement + point.lever, force);
-        result.area += point.area;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            sum.force[d].add(force[d]);
+            sum.moment[d].add(moment[d]);
+          }
+        sum.area.add(point.area);
         result.max_pressure = std::max(result.max_pressure, point.pressure);
         ++result.active;
         ++(point.status == ContactStatus::slip ? result.slip : result.stick);
@@ -108,16 +121,20 @@ namespace Touchstone
     // One reduction per value: there are few pairs. All ranks have all pairs, even those of which
     // they own no row.
     const MPI_Comm communicator = contact.communicator();
-    for (PairResult &result : all)
+    for (std::size_t p = 0; p < all.size(); ++p)
       {
-        result.force           = Utilities::MPI::sum(result.force, communicator);
-        result.moment          = Utilities::MPI::sum(result.moment, communicator);
-        result.area            = Utilities::MPI::sum(result.area, communicator);
+        PairResult &result = all[p];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            result.force[d]  = sums[p].force[d].value(communicator);
+            result.moment[d] = sums[p].moment[d].value(communicator);
+          }
+        result.area            = sums[p].area.value(communicator);
         result.max_pressure    = Utilities::MPI::max(result.max_pressure, communicator);
         result.max_penetration = Utilities::MPI::max(result.max_penetration, communicator);
         result.active          = Utilities::MPI::sum(result.active, communicator);
         result.slip            = Utilities::MPI::sum(result.slip, communicator);
-        result.friction_work   = Utilities::MPI::sum(result.friction_work, communicator);
+        result.friction_work   = sums[p].friction_work.value(communicator);
         result.stick           = Utilities::MPI::sum(result.stick, communicator);
       }
     return all;

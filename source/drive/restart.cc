@@ -90,6 +90,7 @@ namespace Touchstone
     archive.put("volume pictures", volume_output.series().list());
     archive.put("contact pictures", contact_output.series().list());
     archive.put("last picture", last_vtu_step);
+    archive.put("cycles", summary.cycles);
     problem->save(archive);
     const std::string name = checkpoints.write(archive.piece(),
                                                position.step - 1,
@@ -206,6 +207,8 @@ namespace Touchstone
         warnings.restore(archive.get<std::vector<std::string>>("warnings"));
         had_contact = archive.get<std::map<std::string, double>>("had contact");
       }
+    if (archive.has("cycles")) // not in checkpoints of earlier versions
+      summary.cycles = archive.get<std::uint64_t>("cycles");
     last_checkpoint = start.step;
 
     std::vector<std::string> lines = origin.skipped;

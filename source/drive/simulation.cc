@@ -242,6 +242,13 @@ namespace Touchstone
         record.energies["damping"]       = energies.damping;
         record.energies["external"]      = energies.external;
         record.energies["balance error"] = energies.balance_error();
+        if (const CycleCounts *cycles = problem->cycle_counts())
+          {
+            record.energies["hourglass"] = energies.hourglass;
+            record.energies["viscous"]   = energies.viscous;
+            record.cycles.emplace(cycles->cycles, cycles->smallest_step);
+            summary.cycles += cycles->cycles;
+          }
         for (unsigned int p = 0; p < results.size(); ++p)
           summary.motion->add_step(scene.pairs[p].name, time - size, time, results[p]);
         const auto momenta = problem->state().time_integration.momenta();
@@ -411,7 +418,10 @@ namespace Touchstone
     // From here on the step counts. Failures of later steps are not compared with earlier ones.
     committed_time = at.time = next;
     repeated_failure.forget();
-    progress.end_step(newton);
+    if (const CycleCounts *cycles = problem->cycle_counts())
+      progress.end_step(cycles->cycles, cycles->smallest_step, cycles->cell);
+    else
+      progress.end_step(newton);
     for (const std::string &text : findings.warnings)
       warnings.add(text);
     record_step(at.step, at.time, length, newton, at.cuts);
@@ -488,8 +498,8 @@ namespace Touchstone
     if (!summary.converged)
       {
         log.line("The run did not converge: " + summary.failure);
-        log.line("The last converged state is in " + folder.path("solution.pvd") +
-                 ". Try more load steps, a finer mesh at the contact, or another enforcement.");
+        log.line("The last converged state is in " + folder.path("solution.pvd") + ". " +
+                 problem->advice());
         // Bodies that friction holds until they snap, or that buckle, leave no static equilibrium
         // nearby. A block pushed along with a coefficient of 2 does so (doc/robustness.md).
         if (!scene.time_integration.dynamic() && summary.steps > 0)
@@ -597,7 +607,7 @@ namespace Touchstone
 
 
 
-  void
+  std::vector<std::string>
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
     make_reference(scene);
@@ -606,8 +616,9 @@ namespace Touchstone
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial
     // gaps and formulas, and finds bodies that nothing holds.
-    const std::unique_ptr<Step> problem = Step::make(scene, forest, solid, timer);
-    problem->start();
+    const std::unique_ptr<Step>    problem = Step::make(scene, forest, solid, timer);
+    const std::vector<std::string> lines   = problem->start();
     problem->prepare(scene.load_stepping.end_time / scene.load_stepping.steps);
+    return problem->cycle_counts() != nullptr ? lines : std::vector<std::string>();
   }
 } // namespace Touchstone

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/drive/explicit_step.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
@@ -404,6 +405,8 @@ namespace Touchstone
   std::unique_ptr<Step>
   Step::make(const Scene &scene, const Forest &forest, Solid &solid, TimerOutput &timer)
   {
+    if (scene.time_integration.runs_in_cycles())
+      return std::make_unique<ExplicitStep>(scene, forest, solid, timer);
     return std::make_unique<StepProblem>(scene, forest, solid, timer);
   }
 

@@ -28,12 +28,16 @@ namespace Touchstone
                    "Hughes and Taylor 1977); 'generalized_alpha' (Chung and Hulbert 1993); "
                    "'contact_stabilized': the same, with the mass of slave nodes moved to "
                    "their neighbours, for impacts without chatter: with spectral radius 1 it "
-                   "conserves the energy of linear bodies and contact only takes from it.");
+                   "conserves the energy of linear bodies and contact only takes from it. "
+                   "'central_differences': explicit, for impacts and other fast events; the steps "
+                   "of 'Load stepping' are output intervals, in which cycles of the stable length "
+                   "run.");
     mass.declare(prm,
                  "Mass",
                  "'consistent'; 'lumped' to the nodes; 'dispersion corrected': integrated such "
                  "that errors of mesh and step cancel in the speed of waves, all of them where "
-                 "a wave passes a cell in a step (degree 1).");
+                 "a wave passes a cell in a step (degree 1). 'central_differences' always has the "
+                 "lumped mass.");
     prm.add_parameter("Newmark gamma",
                       newmark_gamma,
                       "Of 'newmark': 0.5 for no numerical damping, up to 1. [no unit]",
@@ -82,6 +86,7 @@ namespace Touchstone
                       "Energy that nothing explains, relative to the largest energy so far: a "
                       "step that gains more is cut, and a run that goes on gaining ends. [no unit]",
                       Patterns::Double(0.));
+    cycles.declare(prm);
   }
 
 
@@ -156,7 +161,7 @@ namespace Touchstone
   bool
   TimeIntegrationParameters::plastic_impacts() const
   {
-    if (!dynamic() || impact == Impact::elastic)
+    if (!dynamic() || runs_in_cycles() || impact == Impact::elastic)
       return false;
     const Coefficients c = coefficients();
     // With spectral radius 1 (the midpoint rule, m = f = 1/2) energy is conserved, and an impact

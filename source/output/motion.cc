@@ -23,15 +23,21 @@ namespace Touchstone
     std::vector<std::pair<std::string, double>>
     by_name(const Energies &energies)
     {
-      return {{"initial", energies.initial},
-              {"external", energies.external},
-              {"kinetic", energies.kinetic},
-              {"strain", energies.strain},
-              {"plastic", energies.plastic},
-              {"contact", energies.contact},
-              {"friction", energies.friction},
-              {"damping", energies.damping},
-              {"balance_error", energies.balance_error()}};
+      std::vector<std::pair<std::string, double>> result = {{"initial", energies.initial},
+                                                            {"external", energies.external},
+                                                            {"kinetic", energies.kinetic},
+                                                            {"strain", energies.strain},
+                                                            {"plastic", energies.plastic},
+                                                            {"contact", energies.contact},
+                                                            {"friction", energies.friction},
+                                                            {"damping", energies.damping}};
+      // Of explicit dynamics only.
+      if (energies.hourglass != 0.)
+        result.emplace_back("hourglass", energies.hourglass);
+      if (energies.viscous != 0.)
+        result.emplace_back("viscous", energies.viscous);
+      result.emplace_back("balance_error", energies.balance_error());
+      return result;
     }
 
     /**

@@ -82,14 +82,31 @@ namespace Touchstone
   Progress::end_step(const unsigned int newton_iterations)
   {
     const double elapsed = timer.wall_time();
-    std::string  text =
-      format("  converged in %u iterations, ", newton_iterations) + readable_duration(elapsed);
+    log.line(format("  converged in %u iterations, ", newton_iterations) +
+             readable_duration(elapsed) + time_left(elapsed));
+  }
+
+
+
+  std::string
+  Progress::time_left(const double elapsed) const
+  {
     // Linear extrapolation of the time so far over the time t of the scene, without what a resumed
     // run did before.
     if (time < end_time && time > start_time)
-      text +=
-        ", about " + readable_duration(elapsed * (end_time - time) / (time - start_time)) + " left";
-    log.line(text);
+      return ", about " + readable_duration(elapsed * (end_time - time) / (time - start_time)) +
+             " left";
+    return "";
+  }
+
+
+
+  void
+  Progress::end_step(const unsigned int cycles, const double step, const std::string &cell)
+  {
+    const double elapsed = timer.wall_time();
+    log.line(format("  %u cycles of %.4g or longer, as ", cycles, step) + cell + " needs, " +
+             readable_duration(elapsed) + time_left(elapsed));
   }
 
 

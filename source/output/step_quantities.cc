@@ -53,6 +53,11 @@ namespace Touchstone
         values.add("Newton iterations", step.newton_iterations);
         values.add("linear iterations", step.linear_iterations);
         values.add("cuts", step.cuts);
+        if (step.cycles)
+          {
+            values.add("cycles", step.cycles->first);
+            values.add("shortest cycle", step.cycles->second);
+          }
       }
     };
 

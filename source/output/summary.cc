@@ -176,7 +176,10 @@ namespace Touchstone
     for (const StepValue &value : quantities)
       if (value.pair.empty())
         results.set(member_name(value.name), Touchstone::to_json(value));
-    return result.set("steps", steps)
+    result.set("steps", steps);
+    if (cycles > 0)
+      result.set("cycles", cycles);
+    return result
       .set("iterations",
            Json::object()
              .set("newton", iterations.newton)
@@ -243,7 +246,9 @@ namespace Touchstone
         force_scale = std::max(force_scale, largest_component(force));
 
     out << (converged ? "Converged" : "NOT CONVERGED") << ": " << steps << " steps";
-    if (with_iterations)
+    if (with_iterations && cycles > 0)
+      out << ", " << cycles << " cycles";
+    else if (with_iterations)
       out << ", " << iterations.newton << " Newton iterations";
     if (with_iterations && iterations.damped > 0)
       out << ", " << iterations.damped << " with a shorter increment";

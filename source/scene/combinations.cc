@@ -116,6 +116,86 @@ namespace Touchstone
 
 
 
+    /** Explicit dynamics (doc/explicit.md, section 1), and what only that has. */
+    std::vector<Rule>
+    cycle_rules(const Scene &scene)
+    {
+      const TimeIntegrationParameters &time = scene.time_integration;
+      const std::string section = "Time integration", scheme = "'Scheme' is 'central_differences'";
+      return {{time.runs_in_cycles() && scene.discretisation.degree != 1,
+               "Discretisation",
+               "Degree",
+               std::to_string(scene.discretisation.degree),
+               "lumped masses of degree 2 are negative at the corners, and " + scheme,
+               "set it to 1 and take more cells"},
+              {time.runs_in_cycles() && scene.refinement.active(),
+               "Refinement",
+               "Estimator",
+               scene.refinement.estimator.word(),
+               "the mesh of explicit dynamics does not change, and " + scheme,
+               "set it to 'none'"},
+              {time.runs_in_cycles() && time.mass == MassKind::dispersion_corrected,
+               section,
+               "Mass",
+               time.mass.word(),
+               "is no diagonal matrix, and " + scheme,
+               "remove the key: the mass is lumped"},
+              {time.runs_in_cycles() && time.adapt == TimeIntegrationParameters::Adapt::impacts,
+               section,
+               "Adapt steps",
+               time.adapt.word(),
+               "cycles are as long as is stable: " + scheme,
+               "remove the key"},
+              {time.runs_in_cycles() && time.impact == TimeIntegrationParameters::Impact::elastic,
+               section,
+               "Impact",
+               time.impact.word(),
+               "nodes that meet lose their relative velocity in explicit dynamics",
+               "remove the key"},
+              {!time.runs_in_cycles() && !time.cycles.untouched(),
+               section,
+               "Scheme",
+               time.scheme.word(),
+               "has no cycles, but a key of explicit dynamics is set",
+               "set it to 'central_differences', or remove 'Courant factor', 'Step check "
+               "interval', the bulk viscosities and mass scaling"}};
+    }
+
+    std::vector<Rule>
+    cycle_rules(const Scene &scene, const BodyParameters &body)
+    {
+      const bool        cycles    = scene.time_integration.runs_in_cycles();
+      const bool        one_point = body.element() == ElementType::one_point;
+      const std::string section   = body.section();
+      const std::string needless  = "is a key of the element 'one point'";
+      return {{one_point && !cycles,
+               section,
+               "Element",
+               body.element_type.word(),
+               "is for explicit dynamics: its stiffness is that of a single point",
+               "take 'automatic', or set 'Time integration/Scheme' to 'central_differences'"},
+              {!one_point && body.hourglass != BodyParameters::Hourglass::stiffness,
+               section,
+               "Hourglass control",
+               body.hourglass.word(),
+               needless,
+               "remove it, or set 'Element = one point'"},
+              {!one_point && body.hourglass_coefficient != "automatic",
+               section,
+               "Hourglass coefficient",
+               body.hourglass_coefficient,
+               needless,
+               "remove it, or set 'Element = one point'"},
+              {cycles && body.material.rayleigh_stiffness > 0.,
+               section + "/Material",
+               "Rayleigh stiffness",
+               as_text(body.material.rayleigh_stiffness),
+               "would shorten the stable step of explicit dynamics beyond use",
+               "take 'Rayleigh mass', or 'Time integration/Linear bulk viscosity'"}};
+    }
+
+
+
     /**
      * Tied pairs do not slide, and Gregory patches (doc/theory.md 4, "Smoothing") exist for
      * bilinear faces only.
@@ -160,8 +240,18 @@ namespace Touchstone
       const LinearSolverParameters   &solver      = scene.linear_solver;
       // Asked of the enforcement itself, so that one that is added later is judged by the same
       // rule.
-      const bool multipliers = contact.enforcement.make(contact)->uses_multipliers();
-      return {{scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
+      const auto enforcement = contact.enforcement.make(contact);
+      const bool multipliers = enforcement->uses_multipliers();
+      const bool in_cycles   = scene.time_integration.runs_in_cycles();
+      return {{enforcement->by_impulses() != in_cycles,
+               "Contact",
+               "Enforcement",
+               contact.enforcement.name,
+               std::string(in_cycles ? "solves systems of equations, but"
+                                     : "is for explicit dynamics, but") +
+                 " 'Time integration/Scheme' is '" + scene.time_integration.scheme.word() + "'",
+               "set it to 'automatic', which goes with all schemes"},
+              {scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
                  discretised.partitioner != Partitioner::automatic,
                "Discretisation",
                "Partitioner",
@@ -215,5 +305,8 @@ namespace Touchstone
     obey(method_rules(scene));
     for (const BodyParameters &body : scene.bodies)
       obey(inertia_rules(scene, body));
+    obey(cycle_rules(scene));
+    for (const BodyParameters &body : scene.bodies)
+      obey(cycle_rules(scene, body));
   }
 } // namespace Touchstone

@@ -202,6 +202,12 @@ namespace Touchstone
           prm.leave_subsection();
         }
 
+    // Once here, so that everything else sees the enforcement that is used; the printed scene
+    // keeps the word.
+    if (contact.enforcement.name == "automatic")
+      contact.enforcement =
+        ContactParameters::default_enforcement(time_integration.runs_in_cycles());
+
     if (output.directory.empty())
       {
         // The default folder is named after the scene file: output/STEM. A leading dot belongs to

@@ -5,6 +5,9 @@
 #include <touchstone/base/suggestion.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/solid/body_parameters.h>
+#include <touchstone/solid/material_law.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 
@@ -68,7 +71,19 @@ namespace Touchstone
       "elastic' only, F-bar for laws of finite strain. 'automatic' takes full "
       "for degree 2; for degree 1 F-bar with a law for finite strain, b-bar with "
       "plasticity at small strain (plastic flow keeps the volume, and full cells "
-      "lock), and else incompatible modes.");
+      "lock), and else incompatible modes. 'one point' is for explicit dynamics: cheap "
+      "hexahedra with one point of integration and control of their hourglass modes.");
+    hourglass.declare(
+      prm,
+      "Hourglass control",
+      "Of the element 'one point': 'stiffness', elastic forces that make its bending exact; "
+      "'viscous', damping; 'none', for tests.");
+    prm.add_parameter("Hourglass coefficient",
+                      hourglass_coefficient,
+                      "Of the element 'one point': factor of that stiffness, or part of the "
+                      "critical damping; a number from 0 to 1, or 'automatic': 1 for the stiffness "
+                      "of elastic bodies, else 0.1. [no unit]",
+                      Patterns::Anything());
     prm.add_parameter("Symmetry",
                       symmetry,
                       "Plane boundaries that keep their place in the normal "
@@ -141,9 +156,28 @@ namespace Touchstone
 
 
 
+  double
+  BodyParameters::hourglass_factor() const
+  {
+    if (hourglass_coefficient != "automatic")
+      return dealii::Utilities::string_to_double(hourglass_coefficient);
+    const bool elastic = !SmallStrainRegistry::knows(material.law.name) &&
+                         !FiniteStrainRegistry::knows(material.law.name);
+    return hourglass == Hourglass::stiffness && elastic ? 1. : 0.1;
+  }
+
+
+
   void
   BodyParameters::check() const
   {
+    if (hourglass_coefficient != "automatic" &&
+        !Patterns::Double(0., 1.).match(hourglass_coefficient))
+      throw InputError(section(),
+                       "Hourglass coefficient",
+                       hourglass_coefficient,
+                       "is neither 'automatic' nor a number from 0 to 1",
+                       "take 'automatic'");
     geometry_type.check(section() + "/Geometry");
     material.check(section() + "/Material");
     for (unsigned int d = 0; d < 3; ++d)

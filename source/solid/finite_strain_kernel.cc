@@ -63,7 +63,8 @@ namespace Touchstone
     : CellKernel(degree, make_law(material), type == ElementType::f_bar)
     , kinematics(n_points)
   {
-    Assert(type == ElementType::f_bar || type == ElementType::full, ExcNotImplemented());
+    Assert(type != ElementType::b_bar && type != ElementType::incompatible_modes,
+           ExcNotImplemented());
   }
 
 

@@ -18,7 +18,8 @@ namespace Touchstone
                  material.law.make<SmallStrainRegistry>(material),
                  type == ElementType::b_bar)
   {
-    Assert(type == ElementType::b_bar || type == ElementType::full, ExcNotImplemented());
+    Assert(type != ElementType::f_bar && type != ElementType::incompatible_modes,
+           ExcNotImplemented());
   }
 
 

@@ -30,10 +30,23 @@ namespace Touchstone
     double
     value(const dealii::Point<dim> &x, double t) const;
 
+    /** @brief Whether the formula names x, y or z, or the time. */
+    bool
+    depends_on_position() const
+    {
+      return of_position;
+    }
+    bool
+    depends_on_time() const
+    {
+      return of_time;
+    }
+
   private:
     friend class Formulas;
 
     const std::string                            section, key, text;
+    const bool                                   of_position, of_time;
     std::unique_ptr<dealii::FunctionParser<dim>> function;
 
     /** Where the first value was that is not finite. */

@@ -85,6 +85,21 @@ namespace Touchstone
     }
   };
 
+  /** @brief Explicit dynamics cannot go on: a cell is inverted, a value is not finite, the stable
+   * step collapses, or energy comes from nowhere. The length of output intervals does not matter to
+   * it. */
+  class ExplicitFailure : public NonConvergence
+  {
+  public:
+    using NonConvergence::NonConvergence;
+
+    bool
+    shorter_step_may_help() const override
+    {
+      return false;
+    }
+  };
+
   /** @brief A step has gained energy that no load explains. */
   class EnergyGain : public NonConvergence
   {

@@ -141,6 +141,22 @@ namespace Touchstone
     double
     work_of_obstacles(ForcePart part) const;
 
+    /** @brief What nodes pass through counts from the displacement of the last update() on: the
+     * rows of explicit dynamics are updated within a step. */
+    void
+    commit_positions();
+
+    /** @brief What friction did in a row in the step that ends, where the enforcement follows it
+     * (Enforcement::by_impulses()).
+     * @param force Tangential. @param slip Of the step, length. @param path Its length.
+     * @param work Against friction, force times length. */
+    void
+    record_friction(const ContactRow             &row,
+                    const dealii::Tensor<1, dim> &force,
+                    const dealii::Tensor<1, dim> &slip,
+                    double                        path,
+                    double                        work);
+
     /** @brief The fraction of the displacement since the committed state after which the first
      * open row closes, with gaps that change linearly; 1 if none does. Collective. */
     double

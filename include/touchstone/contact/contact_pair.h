@@ -120,6 +120,15 @@ namespace Touchstone
       return overlaps[k];
     }
 
+    /** @brief The part of overlap() that is taken out of the gap at @p time: 1 but for "ramp". */
+    double
+    part_of_overlap(double time) const;
+
+    /** @brief What nodes pass through counts from the displacement of the last update() on. Done by
+     * commit(), too. */
+    void
+    commit_positions();
+
     /** @brief Give the rows their numbers among all of this rank, from @p first_index on. */
     void
     number_rows(std::size_t first_index);

@@ -102,8 +102,9 @@ namespace Touchstone
   /** @brief Section "Contact": how all pairs of the scene are enforced. */
   struct ContactParameters
   {
-    /** "elimination", "lagrange multipliers", ...; its own keys are in the same section. */
-    Choice<Registry<Enforcement, const ContactParameters &>> enforcement{"elimination"};
+    /** "elimination", "lagrange multipliers", ...; its own keys are in the same section. The scene
+     * replaces "automatic" by default_enforcement(). */
+    Choice<Registry<Enforcement, const ContactParameters &>> enforcement{"automatic"};
     /** Multiplies the automatic penalty (Young's modulus times tributary area over
      * face size, times 100 for penalty and 20 for augmented Lagrange); no unit. */
     double penalty_factor = 1.;
@@ -139,6 +140,18 @@ namespace Touchstone
                                          {{"automatic", Linearisation::automatic},
                                           {"consistent", Linearisation::consistent},
                                           {"frozen", Linearisation::frozen}}};
+    /** Of impulses: change of a velocity in the last sweep, relative to the closing speed; and the
+     * largest number of sweeps in a cycle. */
+    double       impulse_tolerance = 1e-10;
+    unsigned int most_sweeps       = 200;
+
+    /** @brief What "automatic" stands for.
+     * @param by_impulses In explicit dynamics. */
+    static const char *
+    default_enforcement(const bool by_impulses)
+    {
+      return by_impulses ? "forward increment" : "elimination";
+    }
 
     /** @param values Of this section: the enforcement decides on other keys. */
     void

@@ -189,8 +189,9 @@ namespace Touchstone
   };
 
   /** @brief Build all that a run needs, without solving.
+   * @return lines on what the run would cost, if that is known: cycles of explicit dynamics.
    * @throws InputError */
-  void
+  std::vector<std::string>
   validate(const Scene &scene, const std::string &folder_of_scene, MPI_Comm communicator);
 } // namespace Touchstone
 

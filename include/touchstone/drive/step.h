@@ -32,7 +32,7 @@ namespace Touchstone
     /** Displacement without ghosts, length. */
     const Vector          &displacement;
     const Contact         &contact;
-    const TimeIntegration &time_integration;
+    const CommittedMotion &time_integration;
     const Solid           &solid;
     StepCounts             counts;
     /** Forces of the supports. */
@@ -50,6 +50,16 @@ namespace Touchstone
     {
       return solid.strain_energy(displacement);
     }
+  };
+
+  /** @brief The cycles of an output interval of explicit dynamics. */
+  struct CycleCounts
+  {
+    unsigned int cycles = 0;
+    /** The shortest cycle, and the stable step of the cell that decides it, time. */
+    double smallest_step = 0., stable_step = 0.;
+    /** That cell, as messages name it. */
+    std::string cell;
   };
 
   /** @brief Remarks and warnings on a step that has been solved. */
@@ -148,6 +158,20 @@ namespace Touchstone
 
     virtual StepState
     state() const = 0;
+
+    /** @brief The cycles of the present step; null for steps that are solved by iterations. */
+    virtual const CycleCounts *
+    cycle_counts() const
+    {
+      return nullptr;
+    }
+
+    /** @brief What to try if a run cannot go on, as a sentence. */
+    virtual std::string
+    advice() const
+    {
+      return "Try more load steps, a finer mesh at the contact, or another enforcement.";
+    }
 
     /** @brief What a change of the mesh carries over. Collective. */
     virtual StepTransfer

@@ -46,6 +46,45 @@ namespace Touchstone
     dealii::Tensor<1, dim> linear, angular;
   };
 
+  /** @brief What results need to know of the motion at the committed state. */
+  class CommittedMotion
+  {
+  public:
+    virtual ~CommittedMotion() = default;
+
+    /**
+     * @brief Whether there is inertia: then bodies need no support, and energies need the forces.
+     */
+    virtual bool
+    dynamic() const = 0;
+
+    /** @brief The committed energies. */
+    const Energies &
+    committed_energies() const
+    {
+      return committed;
+    }
+
+    /** @brief Velocity and what else is to be transferred to another mesh; empty in statics. */
+    virtual std::vector<const Vector *>
+    rates() const
+    {
+      return {};
+    }
+
+    /** @brief Momenta of each body; empty in statics. Collective. */
+    virtual std::vector<BodyMomentum>
+    momenta() const
+    {
+      return {};
+    }
+
+  protected:
+    Energies committed;
+  };
+
+
+
   /**
    * @brief Time integration of one step: the nodal forces without contact (loads, stresses,
    * inertia, damping) and their derivative.
@@ -54,7 +93,7 @@ namespace Touchstone
    * the step loads, stresses and inertia enter the balance; contact forces are those of the end of
    * the step.
    */
-  class TimeIntegration : public Stateful
+  class TimeIntegration : public Stateful, public CommittedMotion
   {
   public:
     /** @brief The displacement at time 0, without ghosts. Collective. */
@@ -91,12 +130,6 @@ namespace Touchstone
     virtual double
     weight() const = 0;
 
-    /**
-     * @brief Whether there is inertia: then bodies need no support, and energies need the forces.
-     */
-    virtual bool
-    dynamic() const = 0;
-
     /** @brief Size of the inertial forces of the last balance(), and of what
      * round-off makes of them at @p u; force. Collective. */
     virtual double
@@ -121,20 +154,6 @@ namespace Touchstone
     void
     load(const ArchiveReader &archive) override;
 
-    /** @brief The committed energies. */
-    const Energies &
-    committed_energies() const
-    {
-      return committed;
-    }
-
-    /** @brief Velocity and acceleration, to be transferred to another mesh; empty in statics. */
-    virtual std::vector<const Vector *>
-    rates() const
-    {
-      return {};
-    }
-
     /**
      * @brief Continue on another mesh from the transferred rates(), the forces there at the
      * committed state, and the momenta() before, which bodies without supports keep. Collective.
@@ -149,13 +168,6 @@ namespace Touchstone
     /** @brief Set time and energies of the committed state. */
     void
     resume(double time, const Energies &energies);
-
-    /** @brief Momenta of each body at the committed state; empty in statics. Collective. */
-    virtual std::vector<BodyMomentum>
-    momenta() const
-    {
-      return {};
-    }
 
     /**
      * @brief The scheme that the parameters choose.
@@ -175,7 +187,7 @@ namespace Touchstone
   protected:
     /** Of the committed state and of the end of the step; energies of the latter by end_step(). */
     double   committed_time = 0., time = 0.;
-    Energies committed, end;
+    Energies end;
     /** Vectors of the committed state other than the displacement, by their names in checkpoints;
      * none has ghosts. */
     std::vector<std::pair<std::string, Vector *>> fields;

@@ -4,6 +4,7 @@
 #define touchstone_drive_time_parameters_h
 
 #include <touchstone/base/keyword.h>
+#include <touchstone/explicit/explicit_parameters.h>
 #include <touchstone/solid/mass.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -24,14 +25,17 @@ namespace Touchstone
       hht,
       generalized_alpha,
       /** With the mass of slave nodes moved to their neighbours. */
-      contact_stabilized
+      contact_stabilized,
+      /** Explicit. */
+      central_differences
     };
     Keyword<Scheme>   scheme{Scheme::statics,
                            {{"static", Scheme::statics},
                               {"newmark", Scheme::newmark},
                               {"hht", Scheme::hht},
                               {"generalized_alpha", Scheme::generalized_alpha},
-                              {"contact_stabilized", Scheme::contact_stabilized}}};
+                              {"contact_stabilized", Scheme::contact_stabilized},
+                              {"central_differences", Scheme::central_differences}}};
     Keyword<MassKind> mass{MassKind::consistent,
                            {{"consistent", MassKind::consistent},
                             {"lumped", MassKind::lumped},
@@ -76,10 +80,21 @@ namespace Touchstone
      * far; no unit. */
     double gain_tolerance = 0.01;
 
+    /** Of explicit schemes. */
+    ExplicitParameters cycles;
+
     bool
     dynamic() const
     {
       return scheme != Scheme::statics;
+    }
+
+    /** @brief Whether steps are output intervals, in which many cycles run without any system of
+     * equations (doc/explicit.md). */
+    bool
+    runs_in_cycles() const
+    {
+      return scheme == Scheme::central_differences;
     }
 
     /**

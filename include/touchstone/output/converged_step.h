@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -36,6 +37,9 @@ namespace Touchstone
     std::map<std::string, double> energies;
     /** Where there is inertia: momentum, and angular momentum about the origin. */
     std::optional<dealii::Tensor<1, dim>> momentum, angular_momentum;
+
+    /** Of explicit dynamics: number of cycles in the step, and the length of the shortest. */
+    std::optional<std::pair<unsigned int, double>> cycles;
 
     /** @name The state itself, on this rank; null or empty where nobody provides it */
     /** @{ */

@@ -53,6 +53,11 @@ namespace Touchstone
     void
     end_step(unsigned int newton_iterations);
 
+    /** @brief Of explicit dynamics: the output interval ended after this many cycles, of which the
+     * shortest was @p step, which @p cell decides. */
+    void
+    end_step(unsigned int cycles, double step, const std::string &cell);
+
     /** @brief The step did not converge, for @p reason, and is tried again with
      * the step size @p step_size. */
     void
@@ -64,11 +69,14 @@ namespace Touchstone
     shorten_step(double step_size);
 
   private:
-    Log          &log;
-    const double  end_time;
-    double        start_time = 0.;
-    double        time;
-    bool          header_due;
+    Log         &log;
+    const double end_time;
+    double       start_time = 0.;
+    double       time;
+    bool         header_due;
+    /** "about 7 s left", with a comma before, or empty. */
+    std::string
+                  time_left(double elapsed) const;
     dealii::Timer timer;
   };
 

@@ -28,6 +28,8 @@ namespace Touchstone
     std::uint64_t unknowns  = 0;
     /** Load steps that converged. */
     unsigned int steps = 0;
+    /** Cycles of explicit dynamics in them; 0 for implicit runs. */
+    std::uint64_t cycles = 0;
 
     /** @brief A mesh on which a step was solved. */
     struct Mesh

@@ -27,7 +27,9 @@ namespace Touchstone
     full,
     b_bar,
     incompatible_modes,
-    f_bar
+    f_bar,
+    /** Of explicit dynamics. */
+    one_point
   };
 
   /** @brief Section "Body NAME". */
@@ -44,8 +46,27 @@ namespace Touchstone
                                        {"full", ElementType::full},
                                        {"b-bar", ElementType::b_bar},
                                        {"incompatible modes", ElementType::incompatible_modes},
-                                       {"F-bar", ElementType::f_bar}}};
-    MaterialParameters   material;
+                                       {"F-bar", ElementType::f_bar},
+                                       {"one point", ElementType::one_point}}};
+    /** What holds the hourglass modes of one-point cells: springs, dampers, or nothing. */
+    enum class Hourglass
+    {
+      stiffness,
+      viscous,
+      none
+    };
+    Keyword<Hourglass> hourglass{Hourglass::stiffness,
+                                 {{"stiffness", Hourglass::stiffness},
+                                  {"viscous", Hourglass::viscous},
+                                  {"none", Hourglass::none}}};
+    /** Factor of the elastic stiffness, or part of critical damping; a number or "automatic"; no
+     * unit. */
+    std::string hourglass_coefficient = "automatic";
+    /** @brief That factor: "automatic" stands for 1 with springs of elastic bodies, and for 0.1
+     * else. */
+    double
+                       hourglass_factor() const;
+    MaterialParameters material;
     /** Boundaries on which the normal displacement is zero (must be plane). */
     std::vector<std::string> symmetry;
     /** Boundaries on which all displacements are zero. */

@@ -39,6 +39,33 @@ namespace Touchstone
   class BoundaryConditions
   {
   public:
+    using Function = std::shared_ptr<const Formula>;
+
+    /** One direction prescribed at one owned node. */
+    struct Prescribed
+    {
+      Index                  node;
+      dealii::Tensor<1, dim> direction;
+      /** Null for zero. */
+      Function           value;
+      dealii::Point<dim> position;
+      unsigned int       body;
+      /** Which reaction it belongs to. */
+      unsigned int support;
+
+      /** The displacement along the direction at time @p t, length. */
+      double
+      displacement(double t) const;
+    };
+
+    /** Tractions and dead pressure of a boundary; null for none. */
+    struct Load
+    {
+      BoundaryIds               boundary;
+      std::array<Function, dim> traction;
+      Function                  pressure;
+    };
+
     /** @throws InputError for boundaries that do not exist, and for a symmetry
      * boundary that is not plane. */
     BoundaryConditions(const Forest &forest, const Solid &solid);
@@ -48,6 +75,40 @@ namespace Touchstone
      * @throws InputError if a formula is not finite. */
     void
     external_force(double t, const Vector &u, Vector &force) const;
+
+    /** @name The conditions themselves, for explicit dynamics, which evaluates them in each cycle
+     */
+    /** @{ */
+    /** @brief Of owned nodes, in the order of precedence. */
+    const std::vector<Prescribed> &
+    prescribed_directions() const
+    {
+      return prescribed;
+    }
+    /** @brief Boundaries that reaction forces are summed for, with zero forces. */
+    const std::vector<Reaction> &
+    reaction_names() const
+    {
+      return supports;
+    }
+    const std::vector<Load> &
+    surface_loads() const
+    {
+      return loads;
+    }
+    /** @brief By body; empty if there are none at all. */
+    const std::vector<std::array<Function, dim>> &
+    volume_loads() const
+    {
+      return body_forces;
+    }
+    /** @brief All formulas, for Formulas::check(). */
+    const Formulas &
+    all_formulas() const
+    {
+      return formulas;
+    }
+    /** @} */
 
     /** @brief Pressures whose forces depend on the displacement. */
     const FollowerPressure &
@@ -87,32 +148,6 @@ namespace Touchstone
     reactions(const Vector &unbalanced) const;
 
   private:
-    using Function = std::shared_ptr<const Formula>;
-
-    /** One direction prescribed at one owned node. */
-    struct Prescribed
-    {
-      Index                  node;
-      dealii::Tensor<1, dim> direction;
-      /** Null for zero. */
-      Function           value;
-      dealii::Point<dim> position;
-      unsigned int       body;
-      /** Which reaction it belongs to. */
-      unsigned int support;
-
-      /** The displacement along the direction at time @p t, length. */
-      double
-      displacement(double t) const;
-    };
-
-    struct Load
-    {
-      BoundaryIds               boundary;
-      std::array<Function, dim> traction;
-      Function                  pressure;
-    };
-
     const Solid            &solid;
     Formulas                formulas;
     std::vector<Prescribed> prescribed;

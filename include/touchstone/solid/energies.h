@@ -4,6 +4,7 @@
 #define touchstone_solid_energies_h
 
 #include <algorithm>
+#include <boost/serialization/version.hpp>
 
 namespace Touchstone
 {
@@ -11,8 +12,8 @@ namespace Touchstone
    * @brief The energy balance of a scene since time 0; force times length.
    *
    * Present and dissipated energy are equal to initial energy and external work, up to
-   * balance_error(): kinetic + strain + plastic + contact + friction + damping = initial +
-   * external.
+   * balance_error(): kinetic + strain + plastic + contact + friction + damping + hourglass +
+   * viscous = initial + external.
    */
   struct Energies
   {
@@ -26,6 +27,9 @@ namespace Touchstone
     double friction = 0.;
     /** Dissipated by Rayleigh damping. */
     double damping = 0.;
+    /** Of explicit dynamics: stored in or dissipated by the control of hourglass modes, and
+     * dissipated by bulk viscosity. */
+    double hourglass = 0., viscous = 0.;
     /** Work of loads and supports. */
     double external = 0.;
     /** Of the state at time 0. */
@@ -37,10 +41,12 @@ namespace Touchstone
      * forgotten. */
     template <class Archive>
     void
-    serialize(Archive &archive, const unsigned int)
+    serialize(Archive &archive, const unsigned int version)
     {
-      auto &[k, s, p, c, f, d, e, first, most] = *this;
+      auto &[k, s, p, c, f, d, h, v, e, first, most] = *this;
       archive &k &s &p &c &f &d &e &first &most;
+      if (version > 0) // not in checkpoints of earlier versions
+        archive &h &v;
     }
 
     /** @brief Kinetic and strain energy of the bodies. */
@@ -55,7 +61,8 @@ namespace Touchstone
     double
     balance_error() const
     {
-      return present() + plastic + contact + friction + damping - initial - external;
+      return present() + plastic + contact + friction + damping + hourglass + viscous - initial -
+             external;
     }
 
     /** @brief Energy without a physical source: generated numerically, or released by contact
@@ -74,5 +81,7 @@ namespace Touchstone
     }
   };
 } // namespace Touchstone
+
+BOOST_CLASS_VERSION(Touchstone::Energies, 1)
 
 #endif

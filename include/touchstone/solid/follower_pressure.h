@@ -27,6 +27,13 @@ namespace Touchstone
   class FollowerPressure
   {
   public:
+    /** @brief A pressure on a boundary. */
+    struct Load
+    {
+      BoundaryIds                    boundary;
+      std::shared_ptr<const Formula> pressure;
+    };
+
     explicit FollowerPressure(const Solid &solid)
       : solid(solid)
     {
@@ -45,6 +52,12 @@ namespace Touchstone
       return loads.empty();
     }
 
+    const std::vector<Load> &
+    all_loads() const
+    {
+      return loads;
+    }
+
     /** @brief Add the nodal forces in the displacement @p u (without ghosts).
      * Collective. */
     void
@@ -56,12 +69,6 @@ namespace Touchstone
     add_stiffness(double t, const Vector &u, bool symmetric, std::vector<RankOneTerm> &terms) const;
 
   private:
-    struct Load
-    {
-      BoundaryIds                    boundary;
-      std::shared_ptr<const Formula> pressure;
-    };
-
     /** The deformed surface at a quadrature point of a loaded face. */
     struct SurfacePoint
     {

@@ -178,6 +178,22 @@ namespace Touchstone
 
 
   void
+  Friction::record(const ContactRow     &row,
+                   const Tensor<1, dim> &force,
+                   const Tensor<1, dim> &slip,
+                   const double          path,
+                   const double          work)
+  {
+    FrictionRow &f        = present[row.index];
+    f.kinematics.slip     = slip;
+    f.history.traction    = f.kinematics.components(force);
+    f.history.slip_length = f.history.slip_length + path;
+    f.history.work        = f.history.work + work;
+  }
+
+
+
+  void
   Friction::adopt(const ContactRow     &row,
                   const Tensor<1, dim> &force,
                   const double          slip_length,

@@ -189,8 +189,8 @@ namespace Touchstone
   void
   Surface::collect_nodes_of_faces()
   {
-    // The order in which normals are summed is that of the faces, so that a run repeats itself
-    // bit by bit.
+    // The order in which normals are summed is that of the keys of faces, so that they have the
+    // same bits on any number of ranks.
     std::map<Index, std::vector<std::pair<Face *, unsigned int>>> around;
     for (auto *list : {&faces, &ghost_faces})
       for (Face &face : *list)
@@ -202,6 +202,10 @@ namespace Touchstone
               evaluate(face, exact_surface(face), node_coordinates(face, m)).tangents);
           }
     for (auto &[node, list] : around)
+      std::sort(list.begin(), list.end(), [](const auto &a, const auto &b) {
+        return a.first->key < b.first->key;
+      });
+    for (auto &[node, list] : around)
       surface_nodes.push_back({node, {}, std::move(list)});
   }
 
@@ -210,33 +214,41 @@ namespace Touchstone
   void
   Surface::collect_owned_nodes(const Solid &solid)
   {
-    // A map, for ascending order of the nodes.
+    // A map, for ascending order of the nodes. Areas are summed in the order of keys, as normals
+    // are.
     std::map<Index, SurfaceNode> found;
+    std::vector<const Face *>    in_order;
     for (const auto *list : {&faces, &ghost_faces})
       for (const Face &face : *list)
-        {
-          auto         areas = whole_areas(face, nullptr, /*reference=*/true);
-          const double area  = std::accumulate(areas.begin(), areas.begin() + face.n_nodes(), 0.);
-          // The area of a hanging node belongs to those that it follows (doc/theory.md 11).
-          const TraceBasis *basis = trace(face);
-          if (basis)
-            areas = basis->apply(areas);
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            {
-              const Index index = basis ? basis->nodes[m] : face.nodes[m];
-              if (!solid.owned.is_element(dim * index))
-                continue;
-              // The area A = int N_s of the reference state, by which forces become tractions
-              // (doc/theory.md 1).
-              SurfaceNode &node = found[index];
-              node.node         = index;
-              node.area += areas[m];
-              if (index != face.nodes[m])
-                continue; // the face does not have the node itself
-              node.reference = face.reference[m];
-              node.size      = std::max(node.size, std::sqrt(area) / face.degree);
-            }
-        }
+        in_order.push_back(&face);
+    std::sort(in_order.begin(), in_order.end(), [](const Face *a, const Face *b) {
+      return a->key < b->key;
+    });
+    for (const Face *const in_list : in_order)
+      {
+        const Face  &face  = *in_list;
+        auto         areas = whole_areas(face, nullptr, /*reference=*/true);
+        const double area  = std::accumulate(areas.begin(), areas.begin() + face.n_nodes(), 0.);
+        // The area of a hanging node belongs to those that it follows (doc/theory.md 11).
+        const TraceBasis *basis = trace(face);
+        if (basis)
+          areas = basis->apply(areas);
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          {
+            const Index index = basis ? basis->nodes[m] : face.nodes[m];
+            if (!solid.owned.is_element(dim * index))
+              continue;
+            // The area A = int N_s of the reference state, by which forces become tractions
+            // (doc/theory.md 1).
+            SurfaceNode &node = found[index];
+            node.node         = index;
+            node.area += areas[m];
+            if (index != face.nodes[m])
+              continue; // the face does not have the node itself
+            node.reference = face.reference[m];
+            node.size      = std::max(node.size, std::sqrt(area) / face.degree);
+          }
+      }
     for (const auto &entry : found)
       nodes.push_back(entry.second);
   }

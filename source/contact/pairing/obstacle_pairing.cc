@@ -95,6 +95,19 @@ namespace Touchstone
         return (y - surface->project(y)) * surface->normal(y);
       }
 
+      std::optional<PointContact>
+      at(const Point<dim> &x, const double time) const override
+      {
+        const Point<dim> y = x - motion_at(time);
+        return PointContact{surface->normal(y), y - surface->project(y)};
+      }
+
+      Tensor<1, dim>
+      shift(const double time) const override
+      {
+        return motion_at(time);
+      }
+
     private:
       Tensor<1, dim>
       motion_at(const double time) const

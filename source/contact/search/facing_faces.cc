@@ -32,6 +32,14 @@ namespace Touchstone
 
   namespace
   {
+    void
+    sort_by_key(std::vector<const Face *> &faces)
+    {
+      std::sort(faces.begin(), faces.end(), [](const Face *a, const Face *b) {
+        return a->key < b->key;
+      });
+    }
+
     BoundingBox<dim>
     box(const Face &face)
     {
@@ -253,8 +261,10 @@ namespace Touchstone
             near.push_back(face);
         return cover(slave, near);
       }
-    const Tensor<1, dim> normal             = evaluate(slave, nullptr, {{0., 0.}}).normal();
-    near                                    = search.near(box(slave), normal);
+    const Tensor<1, dim> normal = evaluate(slave, nullptr, {{0., 0.}}).normal();
+    near                        = search.near(box(slave), normal);
+    // Integrals over the faces are summed in the order of keys, on any number of ranks.
+    sort_by_key(near);
     const std::vector<FacingFace> all       = cover(slave, near);
     const bool                    connected = covering_is_connected(all, near);
     if (is_ambiguous(slave, normal, all, connected))
@@ -286,7 +296,8 @@ namespace Touchstone
     BoundingBox<dim> around = box(slave);
     for (const Face *face : in.faces)
       around.merge_with(box(*face));
-    const std::vector<const Face *> masters = search.near(around, normal);
+    std::vector<const Face *> masters = search.near(around, normal);
+    sort_by_key(masters);
 
     // Area and integral of the gap by component.
     const std::map<const Face *, unsigned int> number = components_by_face(masters);

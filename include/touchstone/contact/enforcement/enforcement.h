@@ -95,6 +95,14 @@ namespace Touchstone
       return false;
     }
 
+    /** @brief Whether it belongs to explicit dynamics, where contact is an impulse in each cycle and
+     * no linear system is solved: it then is an ImpulseEnforcement (doc/explicit.md, section 9). */
+    virtual bool
+    by_impulses() const
+    {
+      return false;
+    }
+
     /** @brief A step begins, or begins again: no linear solve has come before. */
     virtual void
     begin_step()

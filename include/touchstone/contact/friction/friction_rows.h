@@ -59,6 +59,16 @@ namespace Touchstone
     void
     end_step(const ContactRows &rows, const RowArray<RowState> &states);
 
+    /** @brief The step ends with this force and slip in a row, where its friction was followed
+     * through the step by impulses: no slip is measured from a contact point.
+     * @param path Length of the slip path of the step. @param work Force times length. */
+    void
+    record(const ContactRow             &row,
+           const dealii::Tensor<1, dim> &force,
+           const dealii::Tensor<1, dim> &slip,
+           double                        path,
+           double                        work);
+
     /** @brief A step begins with @p force in a row, after a change of the mesh.
      * @param work Force times length. */
     void

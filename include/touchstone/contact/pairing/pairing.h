@@ -34,6 +34,15 @@ namespace Touchstone
     double search_distance = 0.;
   };
 
+  /** @brief What a slave node meets, where that is known without a search. */
+  struct PointContact
+  {
+    /** Unit outward normal of the master. */
+    dealii::Tensor<1, dim> normal;
+    /** From the contact point to the node, length. */
+    dealii::Tensor<1, dim> gap_vector;
+  };
+
   /** @brief What a pairing knows of earlier steps besides positions, in keys of faces. */
   struct PairingMemory
   {
@@ -110,6 +119,21 @@ namespace Touchstone
     distance(const dealii::Point<dim> & /*x*/, double /*time*/) const
     {
       return std::numeric_limits<double>::infinity();
+    }
+
+    /** @brief Geometry of the row of a slave node at @p x, where it depends on nothing else; nothing
+     * where other nodes enter it. */
+    virtual std::optional<PointContact>
+    at(const dealii::Point<dim> & /*x*/, double /*time*/) const
+    {
+      return {};
+    }
+
+    /** @brief Displacement of the master since time 0, if it is rigid and driven, length. */
+    virtual dealii::Tensor<1, dim>
+    shift(double /*time*/) const
+    {
+      return {};
     }
 
     /** @brief Amount of work of its searches so far; zero without any. */

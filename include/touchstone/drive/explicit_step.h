@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_drive_explicit_step_h
+#define touchstone_drive_explicit_step_h
+
+#include <touchstone/drive/step.h>
+#include <touchstone/explicit/explicit_cells.h>
+#include <touchstone/explicit/impulse_contact.h>
+#include <touchstone/explicit/nodal_loads.h>
+#include <touchstone/explicit/node_supports.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief An output interval of explicit dynamics: as many cycles of central differences with
+   * lumped mass as the stable step asks for (doc/explicit.md).
+   *
+   * The state holds the displacement at the end of a cycle and the velocity in its middle.
+   * Everything in a cycle is done on plain arrays; results have the same bits on any number of
+   * ranks.
+   */
+  class ExplicitStep : public Step, public CommittedMotion
+  {
+  public:
+    ExplicitStep(const Scene         &scene,
+                 const Forest        &forest,
+                 Solid               &solid,
+                 dealii::TimerOutput &timer);
+
+    std::vector<std::string>
+    start() override;
+    /** @return 0: there are no iterations. @throws ExplicitFailure */
+    unsigned int
+    solve(double t, const NewtonParameters &parameters, const Newton::Observer &observer) override;
+    void
+    prepare(double) override
+    {
+    }
+    StepFindings
+    findings() const override
+    {
+      return {};
+    }
+    StepDifficulty
+    difficulty() const override
+    {
+      return {};
+    }
+    double
+    try_commit(double smallest_part) override;
+    void
+    rollback() override;
+    StepState
+    state() const override;
+    const CycleCounts *
+    cycle_counts() const override
+    {
+      return &counts;
+    }
+    std::string
+    advice() const override;
+    /** @brief Never called: scenes with refinement are refused. */
+    StepTransfer
+    transfer() const override;
+    void
+    adopt(const StepTransfer &before, double t) override;
+    void
+    save(ArchiveWriter &archive) override;
+    void
+    load(const ArchiveReader &archive) override;
+
+    bool
+    dynamic() const override
+    {
+      return true;
+    }
+    std::vector<const Vector *>
+    rates() const override
+    {
+      return {&velocity};
+    }
+    std::vector<BodyMomentum>
+    momenta() const override;
+
+  private:
+    /** What a cycle changes. */
+    struct State
+    {
+      double time = 0.;
+      /** Length of the last cycle. */
+      double    length = 0.;
+      NodeField u, v;
+      /** Forces on the nodes at the end of the cycle: of loads, of stress and of bulk viscosity;
+       * and of supports, during the cycle. */
+      NodeField external, internal, viscous, support;
+    };
+
+    /** Work since the committed state by owned node, force times length. */
+    struct NodalWork
+    {
+      double external = 0., viscous = 0., damping = 0.;
+    };
+
+    const Scene              &scene;
+    Solid                    &solid;
+    dealii::TimerOutput      &timer;
+    const ExplicitParameters &parameters;
+    BoundaryConditions        boundary_conditions;
+    Contact                   contact;
+    NodeMap                   map;
+    NodeSupports              supports;
+    /** Null without contact pairs. */
+    std::unique_ptr<ImpulseContact> impulses;
+    NodalLoads                      loads;
+    ExplicitCells                   cells;
+    State                           now, kept;
+    std::vector<NodalWork>          work;
+    /** Velocity before a cycle, and loads and viscous forces at its beginning. */
+    NodeField v_before, external_before, viscous_before;
+    /** Rayleigh's mass factor by owned node, 1/time; empty if there is none. */
+    std::vector<double> damping;
+    CycleCounts         counts;
+    /** The committed displacement and velocity for results. */
+    Vector displacement, velocity;
+
+    /** Tell contact the inverse masses without the directions of supports, for a cycle whose forces
+     * act for the time @p between. */
+    void
+           set_mobilities(double between);
+    double mobile_for = 0.;
+    /** Impulse that changes the velocity of an owned node by one: the mass, and the damping of what
+     * the velocity changes by, since that is damped with the mean of both ends. */
+    double
+    damped_mass(const unsigned int node, const double between) const
+    {
+      return cells.masses()[node] * (damping.empty() ? 1. : 1. + 0.5 * damping[node] * between);
+    }
+    /** Set initial displacements and velocities by the formulas of the bodies. */
+    void
+    set_initial_values();
+    void
+    set_from_formulas(const std::string         &key,
+                      std::array<std::string, 3> BodyParameters::*formulas,
+                      NodeField                                  &field) const;
+    /** Forces at the present time and displacement, the history of the materials going on by @p
+     * step. @throws ExplicitFailure on all ranks */
+    void
+    evaluate_forces(double step);
+    /** Compute the stable step. @return number of equal cycles up to time @p t. */
+    unsigned int
+    plan_cycles(double t);
+    /** One cycle of this length. */
+    void
+    cycle(double length);
+    /** Set now.v to the velocity that forces and supports give. */
+    void
+    kick(double length);
+    void
+    add_work(double length);
+    /** Let contact change the velocities of a cycle. */
+    void
+    press(double length);
+    /** @throws ExplicitFailure if a cell of this rank has failed or a velocity is not finite. */
+    void
+    check(const CellPlace &failed) const;
+    /** Energies at the end of the present interval. Collective. */
+    Energies
+    energies();
+    void
+    update_results();
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_explicit_cells_h
+#define touchstone_explicit_explicit_cells_h
+
+#include <touchstone/explicit/cell_forces.h>
+#include <touchstone/explicit/explicit_parameters.h>
+
+#include <deal.II/base/point.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  class Solid;
+
+  /** @brief A cell as messages name it, the same on all ranks. */
+  struct CellPlace
+  {
+    /** Of NodeMap; the highest number: no cell. */
+    std::uint64_t key  = static_cast<std::uint64_t>(-1);
+    unsigned int  body = 0;
+    /** Reference position of its centre, length. */
+    double position[dim] = {};
+
+    bool
+    valid() const
+    {
+      return key != static_cast<std::uint64_t>(-1);
+    }
+
+    /** @brief "body 'NAME' at (x, y, z)". */
+    std::string
+    text(const std::vector<BodyParameters> &bodies) const;
+  };
+
+  /** @brief The longest stable step and the cell that decides it. */
+  struct StableStep
+  {
+    double    length = 0.;
+    CellPlace cell;
+  };
+
+  /**
+   * @brief All cells of an explicit run: masses, forces, energies and the stable step.
+   *
+   * Forces at owned nodes are complete without communication, and have the same bits on any number
+   * of ranks (doc/explicit.md, section 2).
+   */
+  class ExplicitCells
+  {
+  public:
+    ExplicitCells(const NodeMap                     &map,
+                  const std::vector<BodyParameters> &bodies,
+                  const ExplicitParameters          &parameters);
+
+    /** @brief Lumped masses of the local nodes, with what mass scaling has added. */
+    const std::vector<double> &
+    masses() const
+    {
+      return nodal_mass;
+    }
+
+    /**
+     * @brief Set the forces of stress on the nodes (as they act on these), and those of bulk
+     * viscosity; the history of materials goes on to @p u.
+     * @param step Time since the last call.
+     * @return the first cell that is inverted or whose law fails, of this rank.
+     */
+    CellPlace
+    evaluate(const NodeField &u,
+             const NodeField &v,
+             double           step,
+             NodeField       &force,
+             NodeField       &viscous);
+
+    /** @brief Compute the stable step in the displacement @p u. @p v as for evaluate().
+     * Collective. */
+    StableStep
+    stable_step(const NodeField &u, const NodeField &v);
+
+    /** @brief Give mass to cells that need a shorter cycle than the parameters want, before the
+     * first step. @return the mass of all bodies and what was added. Collective.
+     * @throws InputError if that is too much. */
+    std::pair<double, double>
+    scale_masses(const NodeField &u);
+
+    /** @brief Energies at the displacement of the last evaluate(), summed over the ranks.
+     * Collective. */
+    struct Energies
+    {
+      double strain, plastic, hourglass;
+    };
+    Energies
+    energies(const NodeField &u);
+
+    /** @name History, see CellForces */
+    /** @{ */
+    void
+    commit();
+    void
+    rollback();
+    /** @brief Drop what only saves time. */
+    void
+    forget();
+    /** @brief Give the history to the bodies, for output and checkpoints, and take it. */
+    void
+    to_solid(Solid &solid) const;
+    void
+    from_solid(const Solid &solid);
+    /** @} */
+
+    /** @brief Of the ranks the first cell by key. Collective. */
+    CellPlace
+    first(const CellPlace &mine) const;
+
+  private:
+    const NodeMap                           &map;
+    const std::vector<BodyParameters>       &bodies;
+    const ExplicitParameters                &parameters;
+    std::vector<std::unique_ptr<CellForces>> of_bodies;
+    /** By body and cell: masses of the nodes without scaling, the factor of mass scaling, and
+     * the squared frequency with it. */
+    std::vector<std::vector<CellForces::NodalMasses>> cell_masses;
+    std::vector<std::vector<double>>                  factors, frequencies;
+    std::vector<double>                               nodal_mass;
+
+    void
+    sum_masses();
+    void
+    update_frequencies(const NodeField &u);
+    CellPlace
+    place(unsigned int body, unsigned int c) const;
+    void
+    add_viscosity(const NodeField &u, const NodeField &v, NodeField &viscous) const;
+    double
+    step_of(unsigned int body, unsigned int c, const NodeField &u, const NodeField &v) const;
+  };
+} // namespace Touchstone
+
+#endif

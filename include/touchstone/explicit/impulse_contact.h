@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_impulse_contact_h
+#define touchstone_explicit_impulse_contact_h
+
+#include <touchstone/contact/contact.h>
+#include <touchstone/contact/enforcement/impulse_enforcement.h>
+#include <touchstone/explicit/impulse_solver.h>
+#include <touchstone/explicit/node_map.h>
+#include <touchstone/explicit/row_motion.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Energy that contact gave to the bodies, force times length: negative where it took it.
+   */
+  struct ImpulseEnergy
+  {
+    /** Of impulses along the normals and against slip, and the work of obstacles. */
+    double normal = 0., friction = 0., obstacles = 0.;
+  };
+
+  /** @brief Work of contact since the start of the run. */
+  struct ImpulseWork
+  {
+    std::uint64_t cycles = 0, sweeps = 0, renewals = 0, unconverged = 0;
+    unsigned int  most_sweeps = 0;
+  };
+
+  /**
+   * @brief The contact of explicit dynamics: each cycle changes the free velocities to those that
+   * contact allows (doc/explicit.md, section 9).
+   *
+   * The rows come from Contact, that is from the same pairings as in implicit runs, and are kept
+   * until motion demands others (RowMotion); in between their gaps follow the nodes. What the
+   * impulses of an output interval come to goes into the RowState of the rows and into the
+   * history of friction, from which all results are made.
+   */
+  class ImpulseContact
+  {
+  public:
+    /** @param contact With an enforcement by impulses; must live as long, as the others must. */
+    ImpulseContact(Contact &contact, const ContactParameters &parameters, const NodeMap &nodes);
+
+    /** @brief The inverse masses of owned nodes by local node, without the directions that
+     * supports determine. Must be set before the first project(), and when they change. */
+    void
+    set_mobility(const std::vector<dealii::SymmetricTensor<2, dim>> &inverse_mass);
+
+    /** @brief The state is a committed one: rows are made anew in the next cycle, and what contact
+     * does is counted from here. */
+    void
+    begin_interval();
+
+    /**
+     * @brief Change the velocities @p v with which nodes would move during the cycle from @p time
+     * to @p time + @p step so that no row penetrates at its end. Collective.
+     * @param u      Displacement at the start of the cycle; ghosts as well, as of the others.
+     * @param before Velocities of the cycle before, on the mean of which and the new ones forces do
+     *               work. @param v Free velocities; of owned nodes those that contact allows.
+     * @throws InfeasibleContact if supports or obstacles leave no such velocity.
+     */
+    void
+    project(const NodeField &u, const NodeField &before, NodeField &v, double time, double step);
+
+    /** @brief Call @p use(node, impulse) for each owned node, by its local number, on which contact
+     * acted in the last project(). Impulses, force times time, on supported nodes as well. */
+    template <class Use>
+    void
+    for_each_impulse(const Use &use) const
+    {
+      if (acted)
+        for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+          use(local[node], solver.impulse(node));
+    }
+
+    /** @brief The interval ends with the displacement @p u: bring the rows there, and give them
+     * their states and histories. Contact::commit() or rollback() follows. Collective. */
+    void
+    end_interval(const NodeField &u, double time);
+
+    /** @brief Energies since begin_interval(), the same bits on any number of ranks. Collective.
+     */
+    ImpulseEnergy
+    energy() const;
+
+    const ImpulseWork &
+    work() const
+    {
+      return counted;
+    }
+
+  private:
+    Contact                 &contact;
+    ImpulseEnforcement      &enforcement;
+    const ContactParameters &parameters;
+    const NodeMap           &nodes;
+    ImpulseSolver            solver;
+    RowMotion                motion;
+    Vector                   displacement;
+    double                   interval_start = 0.;
+    bool                     renew_rows     = true;
+    /** There were impulses in the last cycle. */
+    bool        acted = false;
+    ImpulseWork counted;
+
+    /** What is known of each row of Contact, by its index. */
+    struct RowHistory
+    {
+      /** Of the last cycle. */
+      dealii::Tensor<1, dim> impulse;
+      bool                   sliding = false;
+      /** Since the interval began: impulse, slip (length), its path, work against friction, and
+       * energies. */
+      dealii::Tensor<1, dim> total, slip;
+      double                 path = 0., friction_work = 0.;
+      ImpulseEnergy          energy;
+      bool                   pressed = false, slipped = false;
+    };
+    std::vector<RowHistory> history;
+    /** First dofs of the nodes around each slave node of a pair of bodies, by row index. */
+    std::vector<std::vector<Index>> patches;
+
+    /** What is known of each row of the solver: the row of Contact, its gap and gap vector at zero
+     * displacements, length. */
+    struct KeptRow
+    {
+      std::size_t            index;
+      double                 gap;
+      dealii::Tensor<1, dim> gap_vector;
+      /** ContactPair::part_of_overlap() that counted when the row was made. */
+      double part;
+    };
+    std::vector<KeptRow>     kept;
+    std::vector<std::size_t> kept_rows;
+    /** By node of the solver: number here of owned ones, displacement, reference position,
+     * displacement when the rows were made, and motion since. */
+    std::vector<unsigned int>                    local;
+    std::vector<dealii::Tensor<1, dim>>          u_nodes, reference, made_at, moved, v_before;
+    std::vector<dealii::SymmetricTensor<2, dim>> inverse_masses;
+
+    void
+    find_patches();
+    void
+    renew(const NodeField &u, double time);
+    void
+    make_rows();
+    void
+    import(const NodeField &u, const NodeField &before, const NodeField &v);
+    void
+    set_geometry(double time, double step);
+    void
+    set_pair_geometry(ImpulseRow &row, const KeptRow &from, double time, double step);
+    void
+    set_obstacle_geometry(ImpulseRow &row, const KeptRow &from, double time, double step);
+    void
+    set_lever(ImpulseRow &row, const ContactRow &of);
+    void
+    check_feasible(double step, bool converged) const;
+    void
+    keep_results(double step);
+  };
+} // namespace Touchstone
+
+#endif

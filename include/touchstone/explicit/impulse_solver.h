@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_impulse_solver_h
+#define touchstone_explicit_impulse_solver_h
+
+#include <touchstone/base/exact_sum.h>
+#include <touchstone/contact/friction/friction.h>
+#include <touchstone/explicit/row_nodes.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief A contact row in one cycle: the relative velocity w = sum A_a v_a - drive, and the
+   * impulse p on its slave side, which changes the velocities by W A^T p (doc/explicit.md, section
+   * 9.1).
+   */
+  struct ImpulseRow
+  {
+    /** @name Fixed while the row is kept */
+    /** @{ */
+    RowKey key;
+    /** Its slots: of the slave node and the stencil, and after them of the nodes that take up the
+     * moment of a lever. */
+    std::size_t  first   = 0;
+    unsigned int n_nodes = 0, n_lever = 0;
+    /** The slave and master surface are joined. */
+    bool tied = false;
+    /** Null without friction. */
+    const FrictionRow *friction = nullptr;
+    double             area     = 0.;
+    /** @} */
+
+    /** @name Input of the cycle */
+    /** @{ */
+    dealii::Tensor<1, dim> normal;
+    /** Projector onto the directions of friction; zero without. */
+    dealii::Tensor<2, dim> tangential;
+    /** Velocity that the gap leaves free: n . w >= -allowed. Of tied rows w = -allowed n. */
+    dealii::Tensor<1, dim> allowed;
+    /** Velocity of the obstacle. */
+    dealii::Tensor<1, dim> drive;
+    /** The lever entries act. */
+    bool levered = false;
+    /** Slips since the cycle before. */
+    bool sliding = false;
+    /** Slip path before the cycle, length. */
+    double slip_length = 0.;
+    /** @} */
+
+    /** @name Result, and start of the next cycle */
+    /** @{ */
+    /** On the slave side, force times time. */
+    dealii::Tensor<1, dim> impulse;
+    /** Relative velocity at the end of the cycle, and before impulses. */
+    dealii::Tensor<1, dim> velocity, free_velocity;
+    /** Supports determine the motion along the normal, but not as contact requires. */
+    bool blocked = false;
+    /** @} */
+  };
+
+  /** @brief How the impulses of a cycle are found. */
+  struct ImpulseControl
+  {
+    double       tolerance = 1e-10;
+    unsigned int sweeps    = 200;
+    /** One sweep from no impulses. */
+    bool one_sweep = false;
+    /** Length of the cycle, and time at its end, for friction laws. */
+    double step = 1., time = 0.;
+  };
+
+  /** @brief Work of a cycle, over all ranks. */
+  struct ImpulseCounts
+  {
+    unsigned int sweeps = 0, rounds = 0;
+    /** Rows that took part, of this rank. */
+    std::size_t active    = 0;
+    bool        converged = true;
+  };
+
+  /**
+   * @brief The impulses of a cycle: minimise 1/2 |v - v*|_M^2 subject to n . w + allowed >= 0 in
+   * each row, with friction (doc/explicit.md, sections 9.1 to 9.3).
+   *
+   * Each sweep moves all rows at once, by the steepest bound of the mass that they share,
+   * accelerated by Nesterov's method with restarts. Impulses act with the stencils that measure
+   * the velocity, so that momentum is exact after any sweep. Sums run in the order of row keys and
+   * convergence is judged by maxima: the result has the same bits on any number of ranks.
+   */
+  class ImpulseSolver
+  {
+  public:
+    explicit ImpulseSolver(MPI_Comm communicator);
+
+    /** The nodes of the slots. */
+    RowNodes                nodes;
+    std::vector<ImpulseRow> rows;
+    /** By slot: the weight, or of lever entries the matrix by which the impulse acts on the
+     * node. */
+    std::vector<double>                 weights;
+    std::vector<dealii::Tensor<2, dim>> levers;
+    /** By node: inverse mass, without the directions of supports; and velocities, ghosts as well.
+     */
+    std::vector<dealii::SymmetricTensor<2, dim>> mobility;
+    std::vector<dealii::Tensor<1, dim>>          velocity;
+
+    /** @brief Take the arrays by node and slot to their lengths, after nodes.reinit(). */
+    void
+    resize();
+
+    /** @brief Sum over the slots of a row in the order of these keys of nodes; comes after
+     * resize(). @param keys By node, ghosts as well. */
+    void
+    sort_slots(const std::vector<std::uint64_t> &keys);
+
+    /** @brief The impulses on an owned node in the last solve(), force times time. */
+    const dealii::Tensor<1, dim> &
+    impulse(const unsigned int node) const
+    {
+      return sums[node];
+    }
+
+    /** @brief Relative velocity w of a row in any velocities by node, ghosts as well. */
+    dealii::Tensor<1, dim>
+    relative_velocity(const ImpulseRow &row, const std::vector<dealii::Tensor<1, dim>> &v) const;
+
+    /** @brief The slots of a row's own nodes in the order of sort_slots(). */
+    std::size_t
+    slot(const ImpulseRow &row, const unsigned int i) const
+    {
+      return order[row.first + i];
+    }
+
+    /** @brief Find the impulses and change #velocity by them. Collective. */
+    ImpulseCounts
+    solve(const ImpulseControl &control);
+
+  private:
+    /** Bounds of the mobility that a row shares, inverse mass. */
+    struct Metric
+    {
+      double                 normal = 0., tangential = 0.;
+      dealii::Tensor<1, dim> tied;
+    };
+    std::vector<Metric>                 metric;
+    std::vector<dealii::Tensor<1, dim>> extrapolated, present;
+    std::vector<dealii::Tensor<1, dim>> at_slots, sums, free;
+    std::vector<bool>                   active;
+    std::vector<std::size_t>            order;
+
+    dealii::Tensor<1, dim>
+    relative_velocity(const ImpulseRow &row) const
+    {
+      return relative_velocity(row, velocity);
+    }
+    /** Set #velocity to what these impulses lead to. */
+    void
+    apply(const std::vector<dealii::Tensor<1, dim>> &impulses);
+    void
+    set_metric();
+    Metric
+    metric_of(const ImpulseRow &row) const;
+    dealii::Tensor<1, dim>
+    improve(ImpulseRow                   &row,
+            const Metric                 &m,
+            const dealii::Tensor<1, dim> &from,
+            const ImpulseControl         &control) const;
+    double
+    violation(const ImpulseRow &row, const dealii::Tensor<1, dim> &w) const;
+    bool
+    activate(double tolerance);
+    double
+    velocity_tolerance(double relative) const;
+    bool
+    sweep(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
+    void
+    restrain();
+  };
+} // namespace Touchstone
+
+#endif

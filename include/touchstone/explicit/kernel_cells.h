@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_kernel_cells_h
+#define touchstone_explicit_kernel_cells_h
+
+#include <touchstone/explicit/cell_forces.h>
+#include <touchstone/explicit/cell_stiffness.h>
+#include <touchstone/solid/cell_kernel.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  /** @brief Cells of a nonlinear material by the CellKernel of implicit runs: the same forces. */
+  class KernelCells : public CellForces
+  {
+  public:
+    KernelCells(const NodeMap                   &map,
+                const std::vector<unsigned int> &cells,
+                const BodyParameters            &body);
+
+    unsigned int
+    subtract_forces(const NodeField &u,
+                    const NodeField &v,
+                    double           step,
+                    NodeField       &force,
+                    NodeField       &viscous) override;
+    void
+    add_energies(const NodeField &u, CellEnergies &energies) override;
+    void
+    square_frequencies(const NodeField                &u,
+                       const std::vector<NodalMasses> &masses,
+                       std::vector<double>            &result) override;
+
+    void
+    forget() override
+    {
+      std::fill(estimate.begin(), estimate.end(), 0.);
+    }
+
+    bool
+    has_history() const override
+    {
+      return kernel->n_state() > 0;
+    }
+    std::vector<double>
+    state(unsigned int c) const override;
+    void
+    set_state(unsigned int c, const std::vector<double> &values) override;
+    void
+    commit() override
+    {
+      kept = present;
+    }
+    void
+    rollback() override
+    {
+      present = kept;
+    }
+
+  private:
+    std::unique_ptr<CellKernel> kernel;
+    /** Of the isotropic elasticity at small strain. */
+    CellStiffness elastic;
+    /** Histories of all cells. */
+    std::vector<double> present, kept;
+    /** By cell: the frequency that was computed last, and the estimate beside it. */
+    std::vector<double> exact, estimate;
+
+    /** @return the smallest determinant. */
+    double
+    go_to(unsigned int c, const NodeField &u);
+  };
+
+  /** @brief Cells of a linear elastic body by their stiffness, which never changes. */
+  class ElasticCells : public CellForces
+  {
+  public:
+    ElasticCells(const NodeMap                   &map,
+                 const std::vector<unsigned int> &cells,
+                 const BodyParameters            &body);
+
+    unsigned int
+    subtract_forces(const NodeField &u,
+                    const NodeField &v,
+                    double           step,
+                    NodeField       &force,
+                    NodeField       &viscous) override;
+    void
+    add_energies(const NodeField &u, CellEnergies &energies) override;
+    void
+    square_frequencies(const NodeField                &u,
+                       const std::vector<NodalMasses> &masses,
+                       std::vector<double>            &result) override;
+
+  private:
+    static constexpr unsigned int n = CellStiffness::n;
+    /** Of all cells, row by row. */
+    std::vector<double> stiffness;
+    std::vector<double> exact;
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_nodal_loads_h
+#define touchstone_explicit_nodal_loads_h
+
+#include <touchstone/explicit/node_map.h>
+#include <touchstone/solid/boundary_conditions.h>
+
+#include <array>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Tractions, pressures and body forces at the owned nodes, for evaluation in each cycle.
+   *
+   * Loads that are constant are integrated once. Of loads whose formula names the time alone the
+   * formula is evaluated once in a cycle and multiplies nodal forces that are integrated once. Only
+   * formulas of both, and pressures that follow the surface, are integrated in each cycle.
+   */
+  class NodalLoads
+  {
+  public:
+    NodalLoads(const BoundaryConditions &conditions, const Solid &solid, const NodeMap &map);
+
+    /** @brief Whether there is no load at all on this rank. */
+    bool
+    empty() const
+    {
+      return loads.empty() && pressures.empty();
+    }
+
+    /** @brief Set the forces on the owned nodes at time @p t in the displacement @p u. */
+    void
+    evaluate(double t, const NodeField &u, NodeField &force) const;
+
+  private:
+    using Function = BoundaryConditions::Function;
+
+    /** A quadrature point: what the value of the formula is multiplied with at each node. */
+    struct LoadPoint
+    {
+      dealii::Point<dim>          position;
+      unsigned int                n_nodes;
+      std::array<unsigned int, 8> nodes;
+      std::array<double, 8>       shapes;
+      /** Direction of the force times the integration weight. */
+      dealii::Tensor<1, dim> direction;
+    };
+
+    struct Load
+    {
+      Function function;
+      /** Empty if the nodal forces are kept. */
+      std::vector<LoadPoint> points;
+      /** Nodal forces for the value 1, or of a constant load. */
+      std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> nodal;
+      bool                                                         constant;
+    };
+
+    /** A quadrature point of a pressure that follows the surface: the tangents of the surface are
+     * sums over its nodes. */
+    struct PressurePoint
+    {
+      dealii::Point<dim>                         position;
+      std::array<unsigned int, 4>                nodes;
+      std::array<double, 4>                      shapes;
+      std::array<std::array<double, 4>, dim - 1> derivatives;
+      double                                     sign;
+    };
+
+    struct Pressure
+    {
+      Function                   function;
+      std::vector<PressurePoint> points;
+    };
+
+    const NodeMap        &map;
+    std::vector<Load>     loads;
+    std::vector<Pressure> pressures;
+
+    void
+    add(const Function &function, std::vector<LoadPoint> &&points);
+    void
+    add_body_forces(const BoundaryConditions &conditions);
+    void
+    add_surface_loads(const BoundaryConditions &conditions, const Solid &solid);
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_row_motion_h
+#define touchstone_explicit_row_motion_h
+
+#include <touchstone/contact/contact.h>
+#include <touchstone/explicit/impulse_solver.h>
+#include <touchstone/explicit/node_map.h>
+
+#include <array>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Tells when the rows that explicit dynamics keeps are to be made anew: before anything
+   * has moved so far, relative to what it faces and to the size of the faces, that its partner,
+   * weights or normal would be others (doc/explicit.md, section 9.5).
+   */
+  class RowMotion
+  {
+  public:
+    RowMotion(const Contact &contact, const NodeMap &nodes);
+
+    /** @brief Rows have been made at the displacement @p u. Collective. */
+    void
+    restart(const NodeField &u);
+
+    /**
+     * @brief Whether, on any rank, the rows do not serve a cycle that ends with the displacement
+     * @p u + @p step times @p v. Collective.
+     * @param solver With the kept rows; @p rows the row of Contact and @p u_nodes the displacement
+     *               when the rows were made, by row and node of the solver.
+     */
+    bool
+    demands_rows(const NodeField                           &u,
+                 const NodeField                           &v,
+                 double                                     step,
+                 const ImpulseSolver                       &solver,
+                 const std::vector<std::size_t>            &rows,
+                 const std::vector<dealii::Tensor<1, dim>> &moved) const;
+
+  private:
+    const Contact &contact;
+    const NodeMap &nodes;
+    /** Corners of the faces of this rank of each pair that searches, by local node, the size of the
+     * face (length), and whether it is a master face. */
+    struct WatchedFace
+    {
+      std::array<unsigned int, 4> corners;
+      double                      size;
+    };
+    std::vector<WatchedFace> faces;
+    /** By pair: the local nodes of master faces, and of slave nodes with their size and the index
+     * of the row; of pairs that search. */
+    struct WatchedNode
+    {
+      unsigned int node;
+      double       size;
+      std::size_t  row;
+    };
+    std::vector<std::vector<unsigned int>> masters;
+    std::vector<std::vector<WatchedNode>>  slaves;
+    /** The displacement at restart(). */
+    NodeField made_at;
+    /** By pair: a slave node without partner, on any rank. */
+    std::vector<bool> searching;
+
+    bool
+    faces_turned(const NodeField &u, const NodeField &v, double step) const;
+    bool
+    rows_slid(const ImpulseSolver                       &solver,
+              const std::vector<std::size_t>            &rows,
+              const std::vector<dealii::Tensor<1, dim>> &moved) const;
+    bool
+    may_find_partner(const NodeField &u, const NodeField &v, double step) const;
+  };
+} // namespace Touchstone
+
+#endif

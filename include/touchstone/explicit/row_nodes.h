@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_row_nodes_h
+#define touchstone_explicit_row_nodes_h
+
+#include <touchstone/base/types.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/tensor.h>
+
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Pair and slave node of a row, the latter by a key that does not depend on the
+   * partition: rows in ascending order of it are in the same order on any number of ranks. */
+  struct RowKey
+  {
+    std::uint64_t pair = 0, slave = 0;
+
+    bool
+    operator<(const RowKey &other) const
+    {
+      return pair != other.pair ? pair < other.pair : slave < other.slave;
+    }
+  };
+
+  /**
+   * @brief The nodes that the contact rows of this rank refer to, wherever they live, and the
+   * nodes of this rank that rows of any rank refer to; with the messages between both
+   * (doc/explicit.md, section 9.4).
+   *
+   * A slot is one mention of a node by a row. Owners send values of nodes to the rows
+   * (forward()), rows send a vector for each slot to the owners, which sum them in the order of
+   * row keys (sum()): so sums have the same bits on any number of ranks. Between calls of
+   * reinit() no memory is allocated, and only ranks that share a row exchange messages.
+   */
+  class RowNodes
+  {
+  public:
+    explicit RowNodes(MPI_Comm communicator);
+
+    /**
+     * @brief Plan the messages. Collective.
+     * @param owned Dofs of this rank.
+     * @param slots First dof of the node, and key of the row, of each slot; the slots of a row
+     *              follow one another.
+     */
+    void
+    reinit(const dealii::IndexSet &owned, const std::vector<std::pair<Index, RowKey>> &slots);
+
+    /** @brief Nodes of this rank: local numbers below this. */
+    unsigned int
+    n_owned() const
+    {
+      return first_ghost;
+    }
+
+    /** @brief All known nodes. */
+    unsigned int
+    n() const
+    {
+      return dofs.size();
+    }
+
+    /** @brief First dof of a node. */
+    Index
+    dof(const unsigned int node) const
+    {
+      return dofs[node];
+    }
+
+    /** @brief The node of a slot. */
+    unsigned int
+    node(const std::size_t slot) const
+    {
+      return nodes_of_slots[slot];
+    }
+
+    std::size_t
+    n_slots() const
+    {
+      return nodes_of_slots.size();
+    }
+
+    /** @brief Copy values of owned nodes to the ranks whose rows refer to them.
+     * @tparam T Trivially copyable. Collective among neighbours. */
+    template <class T>
+    void
+    forward(std::vector<T> &values) const
+    {
+      exchange(reinterpret_cast<char *>(values.data()), sizeof(T));
+    }
+
+    /** @brief Sum the vectors of the slots at owned nodes, in the order of row keys.
+     * @param at_slots By slot. @param sums By node; of owned ones. Collective among neighbours. */
+    void
+    sum(const std::vector<dealii::Tensor<1, dim>> &at_slots,
+        std::vector<dealii::Tensor<1, dim>>       &sums) const;
+
+    MPI_Comm
+    communicator() const
+    {
+      return comm;
+    }
+
+  private:
+    const MPI_Comm            comm;
+    unsigned int              first_ghost = 0;
+    std::vector<Index>        dofs;
+    std::vector<unsigned int> nodes_of_slots;
+
+    /** Another rank. */
+    struct Neighbour
+    {
+      unsigned int rank;
+      /** Owned nodes that it needs, its nodes that are ghosts here, by local number: the former in
+       * the order in which it asked for them. */
+      std::vector<unsigned int> wanted;
+      unsigned int              first_ghost = 0, n_ghosts = 0;
+      /** Slots here whose nodes it owns, and the place of its own slots on nodes of this rank. */
+      std::vector<std::size_t> sent_slots;
+      std::size_t              first_received = 0, n_received = 0;
+    };
+    std::vector<Neighbour> neighbours;
+    /** Slots of all ranks on each owned node, in the order of row keys: own slots, and from
+     * n_slots() on received ones. */
+    std::vector<std::size_t> begin, contributions;
+
+    mutable std::vector<char>                   buffer;
+    mutable std::vector<dealii::Tensor<1, dim>> sent, received;
+    mutable std::vector<MPI_Request>            requests;
+
+    void
+    exchange(char *values, std::size_t size) const;
+  };
+} // namespace Touchstone
+
+#endif

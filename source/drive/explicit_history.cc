@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/archive/archive.h>
+#include <touchstone/base/exact_sum.h>
+#include <touchstone/base/non_convergence.h>
+#include <touchstone/drive/explicit_step.h>
+
+#include <algorithm>
+#include <cmath>
+
+// History of explicit dynamics: energies and momenta at the end of an output interval, what is kept
+// of it and written to checkpoints (doc/explicit.md, sections 6 and 7).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  Energies
+  ExplicitStep::energies()
+  {
+    // Of two velocities half a cycle before and after the end the product is the kinetic energy
+    // that the forces of this time give: with it the ledger closes up to round-off for linear
+    // bodies (doc/explicit.md, section 6).
+    ExactSum kinetic, external, viscous, damped;
+    for (unsigned int i = 0; i < map.n_owned(); ++i)
+      {
+        const Tensor<1, dim> force = now.external[i] + now.internal[i] + now.viscous[i];
+        kinetic.add(0.5 *
+                    (cells.masses()[i] * (now.v[i] * now.v[i]) + now.length * (now.v[i] * force)));
+        external.add(work[i].external);
+        viscous.add(work[i].viscous);
+        damped.add(work[i].damping);
+      }
+    const MPI_Comm                communicator = solid.communicator;
+    const ExplicitCells::Energies of_cells     = cells.energies(now.u);
+    Energies                      result       = committed;
+    result.kinetic                             = kinetic.value(communicator);
+    result.strain                              = of_cells.strain;
+    result.plastic                             = of_cells.plastic;
+    result.hourglass                           = of_cells.hourglass;
+    result.external += external.value(communicator);
+    result.viscous += viscous.value(communicator);
+    result.damping += damped.value(communicator);
+    if (impulses)
+      {
+        const ImpulseEnergy by_contact = impulses->energy();
+        result.contact -= by_contact.normal;
+        result.friction -= by_contact.friction;
+        result.external += by_contact.obstacles;
+      }
+    result.update_largest();
+    return result;
+  }
+
+
+
+  double
+  ExplicitStep::try_commit(const double smallest_part)
+  {
+    const Energies end       = energies();
+    const double   tolerance = scene.time_integration.gain_tolerance;
+    // A motion of linear bodies that is not stable keeps the energy of the ledger: its kinetic part
+    // becomes as negative as the strain energy grows. Just below the bound of the step that ratio
+    // can be large, but not as large as this.
+    constexpr double beyond = 1e9;
+    if (smallest_part <= 1. &&
+        -end.kinetic > beyond * (std::abs(end.initial) + std::abs(end.external) + end.contact))
+      throw ExplicitFailure("the motion grows without bound, as cycles are longer than is stable: "
+                            "take a smaller 'Courant factor'");
+    if (smallest_part <= 1. && end.gain() > tolerance * end.largest)
+      throw ExplicitFailure("energy " + std::to_string(end.gain() / end.largest) +
+                            " times the largest so far came from nowhere ('Time "
+                            "integration/Gain tolerance'): the motion is not stable, take a "
+                            "smaller 'Courant factor' or 'Step check interval'");
+    committed = end;
+    kept      = now;
+    cells.commit();
+    std::fill(work.begin(), work.end(), NodalWork());
+    update_results();
+    contact.commit();
+    return 1.;
+  }
+
+
+
+  void
+  ExplicitStep::update_results()
+  {
+    map.to_vector(kept.u, displacement);
+    map.to_vector(kept.v, velocity);
+    cells.to_solid(solid);
+  }
+
+
+
+  void
+  ExplicitStep::rollback()
+  {
+    now = kept;
+    cells.rollback();
+    std::fill(work.begin(), work.end(), NodalWork());
+    contact.rollback();
+  }
+
+
+
+  std::vector<BodyMomentum>
+  ExplicitStep::momenta() const
+  {
+    struct Sums
+    {
+      ExactSum                  mass;
+      std::array<ExactSum, dim> linear, angular;
+    };
+    std::vector<Sums> sums(scene.bodies.size());
+    for (unsigned int i = 0; i < map.n_owned(); ++i)
+      {
+        const double         mass     = cells.masses()[i];
+        const Tensor<1, dim> momentum = mass * kept.v[i];
+        const Tensor<1, dim> angular =
+          cross_product_3d(Tensor<1, dim>(map.positions()[i] + kept.u[i]), momentum);
+        Sums &sum = sums[map.body(i)];
+        sum.mass.add(mass);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            sum.linear[d].add(momentum[d]);
+            sum.angular[d].add(angular[d]);
+          }
+      }
+    std::vector<BodyMomentum> result(sums.size());
+    for (std::size_t b = 0; b < sums.size(); ++b)
+      {
+        result[b].mass = sums[b].mass.value(solid.communicator);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            result[b].linear[d]  = sums[b].linear[d].value(solid.communicator);
+            result[b].angular[d] = sums[b].angular[d].value(solid.communicator);
+          }
+      }
+    return result;
+  }
+
+
+
+  StepTransfer
+  ExplicitStep::transfer() const
+  {
+    AssertThrow(false, ExcNotImplemented());
+    return {};
+  }
+
+
+
+  void
+  ExplicitStep::adopt(const StepTransfer &, double)
+  {
+    AssertThrow(false, ExcNotImplemented());
+  }
+
+
+
+  void
+  ExplicitStep::save(ArchiveWriter &archive)
+  {
+    archive.put("committed time", kept.time);
+    archive.put("cycle", kept.length);
+    archive.put("energies", committed);
+    Vector field(displacement);
+    for (const auto &[name, values] : {std::make_pair("displacement", &kept.u),
+                                       std::make_pair("velocity", &kept.v),
+                                       std::make_pair("external force", &kept.external),
+                                       std::make_pair("internal force", &kept.internal),
+                                       std::make_pair("viscous force", &kept.viscous),
+                                       std::make_pair("support force", &kept.support)})
+      {
+        map.to_vector(*values, field);
+        archive.put_field(name, field);
+      }
+    solid.save(archive);
+    contact.save(archive);
+    // What is kept of earlier cycles to save time must be the same in a run that resumes.
+    cells.forget();
+  }
+
+
+
+  void
+  ExplicitStep::load(const ArchiveReader &archive)
+  {
+    now.time   = archive.get<double>("committed time");
+    now.length = archive.get<double>("cycle");
+    committed  = archive.get<Energies>("energies");
+    for (const auto &[name, values] : {std::make_pair("displacement", &now.u),
+                                       std::make_pair("velocity", &now.v),
+                                       std::make_pair("external force", &now.external),
+                                       std::make_pair("internal force", &now.internal),
+                                       std::make_pair("viscous force", &now.viscous),
+                                       std::make_pair("support force", &now.support)})
+      map.from_vector(archive.field(name), *values);
+    solid.load(archive);
+    cells.from_solid(solid);
+    cells.forget();
+    kept = now;
+    std::fill(work.begin(), work.end(), NodalWork());
+    map.to_vector(kept.u, displacement);
+    map.to_vector(kept.v, velocity);
+    contact.load(archive);
+  }
+} // namespace Touchstone

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/explicit/explicit_cells.h>
+#include <touchstone/explicit/stable_step.h>
+#include <touchstone/solid/solid.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+// Masses, forces and the stable step of all bodies of an explicit run (doc/explicit.md, sections 4
+// and 5).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  std::string
+  CellPlace::text(const std::vector<BodyParameters> &bodies) const
+  {
+    char where[100];
+    std::snprintf(where,
+                  sizeof(where),
+                  "' at (%.4g, %.4g, %.4g)",
+                  position[0] + 0.,
+                  position[1] + 0.,
+                  position[2] + 0.);
+    return "body '" + bodies[body].name + where;
+  }
+
+
+
+  ExplicitCells::ExplicitCells(const NodeMap                     &map,
+                               const std::vector<BodyParameters> &bodies,
+                               const ExplicitParameters          &parameters)
+    : map(map)
+    , bodies(bodies)
+    , parameters(parameters)
+    , cell_masses(bodies.size())
+    , factors(bodies.size())
+    , frequencies(bodies.size())
+    , nodal_mass(map.n_local())
+  {
+    std::vector<std::vector<unsigned int>> cells(bodies.size());
+    Hexahedron                             shapes;
+    for (unsigned int c = 0; c < map.cells().size(); ++c)
+      {
+        const NodeMap::Cell &cell = map.cells()[c];
+        cells[cell.body].push_back(c);
+        shapes.reinit(corners(map, cell));
+        CellForces::NodalMasses masses;
+        for (unsigned int a = 0; a < Hexahedron::n_nodes; ++a)
+          masses[a] = bodies[cell.body].material.density * shapes.nodal_volume(a);
+        cell_masses[cell.body].push_back(masses);
+      }
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        of_bodies.push_back(CellForces::make(map, cells[b], bodies[b]));
+        factors[b].assign(cells[b].size(), 1.);
+        frequencies[b].assign(cells[b].size(), 0.);
+      }
+    sum_masses();
+  }
+
+
+
+  void
+  ExplicitCells::sum_masses()
+  {
+    std::fill(nodal_mass.begin(), nodal_mass.end(), 0.);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int c = 0; c < factors[b].size(); ++c)
+        {
+          const NodeMap::Cell &cell = map.cells()[of_bodies[b]->cell_numbers()[c]];
+          for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+            nodal_mass[cell.nodes[a]] += factors[b][c] * cell_masses[b][c][a];
+        }
+    map.update_ghosts(nodal_mass);
+  }
+
+
+
+  CellPlace
+  ExplicitCells::place(const unsigned int body, const unsigned int c) const
+  {
+    const NodeMap::Cell &cell = map.cells()[of_bodies[body]->cell_numbers()[c]];
+    CellPlace            result;
+    result.key  = cell.key;
+    result.body = body;
+    for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.position[d] += 0.125 * map.positions()[cell.nodes[a]][d];
+    return result;
+  }
+
+
+
+  CellPlace
+  ExplicitCells::first(const CellPlace &mine) const
+  {
+    CellPlace result = mine;
+    for (const auto &others : gather_records(std::vector<CellPlace>{mine}, map.communicator()))
+      for (const CellPlace &other : others)
+        if (other.key < result.key)
+          result = other;
+    return result;
+  }
+
+
+
+  CellPlace
+  ExplicitCells::evaluate(const NodeField &u,
+                          const NodeField &v,
+                          const double     step,
+                          NodeField       &force,
+                          NodeField       &viscous)
+  {
+    std::fill(force.begin(), force.end(), Tensor<1, dim>());
+    std::fill(viscous.begin(), viscous.end(), Tensor<1, dim>());
+    CellPlace failed;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const unsigned int c = of_bodies[b]->subtract_forces(u, v, step, force, viscous);
+        if (c != numbers::invalid_unsigned_int)
+          if (const CellPlace one = place(b, c); one.key < failed.key)
+            failed = one;
+      }
+    if (parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.)
+      add_viscosity(u, v, viscous);
+    return failed;
+  }
+
+
+
+  void
+  ExplicitCells::add_viscosity(const NodeField &u, const NodeField &v, NodeField &viscous) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        // The length of the classical formulas is 2 kappa / (rho c omega): with it the linear part
+        // damps no mode of the cell by more than b_1 of the critical damping.
+        const double kappa   = bodies[b].material.bulk_modulus();
+        const double modulus = kappa + 4. / 3. * bodies[b].material.shear_modulus();
+        const double root    = 2. * kappa * parameters.quadratic_viscosity;
+        of_bodies[b]->add_viscosity(u,
+                                    v,
+                                    {2. * kappa * parameters.linear_viscosity,
+                                     root * root / modulus},
+                                    frequencies[b],
+                                    viscous);
+      }
+  }
+
+
+
+  void
+  ExplicitCells::update_frequencies(const NodeField &u)
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        of_bodies[b]->square_frequencies(u, cell_masses[b], frequencies[b]);
+        for (unsigned int c = 0; c < factors[b].size(); ++c)
+          frequencies[b][c] /= factors[b][c];
+      }
+  }
+
+
+
+  double
+  ExplicitCells::step_of(const unsigned int body,
+                         const unsigned int c,
+                         const NodeField   &u,
+                         const NodeField   &v) const
+  {
+    // Viscous forces are those of the velocity half a cycle before: the step of a mode with the
+    // part xi of critical damping (doc/explicit.md, section 4).
+    double xi = parameters.linear_viscosity;
+    if (parameters.quadratic_viscosity > 0.)
+      {
+        std::array<Tensor<1, dim>, 8> derivative;
+        const double                  rate  = of_bodies[body]->volume_rate(c, u, v, derivative);
+        const double                  kappa = bodies[body].material.bulk_modulus();
+        const double modulus = kappa + 4. / 3. * bodies[body].material.shear_modulus();
+        xi += std::pow(parameters.quadratic_viscosity, 2) * 2. * kappa / modulus *
+              std::max(0., -rate) / std::sqrt(frequencies[body][c]);
+      }
+    return 2. / std::sqrt(frequencies[body][c]) * (std::sqrt(1. + xi * xi) - xi);
+  }
+
+
+
+  StableStep
+  ExplicitCells::stable_step(const NodeField &u, const NodeField &v)
+  {
+    update_frequencies(u);
+    StableStep result;
+    result.length = std::numeric_limits<double>::max();
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int c = 0; c < frequencies[b].size(); ++c)
+        {
+          const double step = step_of(b, c, u, v);
+          if (step < result.length || (step == result.length && place(b, c).key < result.cell.key))
+            {
+              result.length = step;
+              result.cell   = place(b, c);
+            }
+        }
+    for (const auto &others : gather_records(std::vector<StableStep>{result}, map.communicator()))
+      for (const StableStep &other : others)
+        if (other.length < result.length ||
+            (other.length == result.length && other.cell.key < result.cell.key))
+          result = other;
+    return result;
+  }
+
+
+
+  std::pair<double, double>
+  ExplicitCells::scale_masses(const NodeField &u)
+  {
+    update_frequencies(u);
+    const NodeField rest(u.size());
+    ExactSum        total, added;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int c = 0; c < frequencies[b].size(); ++c)
+        {
+          const double step = parameters.courant_factor * step_of(b, c, u, rest);
+          factors[b][c]     = std::max(1., std::pow(parameters.mass_scaling_step / step, 2));
+          if (map.cells()[of_bodies[b]->cell_numbers()[c]].owned)
+            for (const double mass : cell_masses[b][c])
+              {
+                total.add(mass);
+                added.add((factors[b][c] - 1.) * mass);
+              }
+        }
+    const double all = total.value(map.communicator()), more = added.value(map.communicator());
+    if (more > parameters.largest_added_mass * all)
+      {
+        char text[160];
+        std::snprintf(text,
+                      sizeof(text),
+                      "needs %.4g of additional mass, %.3g of that of all bodies, and 'Largest "
+                      "added mass' is %.3g",
+                      more,
+                      more / all,
+                      parameters.largest_added_mass);
+        throw InputError("Time integration",
+                         "Mass scaling step",
+                         Patterns::Tools::to_string(parameters.mass_scaling_step),
+                         text,
+                         "take a shorter step, a mesh without small cells, or allow that mass");
+      }
+    sum_masses();
+    return {all, more};
+  }
+
+
+
+  ExplicitCells::Energies
+  ExplicitCells::energies(const NodeField &u)
+  {
+    CellEnergies sum;
+    for (const auto &cells : of_bodies)
+      cells->add_energies(u, sum);
+    return {sum.strain.value(map.communicator()),
+            sum.plastic.value(map.communicator()),
+            sum.hourglass.value(map.communicator())};
+  }
+
+
+
+  void
+  ExplicitCells::commit()
+  {
+    for (const auto &cells : of_bodies)
+      cells->commit();
+  }
+
+
+
+  void
+  ExplicitCells::rollback()
+  {
+    for (const auto &cells : of_bodies)
+      cells->rollback();
+  }
+
+
+
+  void
+  ExplicitCells::forget()
+  {
+    for (const auto &cells : of_bodies)
+      cells->forget();
+  }
+
+
+
+  void
+  ExplicitCells::to_solid(Solid &solid) const
+  {
+    for (const auto &cells : of_bodies)
+      if (cells->has_history())
+        for (unsigned int c = 0; c < cells->cell_numbers().size(); ++c)
+          solid.set_cell_state(map.cells()[cells->cell_numbers()[c]].index, cells->state(c));
+  }
+
+
+
+  void
+  ExplicitCells::from_solid(const Solid &solid)
+  {
+    for (const auto &cells : of_bodies)
+      if (cells->has_history())
+        for (unsigned int c = 0; c < cells->cell_numbers().size(); ++c)
+          cells->set_state(c, solid.cell_state(map.cells()[cells->cell_numbers()[c]].index));
+  }
+} // namespace Touchstone

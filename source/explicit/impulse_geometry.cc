@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/contact/geometry/face_derivative.h>
+#include <touchstone/explicit/impulse_contact.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Where the kept rows stand at the start of a cycle: gaps, the velocity that they leave free, what
+// drives obstacles, and the levers that keep the moment of momentum (doc/explicit.md, sections 9.1
+// and 9.5).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** An overlap that contact has not caused, of bodies as they are placed or after a change of
+     * partners, is undone by at most this part of a face in a cycle: the wave that this sends has
+     * a strain of as much. */
+    constexpr double undone = 1e-3;
+
+    /** A lever shorter than this, relative to the size of the faces, is round-off. */
+    constexpr double no_lever = 1e-13;
+
+    /** The directions that friction acts along: tangential, and in planes of symmetry
+     * (doc/theory.md 6). */
+    Tensor<2, dim>
+    directions_of_friction(const FrictionRow &friction, const Tensor<1, dim> &normal)
+    {
+      Tensor<2, dim> result = tangential_projector(normal);
+      for (const Tensor<1, dim> &mirror : friction.mirrors)
+        if (const Tensor<1, dim> out = result * mirror; out.norm() > 1e-3)
+          result -= outer_product(out, out) / out.norm_square();
+      return result;
+    }
+
+    /** The gap that the end of the cycle may have, from that at its start: zero, or what is left of
+     * an overlap. */
+    double
+    gap_allowed(const double gap, const double size)
+    {
+      return std::min(0., gap + undone * size);
+    }
+  } // namespace
+
+
+
+  void
+  ImpulseContact::set_geometry(const double time, const double step)
+  {
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      {
+        ImpulseRow       &row  = solver.rows[k];
+        const RowHistory &h    = history[kept[k].index];
+        const ContactRow &from = contact.rows()[kept[k].index];
+        row.impulse            = h.impulse;
+        row.sliding            = h.sliding;
+        if (from.stencil.empty())
+          set_obstacle_geometry(row, kept[k], time, step);
+        else
+          set_pair_geometry(row, kept[k], time, step);
+        if (row.friction)
+          {
+            row.tangential  = directions_of_friction(*row.friction, row.normal);
+            row.slip_length = row.friction->history.slip_length + h.path;
+          }
+      }
+  }
+
+
+
+  void
+  ImpulseContact::set_pair_geometry(ImpulseRow    &row,
+                                    const KeptRow &from,
+                                    const double   time,
+                                    const double   step)
+  {
+    const ContactRow &of = contact.rows()[from.index];
+    row.normal           = of.normal;
+    Tensor<1, dim> by_motion;
+    for (unsigned int i = 0; i < row.n_nodes; ++i)
+      {
+        const std::size_t s = solver.slot(row, i);
+        by_motion += solver.weights[s] * u_nodes[solver.nodes.node(s)];
+      }
+    if (row.tied)
+      row.allowed = (from.gap_vector + by_motion) / step;
+    else
+      {
+        const ContactPair &pair    = contact.pair(of);
+        const double       overlap = pair.overlap(of.index - pair.rows().front().index);
+        // The row was made with the part of an initial overlap that counted then.
+        const double gap =
+          from.gap + by_motion * row.normal + (from.part - pair.part_of_overlap(time)) * overlap;
+        const double grows =
+          (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
+        row.allowed = ((gap - gap_allowed(gap, of.size) + grows) / step) * row.normal;
+      }
+    set_lever(row, of);
+  }
+
+
+
+  // The shape is met where the node is: curved obstacles need no criterion of motion.
+  void
+  ImpulseContact::set_obstacle_geometry(ImpulseRow    &row,
+                                        const KeptRow &from,
+                                        const double   time,
+                                        const double   step)
+  {
+    const ContactRow    &of   = contact.rows()[from.index];
+    const ContactPair   &pair = contact.pair(of);
+    const unsigned int   node = solver.nodes.node(row.first);
+    const Point<dim>     x(reference[node] + u_nodes[node]);
+    const auto           here    = pair.pairing().at(x, time);
+    const double         overlap = pair.overlap(of.index - pair.rows().front().index);
+    const Tensor<1, dim> motion  = pair.pairing().shift(time + step) - pair.pairing().shift(time);
+    row.drive                    = motion / step;
+    row.normal                   = here->normal;
+    if (row.tied)
+      {
+        row.allowed =
+          (from.gap_vector + u_nodes[node] - (pair.pairing().shift(time) - of.shift)) / step;
+        return;
+      }
+    const double gap   = here->gap_vector * here->normal - pair.part_of_overlap(time) * overlap;
+    const double grows = (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
+    row.allowed        = ((gap - gap_allowed(gap, of.size) + grows) / step) * row.normal;
+  }
+
+
+
+  // The forces of a row on its nodes, f and -w_m f, have the moment d x f about any point, with d
+  // from the contact point to the slave node: none if f acts along d. Forces c (y x J^-1 (d x f))
+  // on the n nodes around the slave node, at y from their mean, with c = 1/n and J = sum c (|y|^2 I
+  // - y y), take it up. Zywicz and Puso (1999), Int. J. Numer. Methods Engng 44, have a moment arm
+  // for the same purpose.
+  void
+  ImpulseContact::set_lever(ImpulseRow &row, const ContactRow &of)
+  {
+    Tensor<1, dim> d;
+    for (unsigned int i = 0; i < row.n_nodes; ++i)
+      {
+        const std::size_t  s    = solver.slot(row, i);
+        const unsigned int node = solver.nodes.node(s);
+        d += solver.weights[s] * (reference[node] + u_nodes[node]);
+      }
+    // Along the normal it has no moment with a normal force.
+    const double across = (d - (d * of.normal) * of.normal).norm();
+    row.levered         = (row.friction || row.tied ? d.norm() : across) > no_lever * of.size;
+    if (!row.levered)
+      return;
+    const std::size_t first = row.first + row.n_nodes, last = first + row.n_lever;
+    const double      c = 1. / row.n_lever;
+    Tensor<1, dim>    mean;
+    const auto        position = [&](const std::size_t s) {
+      return reference[solver.nodes.node(s)] + u_nodes[solver.nodes.node(s)];
+    };
+    for (std::size_t s = first; s < last; ++s)
+      mean += c * position(s);
+    Tensor<2, dim> inertia;
+    for (std::size_t s = first; s < last; ++s)
+      {
+        const Tensor<1, dim> y = position(s) - mean;
+        inertia += c * (y.norm_square() * Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
+                        outer_product(y, y));
+      }
+    const Tensor<2, dim> turn = invert(inertia) * cross_matrix(d);
+    for (std::size_t s = first; s < last; ++s)
+      solver.levers[s] = c * cross_matrix(position(s) - mean) * turn;
+  }
+} // namespace Touchstone

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/hexahedron.h>
+#include <touchstone/explicit/nodal_loads.h>
+
+#include <deal.II/base/geometry_info.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <cmath>
+#include <map>
+
+// Loads of explicit dynamics: all that does not depend on the time is integrated before the first
+// cycle. Cells are visited in the order of their keys, so that sums at nodes do not depend on the
+// partition (doc/explicit.md, section 3).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** A face of a cell with bilinear shapes, whose tangents give normal times area. */
+    struct LoadedFace
+    {
+      std::array<unsigned int, 4> nodes;
+      BoundaryIds::value_type     boundary;
+      /** 1 if the cross product of the tangents points out of the cell, else -1. */
+      double sign;
+    };
+
+    double
+    edge_shape(const unsigned int side, const double x)
+    {
+      return side == 0 ? 1. - x : x;
+    }
+
+    /** The faces on boundaries, cell by cell in the order of the keys. */
+    std::vector<LoadedFace>
+    boundary_faces(const Solid &solid, const NodeMap &map)
+    {
+      std::vector<DoFHandler<dim>::active_cell_iterator> by_index(
+        solid.dof_handler.get_triangulation().n_active_cells());
+      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+        by_index[cell->active_cell_index()] = cell;
+      std::vector<LoadedFace> result;
+      for (const NodeMap::Cell &one : map.cells())
+        {
+          const auto &cell = by_index[one.index];
+          for (const unsigned int f : cell->face_indices())
+            if (cell->at_boundary(f))
+              {
+                LoadedFace face;
+                face.boundary = cell->face(f)->boundary_id();
+                // Of the faces of the cell itself, not as the mesh orients them: the face across
+                // direction d, whose first tangent is along the next direction.
+                const unsigned int d = f / 2, e = (d + 1) % dim, g = (d + 2) % dim;
+                for (unsigned int k = 0; k < 4; ++k)
+                  face.nodes[k] =
+                    one.nodes[((f % 2) << d) | ((k & 1) << e) | (((k >> 1) & 1) << g)];
+                face.sign = f % 2 == 1 ? 1. : -1.;
+                result.push_back(face);
+              }
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  NodalLoads::NodalLoads(const BoundaryConditions &conditions,
+                         const Solid              &solid,
+                         const NodeMap            &map)
+    : map(map)
+  {
+    add_body_forces(conditions);
+    add_surface_loads(conditions, solid);
+  }
+
+
+
+  void
+  NodalLoads::add(const Function &function, std::vector<LoadPoint> &&points)
+  {
+    if (!function || points.empty())
+      return;
+    Load load{function, {}, {}, !function->depends_on_time()};
+    if (function->depends_on_position() && !load.constant)
+      load.points = std::move(points);
+    else
+      {
+        std::map<unsigned int, Tensor<1, dim>> sums;
+        for (const LoadPoint &point : points)
+          {
+            const double value = load.constant ? function->value(point.position, 0.) : 1.;
+            for (unsigned int a = 0; a < point.n_nodes; ++a)
+              if (point.nodes[a] < map.n_owned())
+                sums[point.nodes[a]] += value * point.shapes[a] * point.direction;
+          }
+        load.nodal.assign(sums.begin(), sums.end());
+      }
+    loads.push_back(std::move(load));
+  }
+
+
+
+  void
+  NodalLoads::add_body_forces(const BoundaryConditions &conditions)
+  {
+    const auto &functions = conditions.volume_loads();
+    Hexahedron  shapes;
+    for (unsigned int body = 0; body < functions.size(); ++body)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (functions[body][d])
+          {
+            std::vector<LoadPoint> points;
+            for (const NodeMap::Cell &cell : map.cells())
+              if (cell.body == body)
+                {
+                  const auto x = corners(map, cell);
+                  shapes.reinit(x);
+                  for (unsigned int q = 0; q < Hexahedron::n_points; ++q)
+                    {
+                      LoadPoint point;
+                      point.n_nodes      = Hexahedron::n_nodes;
+                      point.nodes        = cell.nodes;
+                      point.direction[d] = shapes.weight(q);
+                      for (unsigned int a = 0; a < Hexahedron::n_nodes; ++a)
+                        {
+                          point.shapes[a] = Hexahedron::shape(q, a);
+                          point.position += point.shapes[a] * x[a];
+                        }
+                      points.push_back(point);
+                    }
+                }
+            add(functions[body][d], std::move(points));
+          }
+  }
+
+
+
+  void
+  NodalLoads::add_surface_loads(const BoundaryConditions &conditions, const Solid &solid)
+  {
+    if (conditions.surface_loads().empty() && conditions.follower_pressure().empty())
+      return;
+    const auto            faces = boundary_faces(solid, map);
+    const QGauss<dim - 1> quadrature(3);
+    const auto            for_each_point = [&](const BoundaryIds &boundary, const auto &use) {
+      for (const LoadedFace &face : faces)
+        if (boundary.count(face.boundary) > 0)
+          for (unsigned int q = 0; q < quadrature.size(); ++q)
+            {
+              PressurePoint        point;
+              const Point<dim - 1> x = quadrature.point(q);
+              point.nodes            = face.nodes;
+              point.sign             = face.sign * quadrature.weight(q);
+              for (unsigned int k = 0; k < 4; ++k)
+                {
+                  const unsigned int i = k & 1, j = k >> 1;
+                  point.shapes[k]         = edge_shape(i, x[0]) * edge_shape(j, x[1]);
+                  point.derivatives[0][k] = (i == 0 ? -1. : 1.) * edge_shape(j, x[1]);
+                  point.derivatives[1][k] = (j == 0 ? -1. : 1.) * edge_shape(i, x[0]);
+                  point.position += point.shapes[k] * map.positions()[face.nodes[k]];
+                }
+              use(point);
+            }
+    };
+    // Normal times weight on the undeformed surface.
+    const auto normal = [&](const PressurePoint &point) {
+      Tensor<1, dim> tangents[2];
+      for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int i = 0; i < 2; ++i)
+          tangents[i] += point.derivatives[i][k] * map.positions()[point.nodes[k]];
+      return Tensor<1, dim>(point.sign * cross_product_3d(tangents[0], tangents[1]));
+    };
+    for (const auto &load : conditions.surface_loads())
+      for (unsigned int component = 0; component <= dim; ++component)
+        {
+          const Function &function = component < dim ? load.traction[component] : load.pressure;
+          if (!function)
+            continue;
+          std::vector<LoadPoint> points;
+          for_each_point(load.boundary, [&](const PressurePoint &point) {
+            const Tensor<1, dim> n = normal(point);
+            LoadPoint            one;
+            one.position = point.position;
+            one.n_nodes  = 4;
+            for (unsigned int k = 0; k < 4; ++k)
+              {
+                one.nodes[k]  = point.nodes[k];
+                one.shapes[k] = point.shapes[k];
+              }
+            if (component < dim)
+              one.direction[component] = n.norm();
+            else
+              one.direction = -n;
+            points.push_back(one);
+          });
+          add(function, std::move(points));
+        }
+    for (const auto &load : conditions.follower_pressure().all_loads())
+      {
+        Pressure pressure{load.pressure, {}};
+        for_each_point(load.boundary,
+                       [&](const PressurePoint &point) { pressure.points.push_back(point); });
+        if (!pressure.points.empty())
+          pressures.push_back(std::move(pressure));
+      }
+  }
+
+
+
+  void
+  NodalLoads::evaluate(const double t, const NodeField &u, NodeField &force) const
+  {
+    std::fill(force.begin(), force.end(), Tensor<1, dim>());
+    for (const Load &load : loads)
+      {
+        const double factor =
+          load.constant || !load.points.empty() ? 1. : load.function->value(Point<dim>(), t);
+        for (const auto &[node, value] : load.nodal)
+          force[node] += factor * value;
+        for (const LoadPoint &point : load.points)
+          {
+            const Tensor<1, dim> whole = load.function->value(point.position, t) * point.direction;
+            for (unsigned int a = 0; a < point.n_nodes; ++a)
+              force[point.nodes[a]] += point.shapes[a] * whole;
+          }
+      }
+    for (const Pressure &pressure : pressures)
+      {
+        const bool   uniform = !pressure.function->depends_on_position();
+        const double common  = uniform ? pressure.function->value(Point<dim>(), t) : 0.;
+        for (const PressurePoint &point : pressure.points)
+          {
+            Tensor<1, dim> tangents[2];
+            for (unsigned int k = 0; k < 4; ++k)
+              for (unsigned int i = 0; i < 2; ++i)
+                tangents[i] +=
+                  point.derivatives[i][k] * (map.positions()[point.nodes[k]] + u[point.nodes[k]]);
+            const double value = uniform ? common : pressure.function->value(point.position, t);
+            const Tensor<1, dim> whole =
+              -value * point.sign * cross_product_3d(tangents[0], tangents[1]);
+            for (unsigned int k = 0; k < 4; ++k)
+              force[point.nodes[k]] += point.shapes[k] * whole;
+          }
+      }
+  }
+} // namespace Touchstone

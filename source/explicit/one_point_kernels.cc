@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/one_point_kernels.h>
+
+#include <cmath>
+
+// Kinematics, elastic stresses and forces of one-point cells, eight at a time (doc/explicit.md,
+// section 5).
+namespace Touchstone
+{
+  namespace
+  {
+    constexpr unsigned int lane_count = OnePointBlock::n_cells, n_corners = OnePointBlock::n_nodes,
+                           mode_count = OnePointBlock::n_modes;
+    using Lanes                       = OnePointBlock::Lanes;
+
+    __attribute__((always_inline)) inline Lanes
+    load(const double *values)
+    {
+      return *reinterpret_cast<const Lanes *>(values);
+    }
+
+    __attribute__((always_inline)) inline void
+    store(const Lanes &lanes, double *values)
+    {
+      *reinterpret_cast<Lanes *>(values) = lanes;
+    }
+
+    /** Component @p i of the nodes of all cells. */
+    __attribute__((always_inline)) inline void
+    gather(const OnePointBlock &block,
+           const double        *field,
+           const unsigned int   i,
+           Lanes (&x)[n_corners])
+    {
+      for (unsigned int a = 0; a < n_corners; ++a)
+        {
+          double values[lane_count];
+          for (unsigned int c = 0; c < lane_count; ++c)
+            values[c] = field[dim * block.nodes[c][a] + i];
+          x[a] = load(values);
+        }
+    }
+
+    /** The sums of the hourglass modes over the nodes. */
+    __attribute__((always_inline)) inline void
+    hourglass_sums(const Lanes (&x)[n_corners], Lanes (&q)[mode_count])
+    {
+      // Sums and differences along xi, then of those along eta and zeta.
+      const Lanes d0 = x[1] - x[0], d1 = x[3] - x[2], d2 = x[5] - x[4], d3 = x[7] - x[6],
+                  s0 = x[1] + x[0], s1 = x[3] + x[2], s2 = x[5] + x[4], s3 = x[7] + x[6];
+      q[0] = (d1 - d0) + (d3 - d2);
+      q[1] = (s3 - s2) - (s1 - s0);
+      q[2] = (d2 + d3) - (d0 + d1);
+      q[3] = (d3 - d2) - (d1 - d0);
+    }
+  } // namespace
+
+
+
+  /** Displacement gradients, [3i+j], of eight cells. */
+  TOUCHSTONE_VECTORISED void
+  OnePointKernels::set_gradients(const OnePointBlock &block,
+                                 const double        *u,
+                                 double (*gradient)[lane_count])
+  {
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        Lanes x[n_corners];
+        gather(block, u, i, x);
+        for (unsigned int j = 0; j < dim; ++j)
+          {
+            Lanes sum = x[0] * load(block.gradients[j]);
+            for (unsigned int a = 1; a < n_corners; ++a)
+              sum += x[a] * load(block.gradients[dim * a + j]);
+            store(sum, gradient[dim * i + j]);
+          }
+      }
+  }
+
+  /** Forces of stress and hourglass control on the nodes, [3a+i], of eight cells. */
+  TOUCHSTONE_VECTORISED void
+  OnePointKernels::set_forces(const OnePointBlock &block,
+                              const double        *u,
+                              const double (*gradient)[lane_count],
+                              const double (*stress)[lane_count],
+                              const Hourglass control,
+                              double (*force)[lane_count])
+  {
+    const Lanes volume = load(block.volume);
+    // Amplitudes of the modes, from which what constant strain and rotation contribute is taken.
+    Lanes              q[dim][mode_count], P[dim][dim];
+    const unsigned int n_controlled = control == Hourglass::none ? 0 : mode_count;
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        if (control != Hourglass::none)
+          {
+            Lanes x[n_corners];
+            gather(block, u, i, x);
+            hourglass_sums(x, q[i]);
+          }
+        for (unsigned int m = 0; m < n_controlled; ++m)
+          for (unsigned int j = 0; j < dim; ++j)
+            q[i][m] -= load(block.warp[dim * m + j]) * load(gradient[dim * i + j]);
+        for (unsigned int j = 0; j < dim; ++j)
+          P[i][j] = volume * load(stress[dim * i + j]);
+      }
+    for (unsigned int m = 0; m < n_controlled; ++m)
+      {
+        if (control == Hourglass::damped)
+          {
+            for (unsigned int i = 0; i < dim; ++i)
+              q[i][m] *= load(block.viscosity[m]);
+            continue;
+          }
+        // y = F^T q, and w = sum_i k_i (e_i . y) e_i.
+        const bool turns = control == Hourglass::convected;
+        Lanes      y[dim], w[dim] = {};
+        for (unsigned int j = 0; j < dim; ++j)
+          {
+            y[j] = q[j][m];
+            for (unsigned int i = 0; i < dim && turns; ++i)
+              y[j] += load(gradient[dim * i + j]) * q[i][m];
+          }
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            const Lanes along =
+              load(block.stiffness[dim * m + i]) *
+              (load(block.edges[dim * i]) * y[0] + load(block.edges[dim * i + 1]) * y[1] +
+               load(block.edges[dim * i + 2]) * y[2]);
+            for (unsigned int j = 0; j < dim; ++j)
+              w[j] += along * load(block.edges[dim * i + j]);
+          }
+        // The derivatives of the energy 1/2 y . w by F and by q.
+        Lanes f[dim];
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            f[i] = w[i];
+            for (unsigned int j = 0; j < dim && turns; ++j)
+              {
+                f[i] += load(gradient[dim * i + j]) * w[j];
+                P[i][j] += q[i][m] * w[j];
+              }
+          }
+        for (unsigned int i = 0; i < dim; ++i)
+          q[i][m] = f[i];
+      }
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        for (unsigned int m = 0; m < n_controlled; ++m)
+          for (unsigned int j = 0; j < dim; ++j)
+            P[i][j] -= load(block.warp[dim * m + j]) * q[i][m];
+        for (unsigned int a = 0; a < n_corners; ++a)
+          {
+            Lanes f = P[i][0] * load(block.gradients[dim * a]) +
+                      P[i][1] * load(block.gradients[dim * a + 1]) +
+                      P[i][2] * load(block.gradients[dim * a + 2]);
+            for (unsigned int m = 0; m < n_controlled; ++m)
+              f = hourglass_sign(m, a) > 0 ? f + q[i][m] : f - q[i][m];
+            store(f, force[dim * a + i]);
+          }
+      }
+  }
+
+
+
+  TOUCHSTONE_VECTORISED void
+  OnePointKernels::viscous(const double (*gradient)[lane_count],
+                           const double (*rates)[lane_count],
+                           const double *linear,
+                           const double *quadratic,
+                           double (*stress)[lane_count])
+  {
+    const Lanes zero = {};
+    Lanes       H[dim * dim], J = zero + 1., rate = zero;
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      H[k] = k % (dim + 1) == 0 ? zero + 1. : zero;
+    if (gradient != nullptr)
+      {
+        Lanes F[dim * dim];
+        for (unsigned int k = 0; k < dim * dim; ++k)
+          F[k] = load(gradient[k]) + H[k];
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            {
+              const unsigned int p = (i + 1) % dim, q = (i + 2) % dim, r = (j + 1) % dim,
+                                 s = (j + 2) % dim;
+              H[dim * i + j] = F[dim * p + r] * F[dim * q + s] - F[dim * p + s] * F[dim * q + r];
+            }
+        J = F[0] * H[0] + F[1] * H[1] + F[2] * H[2];
+      }
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      rate += H[k] * load(rates[k]);
+    rate /= J;
+    const Lanes pressure = (load(linear) - (rate < 0. ? load(quadratic) * rate : zero)) * rate;
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      store(pressure * H[k], stress[k]);
+  }
+
+
+
+  TOUCHSTONE_VECTORISED void
+  OnePointKernels::linear_elastic(const double lambda,
+                                  const double mu,
+                                  const double (*gradient)[lane_count],
+                                  double (*stress)[lane_count])
+  {
+    const Lanes volumetric = lambda * (load(gradient[0]) + load(gradient[4]) + load(gradient[8]));
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          Lanes s = mu * (load(gradient[dim * i + j]) + load(gradient[dim * j + i]));
+          if (i == j)
+            s += volumetric;
+          store(s, stress[dim * i + j]);
+        }
+  }
+
+  /** First Piola-Kirchhoff stress, see neo_hookean.cc; @p J gets the determinants. */
+  TOUCHSTONE_VECTORISED void
+  OnePointKernels::neo_hookean(const double kappa,
+                               const double mu,
+                               const double (*gradient)[lane_count],
+                               double (*stress)[lane_count],
+                               double *J)
+  {
+    Lanes F[dim * dim], norm = {};
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      {
+        F[k] = load(gradient[k]);
+        if (k % (dim + 1) == 0)
+          F[k] += 1.;
+        norm += F[k] * F[k];
+      }
+    // Cofactors: J F^{-T}.
+    Lanes H[dim * dim];
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        {
+          const unsigned int p = (i + 1) % dim, q = (i + 2) % dim, r = (j + 1) % dim,
+                             s = (j + 2) % dim;
+          H[dim * i + j]       = F[dim * p + r] * F[dim * q + s] - F[dim * p + s] * F[dim * q + r];
+        }
+    const Lanes det = F[0] * H[0] + F[1] * H[1] + F[2] * H[2];
+    store(det, J);
+    double root[lane_count];
+    for (unsigned int c = 0; c < lane_count; ++c)
+      root[c] = std::cbrt(J[c]);
+    const Lanes power = load(root), m = mu / (power * power),
+                p = (0.5 * kappa * (det * det - 1.) - m * (1. / 3.) * norm) / det;
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      store(m * F[k] + p * H[k], stress[k]);
+  }
+} // namespace Touchstone

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/row_motion.h>
+
+#include <algorithm>
+#include <cmath>
+
+// When rows are renewed. Between two renewals gaps are linear in the positions of the nodes, with
+// normals and weights as they were; the criteria bound by how much these could be others by now.
+// They compare lengths with sizes of faces, and one rank's yes is all ranks' yes.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Sliding over the partner, relative to the size of a face: weights are off by as much. */
+    constexpr double slides = 0.01;
+    /** The same relative to the gap of a node that is apart: what it faces when it arrives is found
+     * on its way. */
+    constexpr double slides_apart = 0.25;
+    /** Change of the edges of a face relative to its size: normals are off by as much, in radians.
+     */
+    constexpr double turns = 1e-3;
+  } // namespace
+
+
+
+  RowMotion::RowMotion(const Contact &contact, const NodeMap &nodes)
+    : contact(contact)
+    , nodes(nodes)
+    , masters(contact.n_pairs())
+    , slaves(contact.n_pairs())
+    , searching(contact.n_pairs(), false)
+  {
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        const ContactPair &pair = contact.pair(p);
+        // Pairs that are small keep the pairing of the reference state, and obstacles are met where
+        // they are.
+        if (!pair.master() || pair.small_sliding())
+          continue;
+        for (const Surface *const surface : {&pair.slave(), pair.master()})
+          for (const Face &face : surface->owned_faces())
+            {
+              WatchedFace watched;
+              for (unsigned int m = 0; m < 4; ++m)
+                watched.corners[m] = nodes.local(dim * face.nodes[m]);
+              watched.size = std::sqrt(0.5 * cross_product_3d(face.reference[3] - face.reference[0],
+                                                              face.reference[2] - face.reference[1])
+                                               .norm());
+              faces.push_back(watched);
+              if (surface == pair.master())
+                masters[p].insert(masters[p].end(), watched.corners.begin(), watched.corners.end());
+            }
+        std::sort(masters[p].begin(), masters[p].end());
+        masters[p].erase(std::unique(masters[p].begin(), masters[p].end()), masters[p].end());
+        for (const ContactRow &row : pair.rows())
+          slaves[p].push_back({nodes.local(dim * row.slave), row.size, row.index});
+      }
+  }
+
+
+
+  void
+  RowMotion::restart(const NodeField &u)
+  {
+    made_at = u;
+    // Its owner knows the displacement of a ghost better than this rank may do at present.
+    nodes.update_ghosts(made_at);
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        int some = 0;
+        for (const WatchedNode &slave : slaves[p])
+          some |= !contact.rows()[slave.row].get().has_partner;
+        searching[p] = Utilities::MPI::max(some, nodes.communicator()) > 0;
+      }
+  }
+
+
+
+  bool
+  RowMotion::faces_turned(const NodeField &u, const NodeField &v, const double step) const
+  {
+    const auto moved = [&](const unsigned int node) {
+      return u[node] + step * v[node] - made_at[node];
+    };
+    for (const WatchedFace &face : faces)
+      {
+        std::array<Tensor<1, dim>, 4> m;
+        for (unsigned int i = 0; i < 4; ++i)
+          m[i] = moved(face.corners[i]);
+        const double limit = turns * turns * face.size * face.size;
+        for (const auto &[a, b] :
+             {std::pair(0, 1), std::pair(1, 3), std::pair(3, 2), std::pair(2, 0)})
+          if ((m[a] - m[b]).norm_square() > limit)
+            return true;
+      }
+    return false;
+  }
+
+
+
+  bool
+  RowMotion::rows_slid(const ImpulseSolver               &solver,
+                       const std::vector<std::size_t>    &rows,
+                       const std::vector<Tensor<1, dim>> &moved) const
+  {
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        const ContactRow &row = contact.rows()[rows[k]];
+        if (row.stencil.empty() || contact.pair(row).small_sliding())
+          continue;
+        Tensor<1, dim> relative;
+        for (unsigned int i = 0; i < solver.rows[k].n_nodes; ++i)
+          {
+            const std::size_t s = solver.slot(solver.rows[k], i);
+            relative += solver.weights[s] * moved[solver.nodes.node(s)];
+          }
+        const double along = relative * row.normal;
+        if ((relative - along * row.normal).norm() >
+            std::max(slides * row.size, slides_apart * (row.gap + along)))
+          return true;
+      }
+    return false;
+  }
+
+
+
+  // A node without a partner may be right beside the edge of the master surface: it is bounded by
+  // how far it and the master surface have moved, as long as they do not move together.
+  bool
+  RowMotion::may_find_partner(const NodeField &u, const NodeField &v, const double step) const
+  {
+    const auto moved = [&](const unsigned int node) {
+      return u[node] + step * v[node] - made_at[node];
+    };
+    bool result = false;
+    for (unsigned int p = 0; p < searching.size(); ++p)
+      if (searching[p])
+        {
+          // The box of the motions of the master nodes, over all ranks: lower bounds negated.
+          double extreme[2 * dim], all[2 * dim];
+          std::fill(extreme, extreme + 2 * dim, std::numeric_limits<double>::lowest());
+          for (const unsigned int node : masters[p])
+            {
+              const Tensor<1, dim> m = moved(node);
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  extreme[d]       = std::max(extreme[d], m[d]);
+                  extreme[dim + d] = std::max(extreme[dim + d], -m[d]);
+                }
+            }
+          Utilities::MPI::max(extreme, nodes.communicator(), all);
+          for (const WatchedNode &slave : slaves[p])
+            if (!contact.rows()[slave.row].get().has_partner)
+              {
+                const Tensor<1, dim> m = moved(slave.node);
+                Tensor<1, dim>       farthest;
+                for (unsigned int d = 0; d < dim; ++d)
+                  farthest[d] = std::max(m[d] + all[dim + d], all[d] - m[d]);
+                result = result || farthest.norm() > slides * slave.size;
+              }
+        }
+    return result;
+  }
+
+
+
+  bool
+  RowMotion::demands_rows(const NodeField                   &u,
+                          const NodeField                   &v,
+                          const double                       step,
+                          const ImpulseSolver               &solver,
+                          const std::vector<std::size_t>    &rows,
+                          const std::vector<Tensor<1, dim>> &moved) const
+  {
+    // may_find_partner() is collective.
+    const bool found = may_find_partner(u, v, step);
+    const int  yes   = found || faces_turned(u, v, step) || rows_slid(solver, rows, moved);
+    return Utilities::MPI::max(yes, nodes.communicator()) > 0;
+  }
+} // namespace Touchstone

@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Contact of explicit dynamics against exact answers (doc/explicit.md, section 9.7): impacts of
+bars, a rod on a wall, friction, a cradle, the patch test, and scenes of implicit dynamics with
+another scheme."""
+
+import math
+import shutil
+
+from touchstone_test import (STEPS, Run, below, check, checks, finish, folder, launch, prm, relative,
+                             run, settings_options, tests)
+
+bars, ball = checks / "explicit_bars.prm", checks / "explicit_ball.prm"
+EXPLICIT = {"Time integration/Scheme": "central_differences"}
+COURANT = "Time integration/Courant factor"
+PAIRING = "Contact pair impact/Pairing"
+
+
+def contact_gives(result, allowed):
+    """Contact never gives energy, in any step."""
+    values = result.column("energy: contact")
+    below(f"{result}, energy that contact gives in a step",
+          max(0, *(a - b for a, b in zip([0, *values], values))),
+          allowed * result.value("motion", "energies", "initial"))
+
+
+def impact(result, pair="impact"):
+    """Force of each step, and the numbers of the first and the last with contact."""
+    force = [abs(value) for value in result.column(f"{pair}: force x")]
+    pressed = [k for k, value in enumerate(force) if value > 0]
+    check(pressed == list(range(pressed[0], pressed[-1] + 1)), f"{result}: contact opens twice")
+    return force, pressed[0], pressed[-1]
+
+
+# Two equal bars at Courant factor 1. The first and the last force are half cycles of the waves.
+for pairing in "pointwise", "averaged":
+    for enforcement in "automatic", "defence node":
+        two = run(f"bars_{pairing}_{enforcement}", bars,
+                  {PAIRING: pairing, "Contact/Enforcement": enforcement})
+        force, first, last = impact(two)
+        below(f"{two}, stress of the plateau",
+              max(abs(value / 0.005 - 1) for value in force[first + 1:last]), 1e-8)
+        below(f"{two}, cycles in contact less 2 L / c", abs(last - first + 1 - 40), 1.5)
+        contact_gives(two, 1e-12)
+        below(f"{two}, energy lost", two.value("motion", "energies", "contact") /
+              two.value("motion", "energies", "initial"), 1 / 20)
+        below(f"{two}, speed left to the left bar",
+              abs(two.value("motion", "velocities", "left", 0)) / 0.01, 1 / 20)
+# Courant factor 0.9: 1 % in the plateau.
+slower = run("bars_slower", bars, {COURANT: 0.9, "Load stepping/End time": 54, STEPS: 60})
+force, first, last = impact(slower)
+plateau = force[first + 5:last - 5]
+mean = sum(plateau) / len(plateau)
+below("bars_slower, mean of the plateau", abs(mean / 0.005 - 1), 0.01)
+below("bars_slower, scatter of the plateau",
+      math.sqrt(sum((value - mean) ** 2 for value in plateau) / len(plateau)) / mean, 0.01)
+contact_gives(slower, 1e-12)
+# Bars 1 : 2.
+unequal = run("bars_unequal", bars, {"Body left/Geometry/Lower corner": "-10, 0, 0",
+                                     "Body left/Geometry/Cells": "10, 1, 1"})
+below("bars_unequal, the short one stops",
+      abs(unequal.value("motion", "velocities", "left", 0)) / 0.01, 1e-3)
+below("bars_unequal, half the speed",
+      abs(unequal.value("motion", "velocities", "right", 0) / 0.01 - 0.5), 1e-3)
+
+# A rod on a rigid wall.
+rod = run("rod", checks / "explicit_rod.prm")
+cycle = 1.7264e-4 / 140
+force, first, last = impact(rod)
+below("rod, cycles from the exact time of contact", abs(first * cycle - 4.9456e-5) / cycle, 1)
+below("rod, cycles from the exact time of release",
+      abs((last + 1) * cycle - 1.48114e-4) / cycle, 1.5)
+below("rod, force", max(abs(value / 29922.9 - 1) for value in force[first + 2:last - 1]), 0.01)
+contact_gives(rod, 1e-12)
+
+# A soft ball on a plane, coarse.
+soft = run("ball", ball)
+force = [4 * value for value in soft.column("impact: force z")]
+below("ball, force", relative(max(force), 117.57), 0.15)
+below("ball, time of contact",
+      relative(sum(value > 0 for value in force) * 5e-6, 0.39323e-3), 0.03)
+check(soft.value("motion", "velocities", "ball", 2) > 0.97 * 3000, "ball: slow rebound")
+
+# Gross slip: the scene of implicit dynamics with another scheme.
+oblique = run("oblique", tests / "oblique_impact.prm", EXPLICIT)
+below("oblique, impulse along the plane is not mu times that across",
+      relative(oblique.after("  impulse", 1), -0.2 * oblique.after("  impulse", 3)), 1e-3)
+
+# A block on an incline does not creep.
+still = run("incline", checks / "explicit_incline.prm")
+below("incline, force along the plane",
+      relative(still.force("contact")[0], -0.2 * 2), 1e-6)
+below("incline, force across the plane", relative(still.force("contact")[2], 2), 1e-6)
+work = still.column("energy: friction")
+check(work[-1] == work[-10] and work[-1] > 0, f"incline: creep, {work[-10]} to {work[-1]}")
+slides = run("slides", checks / "explicit_incline.prm",
+             {"Body block/Body force x": 0.5, "Body block/Material/Rayleigh mass": 0,
+              "Load stepping/End time": 4})
+below("slides, speed", relative(slides.value("motion", "velocities", "block", 0), 0.2 * 4), 0.01)
+
+# A ball comes to roll after 2 v / (7 mu g) with 5/7 of its speed.
+rolling = run("rolling", checks / "explicit_rolling.prm")
+below("rolling, speed", relative(rolling.value("motion", "velocities", "ball", 0), 5 / 7), 0.06)
+
+# A cradle: the last bar leaves with the speed of the first, the others rest.
+cradle = run("cradle", checks / "explicit_cradle.prm")
+below("cradle, the last bar leaves", abs(cradle.value("motion", "velocities", "e", 0) / 0.01 - 1),
+      0.06)
+for bar in "abcd":
+    below(f"cradle, {bar} rests", abs(cradle.value("motion", "velocities", bar, 0)) / 0.01, 0.06)
+
+# The patch test of averaged rows, damped to rest.
+patch = run("patch", prm / "patch_test.prm",
+            {**EXPLICIT, "Body upper/Boundary top/Pressure": 10,
+             **{f"Body {body}/Material/{key}": value for body in ("lower", "upper")
+                for key, value in (("Density", 1), ("Rayleigh mass", 60))},
+             "Load stepping/End time": 3, STEPS: 6})
+below("patch, stress", patch.error("stress_max_deviation"), 1e-8)
+
+# Hard cases: no admissible velocity, and a node in a corner of walls.
+driven = run("driven", checks / "explicit_driven.prm", fails=True)
+for name in "'right' of 'left'", "'left' of 'right'", "driven into each other":
+    check(name in driven.text, f"driven: the message does not say {name}")
+corner = run("corner", checks / "explicit_corner.prm")
+for pair in "xyz":
+    below(f"corner, penetration of {pair}", max(corner.column(f"{pair}: max penetration")), 1e-9)
+    check(corner.force(pair) != [0, 0, 0] or max(corner.column(f"{pair}: area")) > 0,
+          f"corner: no contact with {pair}")
+below("corner, balance error", abs(corner.value("motion", "energies", "balance_error")) /
+      corner.value("motion", "energies", "initial"), 1e-3)
+
+# The same bits on any number of ranks.
+for name, scene, settings in (
+        ("ranks_patch", prm / "patch_test.prm",
+         {**EXPLICIT, "Body upper/Boundary top/Pressure": 10, "Body lower/Material/Density": 1,
+          "Body upper/Material/Density": 1, "Load stepping/End time": 0.2, STEPS: 4,
+          "Contact pair interface/Behaviour": "coulomb",
+          "Contact pair interface/Friction/Coefficient": 0.3}),
+        ("ranks_corner", checks / "explicit_corner.prm", {})):
+    one = run(name, scene, settings)
+    for ranks in 2, 3, 4:
+        more = run(f"{name}_{ranks}", scene, settings, ranks)
+        check((one.folder / "statistics").read_text(encoding="utf-8") ==
+              (more.folder / "statistics").read_text(encoding="utf-8"),
+              f"{name}: other results on {ranks} ranks")
+    # Stopped after the step before the last checkpoint, and resumed.
+    kept = folder / f"{name}_kept"
+    shutil.rmtree(kept, ignore_errors=True)
+    options = settings_options({**settings, "Output/VTU interval": 0,
+                                "Checkpoints/Steps between": 2})
+    whole = launch("--results-only", "--output", kept, *options, scene)
+    check(whole.returncode == 0, f"{name}_kept: {whole.stdout}")
+    shutil.rmtree(sorted(p for p in kept.glob("checkpoint_[0-9]*") if p.suffix != ".part")[-1])
+    (kept / "summary.json").unlink()
+    again = launch("--results-only", "--output", kept, "--resume", *options, scene)
+    check(again.returncode == 0, f"{name}, resumed: {again.stdout}")
+    Run(f"{name}, resumed", kept, again.stdout).says("goes on from checkpoint_")
+    check((kept / "statistics").read_text(encoding="utf-8") ==
+          (one.folder / "statistics").read_text(encoding="utf-8"),
+          f"{name}: other results after a restart")
+finish()
