@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/drive/step_problem.h>
