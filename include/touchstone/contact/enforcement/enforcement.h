@@ -95,8 +95,9 @@ namespace Touchstone
       return false;
     }
 
-    /** @brief Whether it belongs to explicit dynamics, where contact is an impulse in each cycle and
-     * no linear system is solved: it then is an ImpulseEnforcement (doc/explicit.md, section 9). */
+    /** @brief Whether it belongs to explicit dynamics, where contact is an impulse in each cycle
+     * and no linear system is solved: it then is an ImpulseEnforcement (doc/explicit.md, section
+     * 9). */
     virtual bool
     by_impulses() const
     {

@@ -121,8 +121,8 @@ namespace Touchstone
       return std::numeric_limits<double>::infinity();
     }
 
-    /** @brief Geometry of the row of a slave node at @p x, where it depends on nothing else; nothing
-     * where other nodes enter it. */
+    /** @brief Geometry of the row of a slave node at @p x, where it depends on nothing else;
+     * nothing where other nodes enter it. */
     virtual std::optional<PointContact>
     at(const dealii::Point<dim> & /*x*/, double /*time*/) const
     {
