@@ -8,12 +8,20 @@ TOUCHSTONE_PROCESSORS, an environment variable that ctest sets, stand for the pr
 file is lost when the process ends, however that happens. Without the folder nobody waits.
 """
 
+import atexit
 import contextlib
 import fcntl
 import os
 import pathlib
+import shutil
+import subprocess
 import sys
+import tempfile
 import time
+
+# Runs without mpirun would share a folder of Open MPI, which the first that ends removes.
+os.environ["OMPI_MCA_orte_tmpdir_base"] = tempfile.mkdtemp(prefix="ompi")
+atexit.register(shutil.rmtree, os.environ["OMPI_MCA_orte_tmpdir_base"], ignore_errors=True)
 
 
 def claim(ranks):
@@ -52,6 +60,6 @@ def processors(ranks=1):
 
 
 if __name__ == "__main__":
-    for lock in claim(int(sys.argv[1])):
-        os.set_inheritable(lock.fileno(), True)
-    os.execvp(sys.argv[2], sys.argv[2:])
+    with processors(int(sys.argv[1])):
+        code = subprocess.call(sys.argv[2:])
+    sys.exit(code)

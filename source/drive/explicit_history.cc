@@ -14,19 +14,35 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  // Half a cycle's work of what a support takes of the forces at this time.
+  double
+  ExplicitStep::work_ahead(const State &at, const unsigned int node) const
+  {
+    if (!supports.supported(node))
+      return 0.;
+    const Tensor<1, dim> force = at.external[node] + at.internal[node] + at.viscous[node];
+    return 0.5 * at.length * (at.v[node] * (force - supports.free_part(node, force)));
+  }
+
+
+
   Energies
   ExplicitStep::energies()
   {
     // Of two velocities half a cycle before and after the end the product is the kinetic energy
     // that the forces of this time give: with it the ledger closes up to round-off for linear
-    // bodies (doc/explicit.md, section 6).
+    // bodies (doc/explicit.md, section 6). Forces that supports take give no velocity: kinetic
+    // energy and work of supports are both without that half cycle.
     ExactSum kinetic, external, viscous, damped;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
         const Tensor<1, dim> force = now.external[i] + now.internal[i] + now.viscous[i];
         kinetic.add(0.5 *
                     (cells.masses()[i] * (now.v[i] * now.v[i]) + now.length * (now.v[i] * force)));
+        kinetic.add(-work_ahead(now, i));
         external.add(work[i].external);
+        external.add(work_ahead(kept, i));
+        external.add(-work_ahead(now, i));
         viscous.add(work[i].viscous);
         damped.add(work[i].damping);
       }
@@ -63,7 +79,8 @@ namespace Touchstone
     // can be large, but not as large as this.
     constexpr double beyond = 1e9;
     if (smallest_part <= 1. &&
-        -end.kinetic > beyond * (std::abs(end.initial) + std::abs(end.external) + end.contact))
+        -end.kinetic >
+          beyond * (std::abs(end.initial) + std::abs(end.external) + std::abs(end.contact)))
       throw ExplicitFailure("the motion grows without bound, as cycles are longer than is stable: "
                             "take a smaller 'Courant factor'");
     if (smallest_part <= 1. && end.gain() > tolerance * end.largest)

@@ -134,10 +134,23 @@ namespace Touchstone
       }
     if (impulses)
       set_mobilities(0.);
-    const double       interval = scene.load_stepping.end_time / scene.load_stepping.steps;
-    const unsigned int n        = plan_cycles(interval);
-    now.length                  = interval / n;
-    evaluate_forces(0.);
+    const double interval = scene.load_stepping.end_time / scene.load_stepping.steps;
+    unsigned int n        = 1;
+    try
+      {
+        n          = plan_cycles(interval);
+        now.length = interval / n;
+        evaluate_forces(0.);
+      }
+    catch (const ExplicitFailure &failure)
+      {
+        throw InputError("Time integration",
+                         "Scheme",
+                         scene.time_integration.scheme.word(),
+                         std::string("cannot begin with the initial displacements and loads: ") +
+                           failure.what(),
+                         "take smaller initial displacements, or another mesh or law");
+      }
     loads.evaluate(0., now.u, now.external);
     boundary_conditions.all_formulas().check(solid.communicator);
     // The velocity half a cycle before time 0, so that all cycles are alike.
@@ -322,8 +335,9 @@ namespace Touchstone
     if (first.valid())
       throw ExplicitFailure("a cell is turned inside out or its material law has no answer" +
                             (time + first.text(scene.bodies)) +
-                            "; take a finer mesh there, the element 'full' or 'F-bar', a smaller "
-                            "'Courant factor', or a law that resists compression");
+                            "; it may be crushed between others, or take a finer mesh there, the "
+                            "element 'full' or 'F-bar', a smaller 'Courant factor', or a law that "
+                            "resists compression");
     CellPlace node;
     for (unsigned int i = 0; i < map.n_owned() && !node.valid(); ++i)
       if (!std::isfinite(now.v[i].norm_square()))

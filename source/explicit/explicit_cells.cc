@@ -127,14 +127,17 @@ namespace Touchstone
             failed = one;
       }
     if (parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.)
-      add_viscosity(u, v, viscous);
+      add_viscosity(u, v, step, viscous);
     return failed;
   }
 
 
 
   void
-  ExplicitCells::add_viscosity(const NodeField &u, const NodeField &v, NodeField &viscous) const
+  ExplicitCells::add_viscosity(const NodeField &u,
+                               const NodeField &v,
+                               const double     step,
+                               NodeField       &viscous) const
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
@@ -143,12 +146,12 @@ namespace Touchstone
         const double kappa   = bodies[b].material.bulk_modulus();
         const double modulus = kappa + 4. / 3. * bodies[b].material.shear_modulus();
         const double root    = 2. * kappa * parameters.quadratic_viscosity;
-        of_bodies[b]->add_viscosity(u,
-                                    v,
-                                    {2. * kappa * parameters.linear_viscosity,
-                                     root * root / modulus},
-                                    frequencies[b],
-                                    viscous);
+        of_bodies[b]->add_viscosity(
+          u,
+          v,
+          {2. * kappa * parameters.linear_viscosity, root * root / modulus, 2. * kappa, step},
+          frequencies[b],
+          viscous);
       }
   }
 

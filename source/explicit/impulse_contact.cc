@@ -308,9 +308,11 @@ namespace Touchstone
         const Tensor<1, dim> mean = 0.5 * (solver.relative_velocity(row, v_before) + row.velocity);
         const double         by_slip = p_t * mean;
         h.total += row.impulse;
-        h.energy.normal += row.impulse * mean - by_slip;
+        // What overlaps that are pressed apart give is supplied like the work of obstacles.
+        const double supplied = row.tied ? 0. : std::max(0., -row.allowed * row.normal) * p_n;
+        h.energy.normal += row.impulse * mean - by_slip - supplied;
         h.energy.friction += by_slip;
-        h.energy.obstacles += row.impulse * row.drive;
+        h.energy.obstacles += row.impulse * row.drive + supplied;
         h.pressed = true;
         if (!row.friction)
           continue;

@@ -136,9 +136,15 @@ namespace Touchstone
   // on the n nodes around the slave node, at y from their mean, with c = 1/n and J = sum c (|y|^2 I
   // - y y), take it up. Zywicz and Puso (1999), Int. J. Numer. Methods Engng 44, have a moment arm
   // for the same purpose.
+  // With small sliding partners stay as they were in the reference state, and the line from the
+  // contact point to the slave node grows with the sliding: such a lever would turn the rate of the
+  // gap into something else. These pairs keep linear momentum alone, as in implicit runs.
   void
   ImpulseContact::set_lever(ImpulseRow &row, const ContactRow &of)
   {
+    row.levered = false;
+    if (contact.pair(of).small_sliding() && !row.tied)
+      return;
     Tensor<1, dim> d;
     for (unsigned int i = 0; i < row.n_nodes; ++i)
       {

@@ -296,9 +296,11 @@ namespace Touchstone
     std::array<Tensor<1, dim>, 8> derivative;
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
-        const double rate      = volume_rate(c, u, v, derivative);
-        const double viscosity = coefficients.linear / std::sqrt(squares[c]) -
-                                 coefficients.quadratic / squares[c] * std::min(0., rate);
+        const double rate = volume_rate(c, u, v, derivative);
+        const double viscosity =
+          std::min(coefficients.linear / std::sqrt(squares[c]) -
+                     coefficients.quadratic / squares[c] * std::min(0., rate),
+                   coefficients.largest(squares[c]));
         for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
           viscous[cell(c).nodes[a]] -= viscosity * rate * derivative[a];
       }

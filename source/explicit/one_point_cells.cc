@@ -258,7 +258,7 @@ namespace Touchstone
                                NodeField                 &viscous)
   {
     double forces[dim * n_nodes][n_cells], rates[dim * dim][n_cells];
-    double linear[n_cells], quadratic[n_cells];
+    double linear[n_cells], quadratic[n_cells], largest[n_cells];
     for (unsigned int b = 0; b < blocks.size(); ++b)
       {
         for (unsigned int lane = 0; lane < n_cells; ++lane)
@@ -267,11 +267,13 @@ namespace Touchstone
               squares[std::min<unsigned int>(b * n_cells + lane, cells.size() - 1)];
             linear[lane]    = coefficients.linear / std::sqrt(square);
             quadratic[lane] = coefficients.quadratic / square;
+            largest[lane]   = coefficients.largest(square);
           }
         OnePointKernels::set_gradients(blocks[b], numbers_of(v), rates);
         if (finite)
           OnePointKernels::set_gradients(blocks[b], numbers_of(u), gradient);
-        OnePointKernels::viscous(finite ? gradient : nullptr, rates, linear, quadratic, stress);
+        OnePointKernels::viscous(
+          finite ? gradient : nullptr, rates, linear, quadratic, largest, stress);
         OnePointKernels::set_forces(
           blocks[b], numbers_of(v), rates, stress, OnePointKernels::Hourglass::none, forces);
         scatter(b, forces, viscous);

@@ -169,6 +169,7 @@ namespace Touchstone
                            const double (*rates)[lane_count],
                            const double *linear,
                            const double *quadratic,
+                           const double *largest,
                            double (*stress)[lane_count])
   {
     const Lanes zero = {};
@@ -192,7 +193,8 @@ namespace Touchstone
     for (unsigned int k = 0; k < dim * dim; ++k)
       rate += H[k] * load(rates[k]);
     rate /= J;
-    const Lanes pressure = (load(linear) - (rate < 0. ? load(quadratic) * rate : zero)) * rate;
+    const Lanes wanted = load(linear) - (rate < 0. ? load(quadratic) * rate : zero),
+                most = load(largest), pressure = (wanted < most ? wanted : most) * rate;
     for (unsigned int k = 0; k < dim * dim; ++k)
       store(pressure * H[k], stress[k]);
   }

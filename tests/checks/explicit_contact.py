@@ -72,7 +72,7 @@ below("rod, cycles from the exact time of release",
 below("rod, force", max(abs(value / 29922.9 - 1) for value in force[first + 2:last - 1]), 0.01)
 contact_gives(rod, 1e-12)
 
-# A soft ball on a plane, coarse.
+# A soft ball on a plane, coarse. A ball is stiffer than Hertz' half space (doc/explicit.md 9.7).
 soft = run("ball", ball)
 force = [4 * value for value in soft.column("impact: force z")]
 below("ball, force", relative(max(force), 117.57), 0.15)
@@ -115,6 +115,26 @@ patch = run("patch", prm / "patch_test.prm",
                 for key, value in (("Density", 1), ("Rayleigh mass", 60))},
              "Load stepping/End time": 3, STEPS: 6})
 below("patch, stress", patch.error("stress_max_deviation"), 1e-8)
+
+# Partners that stay far behind: the block must not sink into its base.
+small = run("small_sliding", checks / "explicit_small_sliding.prm")
+below("small_sliding, penetration", max(small.column("contact: max penetration")), 1e-6)
+below("small_sliding, impulse of the weight", relative(small.after("  impulse", 3), 5 * 0.0897 * 0.5),
+      0.05)
+contact_gives(small, 1e-9)
+# An overlap at rest is pressed apart, up to the force of statics.
+apart = run("interference", checks / "explicit_interference.prm")
+static = run("interference_static", checks / "explicit_interference.prm",
+             {"Time integration/Scheme": "static",
+              **{f"Body {body}/Material/Rayleigh mass": 0 for body in ("base", "block")}})
+below("interference, force", relative(apart.force("contact")[2], static.force("contact")[2]), 1e-5)
+check(apart.value("motion", "energies", "contact") >= 0, "interference: contact gives energy")
+# Slow compression of a driven block: kinetic energy is that of its velocity.
+driven = run("compressed", checks / "explicit_interference.prm",
+             {"Contact pair contact/Initial overlap": "adjust", "Load stepping/End time": 5,
+              "Body block/Fixed": "", "Body block/Boundary conditions": "top",
+              "Body block/Boundary top/Displacement z": "-0.02*t"})
+check(0 < driven.value("motion", "energies", "kinetic") < 1e-3, "compressed: kinetic energy")
 
 # Hard cases: no admissible velocity, and a node in a corner of walls.
 driven = run("driven", checks / "explicit_driven.prm", fails=True)

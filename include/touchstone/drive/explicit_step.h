@@ -167,6 +167,8 @@ namespace Touchstone
     /** @throws ExplicitFailure if a cell of this rank has failed or a velocity is not finite. */
     void
     check(const CellPlace &failed) const;
+    double
+    work_ahead(const State &at, unsigned int node) const;
     /** Energies at the end of the present interval. Collective. */
     Energies
     energies();

@@ -7,7 +7,10 @@
 #include <touchstone/explicit/node_map.h>
 #include <touchstone/solid/body_parameters.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -72,11 +75,25 @@ namespace Touchstone
       /** (2 kappa b_2 / omega)^2 / (kappa + 4/3 mu), times the squared frequency: force per area.
        */
       double quadratic;
+      /** 2 kappa, force per area, and the length of a cycle: time. */
+      double modulus, step;
+
+      /** The largest viscosity of a cell of squared frequency @p square with which cycles of this
+       * length are stable: h = 2/omega (sqrt(1 + xi^2) - xi), solved for xi. */
+      double
+      largest(const double square) const
+      {
+        if (step == 0.)
+          return std::numeric_limits<double>::max();
+        const double turn = step * std::sqrt(square);
+        return modulus / std::sqrt(square) * std::max(0., (1. - 0.25 * turn * turn) / turn);
+      }
     };
 
     /**
      * @brief Add the forces of bulk viscosity to @p viscous: the pressure -(linear / omega -
-     * quadratic / omega^2 min(0, r)) r at the rate r of the volume (doc/explicit.md, section 4).
+     * quadratic / omega^2 min(0, r)) r at the rate r of the volume, but no more than is stable: the
+     * cycle was chosen before an impact came (doc/explicit.md, section 4).
      * @param squares Of the frequencies omega, by cell.
      */
     virtual void

@@ -135,7 +135,7 @@ namespace Touchstone
     CellPlace
     place(unsigned int body, unsigned int c) const;
     void
-    add_viscosity(const NodeField &u, const NodeField &v, NodeField &viscous) const;
+    add_viscosity(const NodeField &u, const NodeField &v, double step, NodeField &viscous) const;
     double
     step_of(unsigned int body, unsigned int c, const NodeField &u, const NodeField &v) const;
   };

@@ -17,7 +17,8 @@ namespace Touchstone
    */
   struct ImpulseEnergy
   {
-    /** Of impulses along the normals and against slip, and the work of obstacles. */
+    /** Of impulses along the normals and against slip, and the work of obstacles and of overlaps
+     * that are pressed apart. */
     double normal = 0., friction = 0., obstacles = 0.;
   };
 
