@@ -461,6 +461,7 @@ namespace Touchstone
           row.normal     = means.normal;
           row.gap_vector = means.gap_vector;
           row.gap        = row.gap_vector * row.normal;
+          row.slope      = std::max(1., means.slope());
           row.lever      = sum.lever / sum.area;
           // Not more than the tributary area, by round-off or by the ratio of reference to present
           // areas.

@@ -60,6 +60,9 @@ namespace Touchstone
     by_beside = result.dx(3);
     by_kept   = result.dx(4);
     by_given  = result.dx(5);
+    // The mean with a dual basis and the gap at the node follow the node alone, that at another
+    // point by the shape function there.
+    slope = 1. + by_mean + by_own + by_least * sums.at_least;
   }
 
 

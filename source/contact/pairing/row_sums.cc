@@ -48,7 +48,11 @@ namespace Touchstone
       }
     for (unsigned int m = 0; m < n; ++m)
       add(stencil, master.nodes[m], r[OverlapColumns::master + m]);
-    least = std::min(least, part.least);
+    if (part.least < least)
+      {
+        least    = part.least;
+        at_least = dual.shape(k, part.at_least);
+      }
     if (!on_its_node)
       return;
     own    = std::min(own, part.own[k]);

@@ -22,6 +22,8 @@ namespace Touchstone
     /** The smallest gap at any quadrature point or corner of what is covered, along the normal
      * there, length. */
     double least = 0.;
+    /** The shape function of the node there. */
+    double at_least = 0.;
     /** OverlapIntegrals::own, ::beside and ::length: with them the gap at the node is own - length
      * * beside; length, no unit, length. */
     double own = 0., beside = 1., length = 0.;
@@ -55,6 +57,8 @@ namespace Touchstone
   struct GapCorrection
   {
     double value, by_mean, by_least, by_own, by_beside, by_kept, by_given;
+    /** Of mean and correction together by the motion of the node along the normal. */
+    double slope;
 
     /** @param mean Mean gap along the mean normal. @param size Size of the faces. */
     GapCorrection(const CoverSums &sums, double mean, double size);
@@ -79,6 +83,13 @@ namespace Touchstone
     /** Area on all slave nodes of the row by that on its own one, D / D_kk. */
     double                 share;
     dealii::Tensor<1, dim> normal, gap_vector;
+
+    /** @brief ContactRow::slope. */
+    double
+    slope() const
+    {
+      return correction.slope;
+    }
 
     /** @brief Whether the smallest gaps matter, of all points and at the node: otherwise their
      * derivatives are not used. */
