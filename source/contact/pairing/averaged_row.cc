@@ -12,6 +12,16 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** How deep surfaces must overlap anywhere around a node, by what the mean gap lies below that
+     * of the node, for the mean to count alone. Where a ball or a tube is pressed flat, so that the
+     * mean vanishes, they overlap by half of it between the nodes. */
+    constexpr double pressed = 0.4;
+  } // namespace
+
+
+
   bool
   CoverSums::suffices(const double whole) const
   {
@@ -40,8 +50,10 @@ namespace Touchstone
         // As long as nothing overlaps the gap is that of the node, which the force of the row moves
         // and no other row has in common with it.
         Number part = at_node;
-        if (least < 0.)
-          part *= 1. - smooth_step(Number(-least / above), 0., Tolerances::pressed);
+        if (const Number deep = -least / above; deep >= pressed)
+          part = 0.;
+        else if (deep > 0.)
+          part *= 1. - deep / pressed;
         result += part * above;
       }
     if (const Number above = least - at_mean; at_node < 1. && above > noise)
