@@ -6,13 +6,9 @@
 
 namespace Touchstone
 {
-  ForcingTerm::ForcingTerm(const double usual,
-                           const double residual_tolerance,
-                           const double gap_tolerance,
-                           const bool   friction)
+  ForcingTerm::ForcingTerm(const double usual, const double residual_tolerance, const bool friction)
     : usual(usual)
     , residual_tolerance(residual_tolerance)
-    , gap_tolerance(gap_tolerance)
     , friction(friction)
   {
   }
@@ -23,8 +19,8 @@ namespace Touchstone
   void
   ForcingTerm::begin_step()
   {
-    last_residual = last_gap = 0.;
-    has_been_slow            = false;
+    last_residual = 0.;
+    has_been_slow = false;
   }
 
 
@@ -59,9 +55,7 @@ namespace Touchstone
     // faster, see slow().
     constexpr double much = 0.3;
     has_been_slow         = has_been_slow || (last_residual > 0. && state.changes == 0 &&
-                                      (state.residual > much * last_residual ||
-                                       (state.gap > gap_tolerance && state.gap > much * last_gap)));
+                                      state.residual > much * last_residual);
     last_residual         = state.changes == 0 && state.prescribed ? state.residual : 0.;
-    last_gap              = state.gap;
   }
 } // namespace Touchstone

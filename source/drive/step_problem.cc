@@ -44,7 +44,6 @@ namespace Touchstone
     , before_increment(u)
     , forcing_term(scene.linear_solver.tolerance,
                    scene.newton.residual_tolerance,
-                   scene.newton.gap_tolerance,
                    scene.has_friction())
   {
     {

@@ -17,10 +17,10 @@ namespace Touchstone
   {
   public:
     /** @param usual              Relative residual of a linear solve that nothing else requires.
-     * @param residual_tolerance Of Newton's method, as @p gap_tolerance.
+     * @param residual_tolerance Of Newton's method.
      * @param friction           Stick and slip have to be distinguished, which needs more
      *                           accuracy. */
-    ForcingTerm(double usual, double residual_tolerance, double gap_tolerance, bool friction);
+    ForcingTerm(double usual, double residual_tolerance, bool friction);
 
     void
     begin_step();
@@ -37,8 +37,8 @@ namespace Touchstone
       return next;
     }
 
-    /** @brief In this step an increment with an unchanged active set has reduced the residual or
-     * the gaps too little: frozen normals and contact points neglect too much. */
+    /** @brief In this step an increment with an unchanged active set has reduced the residual too
+     * little: frozen normals and contact points neglect too much. */
     bool
     slow() const
     {
@@ -46,14 +46,12 @@ namespace Touchstone
     }
 
   private:
-    const double usual, residual_tolerance, gap_tolerance;
+    const double usual, residual_tolerance;
     const bool   friction;
     double       next = 1e-3;
     /** Residual before the last increment, if nothing but the residual was left to be met; else
      * zero. */
     double last_residual = 0.;
-    /** Largest gap before the last increment. */
-    double last_gap      = 0.;
     bool   has_been_slow = false;
   };
 } // namespace Touchstone
