@@ -125,9 +125,8 @@ namespace Touchstone
 
     /** How deep surfaces must overlap anywhere around a node, by what the mean gap lies below that
      * of the node, for the mean to count alone. Where a ball or a tube is pressed flat, so that the
-     * mean vanishes, they overlap by half of it between the nodes, or by an eighth beside faces of
-     * half the size. */
-    constexpr double pressed = 0.1;
+     * mean vanishes, they overlap by half of it between the nodes. */
+    constexpr double pressed = 0.4;
 
     /** One less the shape function of a node at the closest covered point, from which on the node
      * does not count as covered. */

@@ -12,16 +12,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** How deep surfaces must overlap anywhere around a node, by what the mean gap lies below that
-     * of the node, for the mean to count alone. Where a ball or a tube is pressed flat, so that the
-     * mean vanishes, they overlap by half of it between the nodes. */
-    constexpr double pressed = 0.4;
-  } // namespace
-
-
-
   bool
   CoverSums::suffices(const double whole) const
   {
@@ -50,10 +40,10 @@ namespace Touchstone
         // As long as nothing overlaps the gap is that of the node, which the force of the row moves
         // and no other row has in common with it.
         Number part = at_node;
-        if (const Number deep = -least / above; deep >= pressed)
+        if (const Number deep = -least / above; deep >= Tolerances::pressed)
           part = 0.;
         else if (deep > 0.)
-          part *= 1. - deep / pressed;
+          part *= 1. - deep / Tolerances::pressed;
         result += part * above;
       }
     if (const Number above = least - at_mean; at_node < 1. && above > noise)
