@@ -11,7 +11,7 @@ import signal
 import subprocess
 import time
 
-from touchstone_test import (AUGMENTED, GMRES, MULTIPLIERS, RESIDUAL, STEPS, Run, check, checks,
+from touchstone_test import (AUGMENTED, GAP, GMRES, MULTIPLIERS, RESIDUAL, STEPS, Run, check, checks,
                              fail, finish, folder, launch, processors, program, same,
                              settings_options, tests)
 
@@ -112,10 +112,10 @@ goes_on("frictionless", tests / "moving_plane.prm", {"Checkpoints/Steps between"
 goes_on("cut", scene, {"Newton/Maximum iterations": 6, RESIDUAL: 1e-8,
                        "Newton/Gap tolerance": 1e-6})
 goes_on("plate", plate, {STEPS: 2, "Checkpoints/Steps between": 1})
-goes_on("adaptive", adaptive, {**EVERY_4, RESIDUAL: 1e-11})
+goes_on("adaptive", adaptive, {**EVERY_4, RESIDUAL: 1e-11, GAP: 1e-11})
 goes_on("metis-2", scene, {"Discretisation/Partitioner": "METIS", **GMRES}, 2)
 goes_on("adaptive-2", adaptive, {**EVERY_4, "Discretisation/Contact weight": 4, **GMRES,
-                                 RESIDUAL: 1e-11}, 2)
+                                 RESIDUAL: 1e-11, GAP: 1e-11}, 2)
 
 check(start(fresh("elimination-2"), scene, EVERY_3, 2), "elimination-2")
 other("elimination-2", 2, scene)
@@ -123,8 +123,8 @@ other("elimination-2", 1, scene)
 other("elimination", 3, scene)
 other("metis-2", 1, scene, {"Discretisation/Partitioner": "METIS"})
 # Newton's tolerance bounds what runs of different histories have in common.
-other("adaptive", 3, adaptive, {**EVERY_4, RESIDUAL: 1e-11})
-other("adaptive-2", 1, adaptive, {**EVERY_4, RESIDUAL: 1e-11})
+other("adaptive", 3, adaptive, {**EVERY_4, RESIDUAL: 1e-11, GAP: 1e-11})
+other("adaptive-2", 1, adaptive, {**EVERY_4, RESIDUAL: 1e-11, GAP: 1e-11})
 
 # A finished run goes on to a later end.
 start(fresh("later"), scene, {"Load stepping/End time": 1, STEPS: 4})
@@ -152,7 +152,7 @@ def refused(name, words, settings):
 
 refused("modulus", "'Body base/Material', key 'Young modulus', value '999'.*value, '1000'",
         {"Body base/Material/Young modulus": 999})
-refused("enforcement", "'Contact', key 'Enforcement', value 'penalty'.*'elimination'",
+refused("enforcement", "'Contact', key 'Enforcement', value 'penalty'.*'automatic'",
         {"Contact/Enforcement": "penalty"})
 refused("end", "key 'End time', value '1'.*later time 1.5", {"Load stepping/End time": 1})
 refused("partitioner", "key 'Partitioner'", {"Discretisation/Partitioner": "METIS"})
