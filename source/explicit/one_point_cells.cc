@@ -55,6 +55,8 @@ namespace Touchstone
         (hardening == "none" || hardening == "linear"))
       formulas = Formulas::von_mises;
     present.resize(blocks.size() * n_cells * n_state);
+    state_before.resize(n_state);
+    state_after.resize(n_state);
     std::vector<double> virgin(n_state);
     if (n_state > 0)
       law->start(virgin.data());
@@ -142,8 +144,6 @@ namespace Touchstone
     unsigned int       failed = numbers::invalid_unsigned_int;
     const unsigned int first  = b * n_cells;
     MaterialResponse   response;
-    double             begin[64], end[64];
-    AssertThrow(n_state <= 64, ExcNotImplemented());
     for (unsigned int lane = 0; lane < n_cells && first + lane < cells.size(); ++lane)
       {
         if (marked != nullptr && marked[lane] == 0.)
@@ -152,13 +152,16 @@ namespace Touchstone
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
             F[i][j] = gradient[dim * i + j][lane] + (finite && i == j ? 1. : 0.);
-        get_state(first + lane, begin);
+        get_state(first + lane, state_before.data());
         response.solved = !finite || determinant(F) > 0.;
         if (response.solved)
-          law->respond({F, begin, step}, Demand::stress, response, end);
+          law->respond({F, state_before.data(), step},
+                       Demand::stress,
+                       response,
+                       state_after.data());
         if (response.solved)
           for (unsigned int k = 0; k < n_state; ++k)
-            variable(first + lane, k) = end[k];
+            variable(first + lane, k) = state_after[k];
         else
           failed = std::min(failed, first + lane);
         for (unsigned int k = 0; k < dim * dim; ++k)

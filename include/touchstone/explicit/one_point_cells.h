@@ -105,7 +105,9 @@ namespace Touchstone
     Formulas                           formulas;
     bool                               finite;
     unsigned int                       n_state = 0;
-    std::vector<OnePointBlock>         blocks;
+    /** History of a cell at both ends of a cycle. */
+    std::vector<double>        state_before, state_after;
+    std::vector<OnePointBlock> blocks;
     /** Histories, [block][variable][cell of the block]. */
     std::vector<double> present, kept;
     /** See KernelCells. */
