@@ -360,4 +360,5 @@ main(int argc, char **argv)
       check(name + ", stiff spring", constraints, stiff, false, {}, false, true);
       check(name + ", all blocks stored", constraints, stiff, false, {}, false, true, false);
     }
+  return 0;
 }

@@ -166,4 +166,5 @@ main(int argc, char **argv)
     }
   std::cout << "  offered " << n_offered << ", accepted " << n_accepted << ", missed by "
             << small(worst, 1e-9) << '\n';
+  return 0;
 }

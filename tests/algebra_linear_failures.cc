@@ -221,4 +221,5 @@ main(int argc, char **argv)
   automatic("large with multipliers", multiplier, 2000);
   automatic("large, too slow", large, 2);
   automatic("large with friction, too slow", friction, 2);
+  return 0;
 }

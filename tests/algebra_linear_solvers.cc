@@ -81,4 +81,5 @@ main(int argc, char **argv)
   compare("multiplier", extra, "Belos GMRES", 100);
   compare("symmetric", symmetric, "Belos CG", 100, "diagonal");
   compare("unsymmetric", unsymmetric, "Belos GMRES", 100, "diagonal");
+  return 0;
 }

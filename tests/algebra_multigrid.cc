@@ -369,4 +369,5 @@ main(int argc, char **argv)
   x.Norm2(&norm);
   if (root)
     std::cout << "nothing coupled: " << (error < 0.3 * norm ? "smoothed" : "WRONG") << std::endl;
+  return 0;
 }

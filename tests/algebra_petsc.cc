@@ -113,4 +113,5 @@ main(int argc, char **argv)
   check("PETSc", "-ksp_type nonsense");
   check("PETSc", "-ksp_tpye cg");
   check("MUMPS", "-ksp_type cg");
+  return 0;
 }

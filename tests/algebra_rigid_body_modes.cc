@@ -135,4 +135,5 @@ main(int argc, char **argv)
   if (Utilities::MPI::this_mpi_process(communicator) == 0)
     std::cout << "forces of rigid motions " << small(worst)
               << (shortest > 1. ? "" : ", no motion FAILED") << std::endl;
+  return 0;
 }

@@ -77,4 +77,5 @@ main(int argc, char **argv)
         right = right && is(record, 'c', 0.5, r);
     }
   check("gathered", right);
+  return 0;
 }

@@ -247,4 +247,5 @@ main(int argc, char **argv)
   check("plane", obstacle, {"Obstacle rigid/Shape=plane", direction}, 0.);
   check("sphere", obstacle, {"Obstacle rigid/Shape=sphere", radius}, 0.);
   check("cylinder", obstacle, {"Obstacle rigid/Shape=cylinder", direction, radius}, 0.);
+  return 0;
 }

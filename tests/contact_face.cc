@@ -220,4 +220,5 @@ main()
       std::cout << x << ": xi " << projection.xi[0] << ' ' << projection.xi[1] << ", beyond outer "
                 << projection.beyond_outer << ", inner " << projection.beyond_inner << '\n';
     }
+  return 0;
 }

@@ -57,4 +57,5 @@ main()
       std::cout << "outer edges " << outer_edges << ": "
                 << (difference < 1e-14 ? "same patch" : "FAILED, the patches differ") << std::endl;
     }
+  return 0;
 }

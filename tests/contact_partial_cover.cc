@@ -214,4 +214,5 @@ main(int argc, char **argv)
     }
   slide("ball", ball, {}, Tensor<1, dim>({1.1, 0.7, 0.}), 0.01, {});
   press();
+  return 0;
 }

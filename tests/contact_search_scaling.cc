@@ -128,4 +128,5 @@ main(int argc, char **argv)
       std::fflush(stdout);
       last = r;
     }
+  return 0;
 }

@@ -158,4 +158,5 @@ main(int argc, char **argv)
         [](const Point<dim> &x) { return x.norm() - 1.; },
         height);
     }
+  return 0;
 }

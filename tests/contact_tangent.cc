@@ -746,4 +746,5 @@ main(int argc, char **argv)
   for (const FrictionKind &friction : frictions)
     if (friction.behaviour == "tresca" || friction.behaviour == "weakening")
       check(blocks, "averaged", "lagrange multipliers", friction, argc > 1, true);
+  return 0;
 }

@@ -71,4 +71,5 @@ main(int argc, char **argv)
             print_agreement(difference, 1e-8);
           }
       }
+  return 0;
 }

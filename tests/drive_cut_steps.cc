@@ -117,4 +117,5 @@ main(int argc, char **argv)
   compare({"Contact/Enforcement=elimination", pairing + "averaged"});
   compare(
     {"Contact/Enforcement=elimination", pairing + "pointwise", "Linear solver/Type=Belos CG"});
+  return 0;
 }

@@ -400,4 +400,5 @@ main(int argc, char **argv)
       derivative({"Time integration/Scheme=generalized_alpha",
                   "Time integration/Mass=" + mass,
                   "Body ball/Material/Law=" + law});
+  return 0;
 }

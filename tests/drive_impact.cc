@@ -139,4 +139,5 @@ main(int argc, char **argv)
   for (const std::string mass : {"lumped", "consistent"})
     impact(mass + ", no friction",
            {"Time integration/Mass=" + mass, "Contact pair contact/Friction/Coefficient=0"});
+  return 0;
 }

@@ -341,4 +341,5 @@ main(int argc, char **argv)
       undeformed(law, "full", "full", "2");
     }
   mixed();
+  return 0;
 }

@@ -126,4 +126,5 @@ main()
       const auto uphill = [](double x) { return std::abs(x - 1.) > 30. ? 1. : -0.2; };
       run("a wrong direction", Equation(linear, uphill, 2.), search);
     }
+  return 0;
 }

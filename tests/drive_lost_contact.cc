@@ -90,4 +90,5 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   print_end("pressed again", 0., 2.);
   print_end("torn off, no load", 0.8, 1.);
+  return 0;
 }

@@ -132,4 +132,5 @@ main(int argc, char **argv)
   compare({"Contact/Enforcement=lagrange multipliers", pairing + "averaged"});
   // Most cells are the block's: the second of two ranks has slave nodes as well.
   compare({"Contact/Enforcement=elimination", pairing + "averaged"}, more_slaves);
+  return 0;
 }

@@ -68,4 +68,5 @@ main(int argc, char **argv)
                 << ", automatic of degree 1 " << (std::abs(bar) < 0.02 ? "agrees" : "DIFFERS")
                 << ", full of degree 1 " << (full > 0.05 ? "locks" : "DOES NOT LOCK") << std::endl;
     }
+  return 0;
 }

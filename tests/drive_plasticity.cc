@@ -258,4 +258,5 @@ main(int argc, char **argv)
       large_step(law);
       failure(law);
     }
+  return 0;
 }

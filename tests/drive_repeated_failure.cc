@@ -39,4 +39,5 @@ main()
   const double none = std::numeric_limits<double>::quiet_NaN();
   add("before any iteration", InvertedCells("inverted"), none, 0, "");
   add("again", InvertedCells("inverted"), none, 0, "");
+  return 0;
 }

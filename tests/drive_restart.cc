@@ -234,4 +234,5 @@ main(int argc, char **argv)
          "Body block/Material/Density=1",
          "Body block/Material/Rayleigh stiffness=1e-3"});
   go_on("Belos GMRES", {"Linear solver/Type=Belos GMRES"});
+  return 0;
 }

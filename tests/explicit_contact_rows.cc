@@ -175,4 +175,5 @@ main(int argc, char **argv)
   show("averaged, over edges", overhang, {coulomb, mu}, 1e-3);
   show("pointwise, curved", curved, {pointwise, coulomb, mu}, 1e-3);
   show("averaged, curved", curved, {coulomb, mu}, 1e-3);
+  return 0;
 }

@@ -394,4 +394,5 @@ main(int argc, char **argv)
   optimal();
   driven_into_each_other();
   bits();
+  return 0;
 }

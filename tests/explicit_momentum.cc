@@ -144,4 +144,5 @@ main(int argc, char **argv)
   const unsigned int               n = argc > 1 ? std::atoi(argv[1]) : 8;
   fly("averaged", {}, n);
   fly("pointwise", {"Contact pair pair/Pairing=pointwise"}, n);
+  return 0;
 }

@@ -186,4 +186,5 @@ main(int argc, char **argv)
   negative.add(1e300);
   negative.add(-0.1);
   std::cout << "Exact sums: " << (same && negative.value() == -0.1 ? "yes" : "NO") << std::endl;
+  return 0;
 }

@@ -102,4 +102,5 @@ main(int argc, char **argv)
   slide("finite sliding", {"Contact pair sole/Sliding=finite"});
   slide("pointwise", {"Contact pair sole/Pairing=pointwise"});
   slide("averaged", {"Contact pair sole/Pairing=averaged"});
+  return 0;
 }

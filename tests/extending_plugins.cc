@@ -406,4 +406,5 @@ main(int argc, char **argv)
   test_maxwell();
   test_output();
   test_weakening();
+  return 0;
 }

@@ -145,4 +145,5 @@ main(int argc, char **argv)
                "Linear solver/Preconditioner",
                "incomplete LU",
                {"Linear solver/Type=Belos GMRES"});
+  return 0;
 }

@@ -235,4 +235,5 @@ main()
                                  [id = id](const auto &face) { return face.boundary_id == id; })
                 << '\n';
     }
+  return 0;
 }

@@ -119,4 +119,5 @@ main(int argc, char **argv)
   // Coarse cells are handed out of the tubes, which have many, and refined ones of the others.
   print_counts("two tubes by coordinates", tubes, {"1", "2"}, "coordinates");
   print_counts("round bodies by coordinates", round, {"1", "2"}, "coordinates");
+  return 0;
 }

@@ -121,4 +121,5 @@ main()
          {"file", "set File = x.msh\nset Exact surfaces = a: torus radius 1"},
          {"file", "set File = x.msh\nset Exact surfaces = a: cylinder axis 0 0"}})
     print_error([&, type = type, text = text] { make_geometry(type, text); });
+  return 0;
 }

@@ -65,4 +65,5 @@ main()
   std::cout << "centre of the sphere -> " << sphere->project({1., 2., 3.}) << '\n'
             << "axis of the cylinder -> " << cone->project({3., 0., 0.}) << ", normal "
             << cone->normal({3., 0., 0.}) << '\n';
+  return 0;
 }

@@ -172,4 +172,5 @@ main(int argc, char **argv)
         with(", peak tangential force: 67.5").compare(points(exact, 0.3 * Q, Q)));
   if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
     print_error([&]() { with(", tangential force: 2, peak tangential force: -1"); });
+  return 0;
 }

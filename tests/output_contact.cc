@@ -103,4 +103,5 @@ main(int argc, char **argv)
         }
       std::filesystem::remove_all("contact_test");
     }
+  return 0;
 }

@@ -101,4 +101,5 @@ main(int argc, char **argv)
   attempt("removed folder", [&]() { folder.write_file_atomically("summary.json", "{}\n"); });
   if (root)
     std::filesystem::remove("a_file");
+  return 0;
 }

@@ -66,4 +66,5 @@ main(int argc, char **argv)
   if (rank == 0)
     std::cout << "rigid: a = " << rigid.contact_radius(force)
               << ", p0 = " << rigid.peak_pressure(force) << std::endl;
+  return 0;
 }

@@ -98,4 +98,5 @@ main(int argc, char **argv)
           "1, peak pressure: 1.1, unloaded: 1");
   attempt("inner radius: 1, outer radius: 2, young modulus: 1, poisson ratio: 0.3, yield stress: "
           "1");
+  return 0;
 }

@@ -66,4 +66,5 @@ main(int argc, char **argv)
   attempt(radii + material + "slave radius");
   attempt(radii + "slave radius: 1, young modulus: -1, poisson ratio: 0.3");
   attempt(radii + "slave radius: 1, young modulus: 1, poisson ratio: 0.5");
+  return 0;
 }

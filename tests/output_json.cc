@@ -30,4 +30,5 @@ main()
          Json::array().append(Json::object().set("a", 1)).append(Json::array().append(2)));
   object.set("replaced", 2);
   std::cout << object.print() << Json(1. / 3.).print(4);
+  return 0;
 }

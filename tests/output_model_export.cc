@@ -153,4 +153,5 @@ main(int argc, char **argv)
       if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
         std::cout << error.what() << std::endl;
     }
+  return 0;
 }

@@ -40,4 +40,5 @@ main(int argc, char **argv)
   for (const double seconds : {0.04, 59.94, 59.96, 125., 3599.7, 5400.})
     std::cout << readable_duration(seconds) << std::endl;
   std::filesystem::remove_all("progress_test");
+  return 0;
 }

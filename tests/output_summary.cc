@@ -55,4 +55,5 @@ main()
   failed.failure = "Step 1 did not converge after 8 cuts.";
   std::cout << '\n';
   failed.print_results(std::cout);
+  return 0;
 }

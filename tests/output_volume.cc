@@ -144,4 +144,5 @@ main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   run("1", MPI_COMM_WORLD);
   run("2", MPI_COMM_WORLD);
+  return 0;
 }

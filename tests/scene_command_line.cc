@@ -88,4 +88,5 @@ main()
   try_file("binary.txt");
   try_file("missing.prm");
   try_file(".");
+  return 0;
 }

@@ -127,4 +127,5 @@ main()
   try_override("pair of the reference", {"Reference solution/Pair=besides"});
   try_override("values of the reference", {"Reference solution/Values=radius: 10, p"});
   try_override("value given twice", {"Reference solution/Values=r: 10, r: 1"});
+  return 0;
 }

@@ -21,4 +21,5 @@ main()
   try_override("unknown boundary", {"Body upper/Boundary top/Pressure=1"});
   try_override("a boundary more",
                {"Body upper/Boundary conditions=bottom", "Body upper/Boundary bottom/Pressure=1"});
+  return 0;
 }

@@ -61,4 +61,5 @@ main()
   try_override("empty value", {"Load stepping/Steps="});
   try_change("unknown geometry", "Type = box", "Type = bx");
   try_change("unknown key of a geometry", "Type = box", "Bottom = 1");
+  return 0;
 }

@@ -64,4 +64,5 @@ main()
   const std::string all = printed.str();
   std::cout << all.substr(0, all.find("  subsection Geometry")) << "...\n"
             << all.substr(all.find("subsection Obstacle"));
+  return 0;
 }

@@ -91,4 +91,5 @@ main(int argc, char **argv)
   for (const std::string law : {"linear elastic", "neo-Hookean"})
     for (const std::string degree : {"1", "2"})
       check(law, degree);
+  return 0;
 }

@@ -170,4 +170,5 @@ main()
       check("incompatible modes", 1, ElementType::incompatible_modes, nu);
       check("degree 2", 2, ElementType::full, nu);
     }
+  return 0;
 }

@@ -170,4 +170,5 @@ main()
         check(law, "F-bar", 1, ElementType::f_bar, nu);
         check(law, "degree 2", 2, ElementType::full, nu);
       }
+  return 0;
 }

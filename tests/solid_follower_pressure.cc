@@ -307,4 +307,5 @@ main(int argc, char **argv)
   block("1", "Belos CG");
   tube(4);
   tube(8);
+  return 0;
 }

@@ -118,4 +118,5 @@ main()
   for (const auto &[name, record] : HyperelasticRegistry::records())
     for (const double nu : {-0.3, 0.3, 0.49})
       check(name, nu);
+  return 0;
 }

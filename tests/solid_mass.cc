@@ -294,4 +294,5 @@ main(int argc, char **argv)
               check("long block", long_block, kind, degree, step, bottom);
           }
       }
+  return 0;
 }

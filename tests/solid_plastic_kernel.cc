@@ -208,4 +208,5 @@ main()
   check("finite-strain von Mises", "full", 1);
   check("finite-strain von Mises", "F-bar", 1);
   check("finite-strain von Mises", "full", 2);
+  return 0;
 }

@@ -276,4 +276,5 @@ main()
     }
   large_steps();
   failure();
+  return 0;
 }

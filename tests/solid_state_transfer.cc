@@ -219,4 +219,5 @@ main(int argc, char **argv)
   for (const std::string law : {"small-strain von Mises", "finite-strain von Mises"})
     for (const std::string degree : {"1", "2"})
       check(law, degree);
+  return 0;
 }
