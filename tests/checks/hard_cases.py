@@ -71,7 +71,7 @@ for ranks in 1, 2:
           run(f"lagged_{ranks}", tests / "hard_warped_master.prm",
               {**CG, **AUGMENTED, f"{pair}/Pairing": "pointwise"}, ranks, vtu=100000),
           "base", 0.3, ranks)
-for ranks in 2, 3, 4:
+for ranks in 2, 3:
     other = golden("hard_edge_and_back", 2) if ranks == 2 else \
         run(f"edge_{ranks}", tests / "hard_edge_and_back.prm", None, ranks, vtu=100000)
     judge("off the edge and back", other, "base", 0.3, ranks)

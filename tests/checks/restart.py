@@ -123,7 +123,7 @@ other("elimination-2", 1, scene)
 other("elimination", 3, scene)
 other("metis-2", 1, scene, {"Discretisation/Partitioner": "METIS"})
 # Newton's tolerance bounds what runs of different histories have in common.
-other("adaptive", 3, adaptive, {**EVERY_4, RESIDUAL: 1e-11, GAP: 1e-11})
+other("adaptive", 2, adaptive, {**EVERY_4, RESIDUAL: 1e-11, GAP: 1e-11})
 other("adaptive-2", 1, adaptive, {**EVERY_4, RESIDUAL: 1e-11, GAP: 1e-11})
 
 # A finished run goes on to a later end.
