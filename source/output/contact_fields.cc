@@ -69,15 +69,16 @@ namespace Touchstone
       }
     };
 
-    using StatusField       = ContactMember<0, ContactStatus, &ContactPoint::status>;
-    using GapField          = ContactNumber<1, &ContactPoint::gap>;
-    using PressureField     = ContactNumber<2, &ContactPoint::pressure>;
-    using PairField         = ContactMember<3, unsigned int, &ContactPoint::pair>;
-    using SlipLengthField   = ContactNumber<4, &ContactPoint::slip_length>;
-    using NormalField       = ContactMember<5, dealii::Tensor<1, dim>, &ContactPoint::normal>;
-    using TractionField     = ContactMember<6, dealii::Tensor<1, dim>, &ContactPoint::traction>;
-    using SlipField         = ContactMember<7, dealii::Tensor<1, dim>, &ContactPoint::slip>;
-    using DisplacementField = ContactMember<8, dealii::Tensor<1, dim>, &ContactPoint::displacement>;
+    using StatusField     = ContactMember<0, ContactStatus, &ContactPoint::status>;
+    using GapField        = ContactNumber<1, &ContactPoint::gap>;
+    using PressureField   = ContactNumber<2, &ContactPoint::pressure>;
+    using PairField       = ContactMember<3, unsigned int, &ContactPoint::pair>;
+    using SlipLengthField = ContactNumber<4, &ContactPoint::slip_length>;
+    using NormalField     = ContactMember<5, dealii::Tensor<1, dim>, &ContactPoint::normal>;
+    using TractionField   = ContactMember<6, dealii::Tensor<1, dim>, &ContactPoint::traction>;
+    using SlipField       = ContactMember<7, dealii::Tensor<1, dim>, &ContactPoint::slip>;
+    using ContactDisplacementField =
+      ContactMember<8, dealii::Tensor<1, dim>, &ContactPoint::displacement>;
 
     const ContactFieldRegistry::Entry<StatusField>
       status_field("status", "Number of the ContactStatus; no unit.");
@@ -93,7 +94,7 @@ namespace Touchstone
       traction_field("traction", "Contact force per area; force per area.");
     const ContactFieldRegistry::Entry<SlipField>
       slip_field("slip", "Tangential slip of the last step; length.");
-    const ContactFieldRegistry::Entry<DisplacementField>
+    const ContactFieldRegistry::Entry<ContactDisplacementField>
       contact_displacement_field("displacement", "Displacement; length.");
   } // namespace
 
