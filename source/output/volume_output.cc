@@ -180,13 +180,13 @@ namespace Touchstone
             }
           else
             {
-              using namespace dealii::DataComponentInterpretation;
+              namespace Interpretation = dealii::DataComponentInterpretation;
               vectors.push_back(vector_field(values));
-              data_out.add_data_vector(
-                solid.dof_handler,
-                vectors.back(),
-                std::vector<std::string>(dim, name),
-                std::vector<DataComponentInterpretation>(dim, component_is_part_of_vector));
+              data_out.add_data_vector(solid.dof_handler,
+                                       vectors.back(),
+                                       std::vector<std::string>(dim, name),
+                                       std::vector<Interpretation::DataComponentInterpretation>(
+                                         dim, Interpretation::component_is_part_of_vector));
             }
         }
 
