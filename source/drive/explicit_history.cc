@@ -104,7 +104,6 @@ namespace Touchstone
   {
     map.to_vector(kept.u, displacement);
     map.to_vector(kept.v, velocity);
-    cells.to_solid(solid);
   }
 
 
@@ -214,7 +213,6 @@ namespace Touchstone
                                        std::make_pair("support force", &now.support)})
       map.from_vector(archive.field(name), *values);
     solid.load(archive);
-    cells.from_solid(solid);
     cells.forget();
     kept = now;
     std::fill(work.begin(), work.end(), NodalWork());

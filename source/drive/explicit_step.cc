@@ -60,6 +60,14 @@ namespace Touchstone
         damping.resize(map.n_owned());
     for (unsigned int n = 0; n < damping.size(); ++n)
       damping[n] = scene.bodies[map.body(n)].material.rayleigh_mass;
+    solid.keep_history_in(&cells);
+  }
+
+
+
+  ExplicitStep::~ExplicitStep()
+  {
+    solid.keep_history_in(nullptr);
   }
 
 

@@ -4,7 +4,6 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/explicit/explicit_cells.h>
 #include <touchstone/explicit/stable_step.h>
-#include <touchstone/solid/solid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -59,6 +58,13 @@ namespace Touchstone
         of_bodies.push_back(CellForces::make(map, cells[b], bodies[b]));
         factors[b].assign(cells[b].size(), 1.);
         frequencies[b].assign(cells[b].size(), 0.);
+        for (unsigned int c = 0; c < cells[b].size() && of_bodies[b]->has_history(); ++c)
+          {
+            const unsigned int number = map.cells()[cells[b][c]].index;
+            if (number >= place_of.size())
+              place_of.resize(number + 1, {-1, 0});
+            place_of[number] = {c, b};
+          }
       }
     sum_masses();
   }
@@ -300,23 +306,20 @@ namespace Touchstone
 
 
 
-  void
-  ExplicitCells::to_solid(Solid &solid) const
+  std::vector<double>
+  ExplicitCells::committed_state(const unsigned int cell) const
   {
-    for (const auto &cells : of_bodies)
-      if (cells->has_history())
-        for (unsigned int c = 0; c < cells->cell_numbers().size(); ++c)
-          solid.set_cell_state(map.cells()[cells->cell_numbers()[c]].index, cells->state(c));
+    if (cell >= place_of.size() || place_of[cell].first < 0)
+      return {};
+    return of_bodies[place_of[cell].second]->state(place_of[cell].first);
   }
 
 
 
   void
-  ExplicitCells::from_solid(const Solid &solid)
+  ExplicitCells::set_state(const unsigned int cell, const std::vector<double> &values)
   {
-    for (const auto &cells : of_bodies)
-      if (cells->has_history())
-        for (unsigned int c = 0; c < cells->cell_numbers().size(); ++c)
-          cells->set_state(c, solid.cell_state(map.cells()[cells->cell_numbers()[c]].index));
+    if (cell < place_of.size() && place_of[cell].first >= 0)
+      of_bodies[place_of[cell].second]->set_state(place_of[cell].first, values);
   }
 } // namespace Touchstone

@@ -174,7 +174,7 @@ namespace Touchstone
   std::vector<double>
   KernelCells::state(const unsigned int c) const
   {
-    const auto begin = present.begin() + c * kernel->n_state();
+    const auto begin = kept.begin() + c * kernel->n_state();
     return std::vector<double>(begin, begin + kernel->n_state());
   }
 

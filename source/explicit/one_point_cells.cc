@@ -152,7 +152,7 @@ namespace Touchstone
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
             F[i][j] = gradient[dim * i + j][lane] + (finite && i == j ? 1. : 0.);
-        get_state(first + lane, state_before.data());
+        get_state(present, first + lane, state_before.data());
         response.solved = !finite || determinant(F) > 0.;
         if (response.solved)
           law->respond({F, state_before.data(), step},
@@ -355,7 +355,7 @@ namespace Touchstone
             }
           if (finite)
             H += Tensor<2, dim>(unit_symmetric_tensor<dim>());
-          get_state(c, begin.data());
+          get_state(present, c, begin.data());
           if (!finite || determinant(H) > 0.)
             law->respond({H, begin.data(), 0.}, Demand::energy, response, end.data());
           energies.strain.add(block.volume[lane] * response.elastic_energy);
@@ -372,17 +372,19 @@ namespace Touchstone
     // The bodies have the history of eight points, which are all alike here.
     std::vector<double> result(n_nodes * n_state);
     for (unsigned int q = 0; q < n_nodes; ++q)
-      get_state(c, result.data() + q * n_state);
+      get_state(kept, c, result.data() + q * n_state);
     return result;
   }
 
 
 
   void
-  OnePointCells::get_state(const unsigned int c, double *values) const
+  OnePointCells::get_state(const std::vector<double> &states,
+                           const unsigned int         c,
+                           double                    *values) const
   {
     for (unsigned int k = 0; k < n_state; ++k)
-      values[k] = present[(c / n_cells * n_state + k) * n_cells + c % n_cells];
+      values[k] = states[(c / n_cells * n_state + k) * n_cells + c % n_cells];
   }
 
 

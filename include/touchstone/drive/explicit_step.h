@@ -30,6 +30,7 @@ namespace Touchstone
                  const Forest        &forest,
                  Solid               &solid,
                  dealii::TimerOutput &timer);
+    ~ExplicitStep() override;
 
     std::vector<std::string>
     start() override;

@@ -140,7 +140,8 @@ namespace Touchstone
       return false;
     }
 
-    /** @brief State of cell number @p c of this body in the form of Solid::cell_state(). */
+    /** @brief Committed state of cell number @p c of this body in the form of Solid::cell_state().
+     */
     virtual std::vector<double>
     state(unsigned int /*c*/) const
     {

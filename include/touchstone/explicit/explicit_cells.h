@@ -5,6 +5,7 @@
 
 #include <touchstone/explicit/cell_forces.h>
 #include <touchstone/explicit/explicit_parameters.h>
+#include <touchstone/solid/cell_history.h>
 
 #include <deal.II/base/point.h>
 
@@ -15,8 +16,6 @@
 
 namespace Touchstone
 {
-  class Solid;
-
   /** @brief A cell as messages name it, the same on all ranks. */
   struct CellPlace
   {
@@ -50,7 +49,7 @@ namespace Touchstone
    * Forces at owned nodes are complete without communication, and have the same bits on any number
    * of ranks (doc/explicit.md, section 2).
    */
-  class ExplicitCells
+  class ExplicitCells : public CellHistory
   {
   public:
     ExplicitCells(const NodeMap                     &map,
@@ -106,11 +105,10 @@ namespace Touchstone
     /** @brief Drop what only saves time. */
     void
     forget();
-    /** @brief Give the history to the bodies, for output and checkpoints, and take it. */
+    std::vector<double>
+    committed_state(unsigned int cell) const override;
     void
-    to_solid(Solid &solid) const;
-    void
-    from_solid(const Solid &solid);
+    set_state(unsigned int cell, const std::vector<double> &values) override;
     /** @} */
 
     /** @brief Of the ranks the first cell by key. Collective. */
@@ -127,6 +125,9 @@ namespace Touchstone
     std::vector<std::vector<CellForces::NodalMasses>> cell_masses;
     std::vector<std::vector<double>>                  factors, frequencies;
     std::vector<double>                               nodal_mass;
+    /** Number in its body of each active cell of the triangulation that has history, and the
+     * body; -1 for the others. */
+    std::vector<std::pair<int, unsigned int>> place_of;
 
     void
     sum_masses();

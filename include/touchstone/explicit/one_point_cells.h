@@ -132,7 +132,7 @@ namespace Touchstone
                      c % OnePointBlock::n_cells];
     }
     void
-    get_state(unsigned int c, double *values) const;
+    get_state(const std::vector<double> &states, unsigned int c, double *values) const;
     dealii::Tensor<2, dim>
     displacement_gradient(unsigned int c, const NodeField &u) const;
     /** Largest squared frequency of what hourglass control adds, and the largest squared cosine of
