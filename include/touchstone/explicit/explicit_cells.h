@@ -121,9 +121,9 @@ namespace Touchstone
     const ExplicitParameters                &parameters;
     std::vector<std::unique_ptr<CellForces>> of_bodies;
     /** By body and cell: masses of the nodes without scaling, the factor of mass scaling, and
-     * the squared frequency with it. */
+     * the period with it, see Viscosity. */
     std::vector<std::vector<CellForces::NodalMasses>> cell_masses;
-    std::vector<std::vector<double>>                  factors, frequencies;
+    std::vector<std::vector<double>>                  factors, periods;
     std::vector<double>                               nodal_mass;
     /** Number in its body of each active cell of the triangulation that has history, and the
      * body; -1 for the others. */
@@ -132,7 +132,7 @@ namespace Touchstone
     void
     sum_masses();
     void
-    update_frequencies(const NodeField &u);
+    update_periods(const NodeField &u);
     CellPlace
     place(unsigned int body, unsigned int c) const;
     void
