@@ -20,7 +20,7 @@ namespace Touchstone
   {
     if (!supports.supported(node))
       return 0.;
-    const Tensor<1, dim> force = at.external[node] + at.internal[node] + at.viscous[node];
+    const Tensor<1, dim> force = at.force(node);
     return 0.5 * at.length * (at.v[node] * (force - supports.free_part(node, force)));
   }
 
@@ -36,7 +36,7 @@ namespace Touchstone
     ExactSum kinetic, external, viscous, damped;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
-        const Tensor<1, dim> force = now.external[i] + now.internal[i] + now.viscous[i];
+        const Tensor<1, dim> force = now.force(i);
         kinetic.add(0.5 *
                     (cells.masses()[i] * (now.v[i] * now.v[i]) + now.length * (now.v[i] * force)));
         kinetic.add(-work_ahead(now, i));
@@ -104,7 +104,6 @@ namespace Touchstone
   {
     map.to_vector(kept.u, displacement);
     map.to_vector(kept.v, velocity);
-    cells.to_solid(solid);
   }
 
 
@@ -161,7 +160,7 @@ namespace Touchstone
   StepTransfer
   ExplicitStep::transfer() const
   {
-    AssertThrow(false, ExcNotImplemented());
+    AssertThrow(false, ExcInternalError());
     return {};
   }
 
@@ -170,7 +169,7 @@ namespace Touchstone
   void
   ExplicitStep::adopt(const StepTransfer &, double)
   {
-    AssertThrow(false, ExcNotImplemented());
+    AssertThrow(false, ExcInternalError());
   }
 
 
@@ -184,13 +183,17 @@ namespace Touchstone
     Vector field(displacement);
     for (const auto &[name, values] : {std::make_pair("displacement", &kept.u),
                                        std::make_pair("velocity", &kept.v),
-                                       std::make_pair("external force", &kept.external),
                                        std::make_pair("internal force", &kept.internal),
                                        std::make_pair("viscous force", &kept.viscous),
                                        std::make_pair("support force", &kept.support)})
       {
         map.to_vector(*values, field);
         archive.put_field(name, field);
+      }
+    if (!loads.empty())
+      {
+        map.to_vector(kept.external, field);
+        archive.put_field("external force", field);
       }
     solid.save(archive);
     contact.save(archive);
@@ -208,13 +211,13 @@ namespace Touchstone
     committed  = archive.get<Energies>("energies");
     for (const auto &[name, values] : {std::make_pair("displacement", &now.u),
                                        std::make_pair("velocity", &now.v),
-                                       std::make_pair("external force", &now.external),
                                        std::make_pair("internal force", &now.internal),
                                        std::make_pair("viscous force", &now.viscous),
                                        std::make_pair("support force", &now.support)})
       map.from_vector(archive.field(name), *values);
+    if (!loads.empty())
+      map.from_vector(archive.field("external force"), now.external);
     solid.load(archive);
-    cells.from_solid(solid);
     cells.forget();
     kept = now;
     std::fill(work.begin(), work.end(), NodalWork());

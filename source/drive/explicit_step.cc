@@ -45,21 +45,23 @@ namespace Touchstone
                        "take a mesh whose cells meet at whole faces, or another scheme");
     if (!scene.pairs.empty())
       impulses = std::make_unique<ImpulseContact>(contact, scene.contact, map);
-    for (NodeField *field : {&now.u,
-                             &now.v,
-                             &now.external,
-                             &now.internal,
-                             &now.viscous,
-                             &now.support,
-                             &v_before,
-                             &external_before,
-                             &viscous_before})
+    for (NodeField *field : {&now.u, &now.v, &now.internal, &now.viscous, &now.support, &v_before})
       field->resize(map.n_local());
+    if (!loads.empty())
+      now.external.resize(map.n_local());
     for (const BodyParameters &body : scene.bodies)
       if (body.material.rayleigh_mass > 0.)
         damping.resize(map.n_owned());
     for (unsigned int n = 0; n < damping.size(); ++n)
       damping[n] = scene.bodies[map.body(n)].material.rayleigh_mass;
+    solid.keep_history_in(&cells);
+  }
+
+
+
+  ExplicitStep::~ExplicitStep()
+  {
+    solid.keep_history_in(nullptr);
   }
 
 
@@ -151,14 +153,12 @@ namespace Touchstone
                            failure.what(),
                          "take smaller initial displacements, or another mesh or law");
       }
-    loads.evaluate(0., now.u, now.external);
     boundary_conditions.all_formulas().check(solid.communicator);
     // The velocity half a cycle before time 0, so that all cycles are alike.
     const NodeField v_0 = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
-        const Tensor<1, dim> force = now.external[i] + now.internal[i] + now.viscous[i];
-        now.v[i] -= supports.free_part(i, 0.5 * now.length / cells.masses()[i] * force);
+        now.v[i] -= supports.free_part(i, 0.5 * now.length / cells.masses()[i] * now.force(i));
       }
     map.update_ghosts(now.v);
     kept = now;
@@ -245,10 +245,11 @@ namespace Touchstone
     for (unsigned int i = 0; i < map.n_local(); ++i)
       now.u[i] += length * now.v[i];
     now.time += length;
-    external_before.swap(now.external);
-    viscous_before.swap(now.viscous);
+    // Forces at both ends of a cycle do work on its motion (doc/explicit.md, section 6).
+    add_work(length);
     evaluate_forces(length);
     add_work(length);
+    add_damping(length);
     now.length = length;
   }
 
@@ -262,8 +263,7 @@ namespace Touchstone
     v_before             = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
-        const Tensor<1, dim> force = now.external[i] + now.internal[i] + now.viscous[i];
-        now.v[i] += between / cells.masses()[i] * force;
+        now.v[i] += between / cells.masses()[i] * now.force(i);
       }
     // Damping with the mean of the velocities before and after, which is stable for any factor.
     for (unsigned int i = 0; i < damping.size(); ++i)
@@ -357,22 +357,30 @@ namespace Touchstone
   void
   ExplicitStep::add_work(const double length)
   {
-    // The ledger of doc/explicit.md, section 6: forces at both ends of a cycle do work on its
-    // motion, and impulses on the mean of the velocities before and after.
-    const double between = 0.5 * (now.length + length);
-    const bool   viscous = parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.;
+    const bool viscous = parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.;
+    if (!viscous && loads.empty())
+      return;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
         const Tensor<1, dim> half = 0.5 * length * now.v[i];
         if (!loads.empty())
-          work[i].external += half * (external_before[i] + now.external[i]);
+          work[i].external += half * now.external[i];
         if (viscous)
-          work[i].viscous -= half * (viscous_before[i] + now.viscous[i]);
-        if (!damping.empty())
-          {
-            const Tensor<1, dim> mean = 0.5 * (v_before[i] + now.v[i]);
-            work[i].damping += between * damping[i] * cells.masses()[i] * (mean * mean);
-          }
+          work[i].viscous -= half * now.viscous[i];
+      }
+  }
+
+
+
+  void
+  ExplicitStep::add_damping(const double length)
+  {
+    // Impulses do work on the mean of the velocities before and after.
+    const double between = 0.5 * (now.length + length);
+    for (unsigned int i = 0; i < damping.size(); ++i)
+      {
+        const Tensor<1, dim> mean = 0.5 * (v_before[i] + now.v[i]);
+        work[i].damping += between * damping[i] * cells.masses()[i] * (mean * mean);
       }
   }
 

@@ -4,7 +4,6 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/explicit/explicit_cells.h>
 #include <touchstone/explicit/stable_step.h>
-#include <touchstone/solid/solid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +38,7 @@ namespace Touchstone
     , parameters(parameters)
     , cell_masses(bodies.size())
     , factors(bodies.size())
-    , frequencies(bodies.size())
+    , periods(bodies.size())
     , nodal_mass(map.n_local())
   {
     std::vector<std::vector<unsigned int>> cells(bodies.size());
@@ -58,7 +57,13 @@ namespace Touchstone
       {
         of_bodies.push_back(CellForces::make(map, cells[b], bodies[b]));
         factors[b].assign(cells[b].size(), 1.);
-        frequencies[b].assign(cells[b].size(), 0.);
+        for (unsigned int c = 0; c < cells[b].size() && of_bodies[b]->history() != nullptr; ++c)
+          {
+            const unsigned int number = map.cells()[cells[b][c]].index;
+            if (number >= place_of.size())
+              place_of.resize(number + 1, {-1, 0});
+            place_of[number] = {c, b};
+          }
       }
     sum_masses();
   }
@@ -140,31 +145,20 @@ namespace Touchstone
                                NodeField       &viscous) const
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      {
-        // The length of the classical formulas is 2 kappa / (rho c omega): with it the linear part
-        // damps no mode of the cell by more than b_1 of the critical damping.
-        const double kappa   = bodies[b].material.bulk_modulus();
-        const double modulus = kappa + 4. / 3. * bodies[b].material.shear_modulus();
-        const double root    = 2. * kappa * parameters.quadratic_viscosity;
-        of_bodies[b]->add_viscosity(
-          u,
-          v,
-          {2. * kappa * parameters.linear_viscosity, root * root / modulus, 2. * kappa, step},
-          frequencies[b],
-          viscous);
-      }
+      of_bodies[b]->add_viscosity(
+        u, v, Viscosity(bodies[b].material, parameters, step), periods[b], viscous);
   }
 
 
 
   void
-  ExplicitCells::update_frequencies(const NodeField &u)
+  ExplicitCells::update_periods(const NodeField &u)
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
-        of_bodies[b]->square_frequencies(u, cell_masses[b], frequencies[b]);
+        of_bodies[b]->square_frequencies(u, cell_masses[b], periods[b]);
         for (unsigned int c = 0; c < factors[b].size(); ++c)
-          frequencies[b][c] /= factors[b][c];
+          periods[b][c] = std::sqrt(factors[b][c] / periods[b][c]);
       }
   }
 
@@ -178,17 +172,13 @@ namespace Touchstone
   {
     // Viscous forces are those of the velocity half a cycle before: the step of a mode with the
     // part xi of critical damping (doc/explicit.md, section 4).
-    double xi = parameters.linear_viscosity;
+    std::array<Tensor<1, dim>, 8> derivative;
+    double                        rate = 0.;
     if (parameters.quadratic_viscosity > 0.)
-      {
-        std::array<Tensor<1, dim>, 8> derivative;
-        const double                  rate  = of_bodies[body]->volume_rate(c, u, v, derivative);
-        const double                  kappa = bodies[body].material.bulk_modulus();
-        const double modulus = kappa + 4. / 3. * bodies[body].material.shear_modulus();
-        xi += std::pow(parameters.quadratic_viscosity, 2) * 2. * kappa / modulus *
-              std::max(0., -rate) / std::sqrt(frequencies[body][c]);
-      }
-    return 2. / std::sqrt(frequencies[body][c]) * (std::sqrt(1. + xi * xi) - xi);
+      rate = of_bodies[body]->volume_rate(c, u, v, derivative);
+    const double xi =
+      Viscosity(bodies[body].material, parameters, 0.).damping(rate, periods[body][c]);
+    return 2. * periods[body][c] * (std::sqrt(1. + xi * xi) - xi);
   }
 
 
@@ -196,11 +186,11 @@ namespace Touchstone
   StableStep
   ExplicitCells::stable_step(const NodeField &u, const NodeField &v)
   {
-    update_frequencies(u);
+    update_periods(u);
     StableStep result;
     result.length = std::numeric_limits<double>::max();
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int c = 0; c < frequencies[b].size(); ++c)
+      for (unsigned int c = 0; c < periods[b].size(); ++c)
         {
           const double step = step_of(b, c, u, v);
           if (step < result.length || (step == result.length && place(b, c).key < result.cell.key))
@@ -222,11 +212,11 @@ namespace Touchstone
   std::pair<double, double>
   ExplicitCells::scale_masses(const NodeField &u)
   {
-    update_frequencies(u);
+    update_periods(u);
     const NodeField rest(u.size());
     ExactSum        total, added;
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int c = 0; c < frequencies[b].size(); ++c)
+      for (unsigned int c = 0; c < periods[b].size(); ++c)
         {
           const double step = parameters.courant_factor * step_of(b, c, u, rest);
           factors[b][c]     = std::max(1., std::pow(parameters.mass_scaling_step / step, 2));
@@ -277,7 +267,8 @@ namespace Touchstone
   ExplicitCells::commit()
   {
     for (const auto &cells : of_bodies)
-      cells->commit();
+      if (CellStates *const history = cells->history())
+        history->commit();
   }
 
 
@@ -286,7 +277,8 @@ namespace Touchstone
   ExplicitCells::rollback()
   {
     for (const auto &cells : of_bodies)
-      cells->rollback();
+      if (CellStates *const history = cells->history())
+        history->rollback();
   }
 
 
@@ -300,23 +292,20 @@ namespace Touchstone
 
 
 
-  void
-  ExplicitCells::to_solid(Solid &solid) const
+  std::vector<double>
+  ExplicitCells::committed_state(const unsigned int cell) const
   {
-    for (const auto &cells : of_bodies)
-      if (cells->has_history())
-        for (unsigned int c = 0; c < cells->cell_numbers().size(); ++c)
-          solid.set_cell_state(map.cells()[cells->cell_numbers()[c]].index, cells->state(c));
+    if (cell >= place_of.size() || place_of[cell].first < 0)
+      return {};
+    return of_bodies[place_of[cell].second]->state(place_of[cell].first);
   }
 
 
 
   void
-  ExplicitCells::from_solid(const Solid &solid)
+  ExplicitCells::set_state(const unsigned int cell, const std::vector<double> &values)
   {
-    for (const auto &cells : of_bodies)
-      if (cells->has_history())
-        for (unsigned int c = 0; c < cells->cell_numbers().size(); ++c)
-          cells->set_state(c, solid.cell_state(map.cells()[cells->cell_numbers()[c]].index));
+    if (cell < place_of.size() && place_of[cell].first >= 0)
+      of_bodies[place_of[cell].second]->set_state(place_of[cell].first, values);
   }
 } // namespace Touchstone

@@ -106,7 +106,7 @@ namespace Touchstone
         smallest               = std::min(smallest, determinants[q]);
         weights[q]             = 0.125 * determinants[q];
         total += weights[q];
-        const Tensor<2, dim> inverse = invert(J);
+        const Tensor<2, dim> inverse = inverses[q] = invert(J);
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int i = 0; i < dim; ++i)
             gradients[q][a][i] = tables().derivative[q][a][0] * inverse[0][i] +

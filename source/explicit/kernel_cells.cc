@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/vectorised.h>
+#include <touchstone/explicit/gauss_cells.h>
 #include <touchstone/explicit/kernel_cells.h>
 #include <touchstone/explicit/one_point_cells.h>
 #include <touchstone/explicit/stable_step.h>
@@ -27,6 +28,14 @@ namespace Touchstone
       return type == ElementType::f_bar ? ElementType::b_bar : type;
     }
 
+    std::unique_ptr<CellKernel>
+    make_kernel(const BodyParameters &body)
+    {
+      if (body.material.finite_strain())
+        return std::make_unique<FiniteStrainKernel>(1, body.element(), body.material);
+      return std::make_unique<SmallStrainKernel>(1, body.element(), body.material);
+    }
+
     /** y = K x */
     TOUCHSTONE_VECTORISED
     void
@@ -47,16 +56,11 @@ namespace Touchstone
                            const std::vector<unsigned int> &cells,
                            const BodyParameters            &body)
     : CellForces(map, cells, body)
+    , kernel(make_kernel(body))
+    , states(cells.size(), kernel->material().get(), kernel->n_quadrature_points())
     , elastic(counterpart(body.element()), body.material)
+    , before(states.size())
   {
-    if (body.material.finite_strain())
-      kernel = std::make_unique<FiniteStrainKernel>(1, body.element(), body.material);
-    else
-      kernel = std::make_unique<SmallStrainKernel>(1, body.element(), body.material);
-    present.resize(cells.size() * kernel->n_state());
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      kernel->start(present.data() + c * kernel->n_state());
-    kept = present;
   }
 
 
@@ -72,7 +76,8 @@ namespace Touchstone
           positions[dim * a + d]    = map.positions()[one.nodes[a]][d];
           displacement[dim * a + d] = u[one.nodes[a]][d];
         }
-    return kernel->reinit(positions, displacement, present.data() + c * kernel->n_state());
+    states.get(c, before.data());
+    return kernel->reinit(positions, displacement, before.data());
   }
 
 
@@ -96,9 +101,7 @@ namespace Touchstone
         subtract(cell(c), kernel->force(), force);
         if (!kernel->solved())
           failed = std::min(failed, c);
-        std::copy(kernel->present().begin(),
-                  kernel->present().end(),
-                  present.begin() + c * kernel->n_state());
+        states.put(c, kernel->present().data());
       }
     kernel->set_step_length(0.);
     return failed;
@@ -109,18 +112,16 @@ namespace Touchstone
   void
   KernelCells::add_energies(const NodeField &u, CellEnergies &energies)
   {
-    const unsigned int n_state =
-      kernel->n_quadrature_points() > 0 ? kernel->n_state() / kernel->n_quadrature_points() : 0;
+    const unsigned int n_state = states.size() / kernel->n_quadrature_points();
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (cell(c).owned)
         {
           go_to(c, u);
           energies.strain.add(kernel->elastic_energy());
-          if (has_history())
+          if (n_state > 0)
             for (unsigned int q = 0; q < kernel->n_quadrature_points(); ++q)
-              energies.plastic.add(
-                kernel->weight(q) *
-                kernel->material()->dissipation(&present[c * kernel->n_state() + q * n_state]));
+              energies.plastic.add(kernel->weight(q) *
+                                   kernel->material()->dissipation(&before[q * n_state]));
         }
   }
 
@@ -148,7 +149,7 @@ namespace Touchstone
         const double now   = one_point_frequency(x, body.material, masses[c]);
         if (!(std::abs(now / estimate[c] - 1.) < change))
           {
-            if (has_history() || small)
+            if (states.size() > 0 || small)
               {
                 elastic.reinit(x);
                 exact[c] = largest_eigenvalue([&](const unsigned int i,
@@ -167,26 +168,6 @@ namespace Touchstone
           }
         result[c] = exact[c] * (now / estimate[c]);
       }
-  }
-
-
-
-  std::vector<double>
-  KernelCells::state(const unsigned int c) const
-  {
-    const auto begin = present.begin() + c * kernel->n_state();
-    return std::vector<double>(begin, begin + kernel->n_state());
-  }
-
-
-
-  void
-  KernelCells::set_state(const unsigned int c, const std::vector<double> &values)
-  {
-    AssertThrow(values.size() == kernel->n_state(),
-                ExcDimensionMismatch(values.size(), kernel->n_state()));
-    std::copy(values.begin(), values.end(), present.begin() + c * kernel->n_state());
-    std::copy(values.begin(), values.end(), kept.begin() + c * kernel->n_state());
   }
 
 
@@ -289,20 +270,17 @@ namespace Touchstone
   void
   CellForces::add_viscosity(const NodeField           &u,
                             const NodeField           &v,
-                            const Viscosity           &coefficients,
-                            const std::vector<double> &squares,
+                            const Viscosity           &viscosity,
+                            const std::vector<double> &periods,
                             NodeField                 &viscous)
   {
     std::array<Tensor<1, dim>, 8> derivative;
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
-        const double rate = volume_rate(c, u, v, derivative);
-        const double viscosity =
-          std::min(coefficients.linear / std::sqrt(squares[c]) -
-                     coefficients.quadratic / squares[c] * std::min(0., rate),
-                   coefficients.largest(squares[c]));
+        const double rate     = volume_rate(c, u, v, derivative);
+        const double pressure = viscosity(rate, periods[c]) * rate;
         for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-          viscous[cell(c).nodes[a]] -= viscosity * rate * derivative[a];
+          viscous[cell(c).nodes[a]] -= pressure * derivative[a];
       }
   }
 
@@ -317,6 +295,8 @@ namespace Touchstone
       return std::make_unique<OnePointCells>(map, cells, body);
     if (body.material.linear())
       return std::make_unique<ElasticCells>(map, cells, body);
+    if (GaussCells::suits(body))
+      return std::make_unique<GaussCells>(map, cells, body);
     return std::make_unique<KernelCells>(map, cells, body);
   }
 } // namespace Touchstone

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/explicit/cell_stiffness.h>
 #include <touchstone/explicit/one_point_cells.h>
 #include <touchstone/explicit/one_point_kernels.h>
-#include <touchstone/explicit/one_point_plasticity.h>
 #include <touchstone/explicit/stable_step.h>
-#include <touchstone/solid/finite_strain_kernel.h>
-#include <touchstone/solid/hardening_law.h>
-#include <touchstone/solid/small_strain_kernel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +16,6 @@ namespace Touchstone
   {
     constexpr unsigned int n_cells = OnePointBlock::n_cells, n_nodes = OnePointBlock::n_nodes,
                            n_modes = OnePointBlock::n_modes;
-
-    /** Tensors of a field stand one after the other. */
-    const double *
-    numbers_of(const NodeField &field)
-    {
-      return reinterpret_cast<const double *>(field.data());
-    }
   } // namespace
 
 
@@ -36,34 +24,11 @@ namespace Touchstone
                                const std::vector<unsigned int> &cells,
                                const BodyParameters            &body)
     : CellForces(map, cells, body)
-    , finite(body.material.finite_strain())
+    , law(body)
+    , finite(law.finite_strain())
+    , states(cells.size(), law.law(), 1)
+    , blocks((cells.size() + n_cells - 1) / n_cells)
   {
-    const std::string &name = body.material.law.name;
-    formulas                = body.material.linear()  ? Formulas::linear_elastic
-                              : name == "neo-Hookean" ? Formulas::neo_hookean
-                                                      : Formulas::any_law;
-    // The law that the elements of implicit runs have.
-    if (finite)
-      law = FiniteStrainKernel(1, ElementType::full, body.material).material();
-    else if (!body.material.linear())
-      law = SmallStrainKernel(1, ElementType::full, body.material).material();
-    n_state = law ? law->n_state() : 0;
-    blocks.resize((cells.size() + n_cells - 1) / n_cells);
-    // The formulas for eight cells are those of constant and of linear isotropic hardening.
-    const std::string &hardening = body.material.hardening_type.name;
-    if (finite && n_state > 0 && law->plastic() && body.material.kinematic_modulus == 0. &&
-        (hardening == "none" || hardening == "linear"))
-      formulas = Formulas::von_mises;
-    present.resize(blocks.size() * n_cells * n_state);
-    state_before.resize(n_state);
-    state_after.resize(n_state);
-    std::vector<double> virgin(n_state);
-    if (n_state > 0)
-      law->start(virgin.data());
-    for (unsigned int c = 0; c < blocks.size() * n_cells; ++c)
-      for (unsigned int k = 0; k < n_state; ++k)
-        variable(c, k) = virgin[k];
-    kept = present;
     for (unsigned int b = 0; b < blocks.size(); ++b)
       set_block(blocks[b], b * n_cells);
   }
@@ -107,67 +72,32 @@ namespace Touchstone
                   block.warp[dim * m + i][lane] += hourglass_sign(m, a) * x[a][i];
               }
           }
-        const bool viscous = body.hourglass == BodyParameters::Hourglass::viscous;
-        const bool stiff   = body.hourglass == BodyParameters::Hourglass::stiffness;
         // Exact for bending of a box: the normal strains of the modes with the modulus of bars.
         // What is left, warping, has the stiffness of the twist of a plate.
         const double shear    = body.material.shear_modulus();
         const double shortest = std::min({square[0], square[1], square[2]}),
                      longest  = std::max({square[0], square[1], square[2]});
-        const double warping  = shear * V * shortest / (12. * longest * longest);
+        double k[n_modes];
+        for (unsigned int i = 0; i < dim; ++i)
+          k[i] = young * V / (48. * square[i]);
+        k[dim] = shear * V * shortest / (12. * longest * longest);
         for (unsigned int m = 0; m < n_modes; ++m)
           {
             double softest = std::numeric_limits<double>::max();
             for (unsigned int i = 0; i < dim; ++i)
-              {
-                const bool   across = m < dim && i == (m + 2) % dim;
-                const double k =
-                  across ? warping : young * V / ((m < dim ? 48. : 144.) * square[i]);
-                softest                            = std::min(softest, k);
-                block.stiffness[dim * m + i][lane] = stiff ? factor * k : 0.;
-              }
+              softest =
+                std::min(softest,
+                         OnePointBlock::warps(m, i) ? k[dim] : OnePointBlock::part(m) * k[i]);
             // The part of critical damping of the softest direction, 8 c / mass = 2 xi omega.
-            block.viscosity[m][lane] =
-              viscous ? factor * 0.25 * mass * std::sqrt(n_nodes * softest / mass) : 0.;
+            block.control[m][lane] = body.hourglass == BodyParameters::Hourglass::none ? 0.
+                                     : body.hourglass == BodyParameters::Hourglass::viscous
+                                       ? factor * 0.25 * mass * std::sqrt(n_nodes * softest / mass)
+                                       : factor * k[m];
           }
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
             block.edges[dim * i + j][lane] = edges[i][j] / std::sqrt(square[i]);
       }
-  }
-
-
-
-  unsigned int
-  OnePointCells::respond(const unsigned int b, const double step, const double *marked)
-  {
-    unsigned int       failed = numbers::invalid_unsigned_int;
-    const unsigned int first  = b * n_cells;
-    MaterialResponse   response;
-    for (unsigned int lane = 0; lane < n_cells && first + lane < cells.size(); ++lane)
-      {
-        if (marked != nullptr && marked[lane] == 0.)
-          continue;
-        Tensor<2, dim> F;
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            F[i][j] = gradient[dim * i + j][lane] + (finite && i == j ? 1. : 0.);
-        get_state(first + lane, state_before.data());
-        response.solved = !finite || determinant(F) > 0.;
-        if (response.solved)
-          law->respond({F, state_before.data(), step},
-                       Demand::stress,
-                       response,
-                       state_after.data());
-        if (response.solved)
-          for (unsigned int k = 0; k < n_state; ++k)
-            variable(first + lane, k) = state_after[k];
-        else
-          failed = std::min(failed, first + lane);
-        for (unsigned int k = 0; k < dim * dim; ++k)
-          stress[k][lane] = response.solved ? response.stress[k / dim][k % dim] : 0.;
-      }
-    return failed;
   }
 
 
@@ -179,60 +109,32 @@ namespace Touchstone
                                  NodeField       &force,
                                  NodeField       &viscous)
   {
-    unsigned int      failed = numbers::invalid_unsigned_int;
-    const double      mu = body.material.shear_modulus(), kappa = body.material.bulk_modulus();
-    const bool        damped = body.hourglass == BodyParameters::Hourglass::viscous;
-    double            forces[dim * n_nodes][n_cells], J[n_cells];
-    VonMisesConstants constants{mu, kappa, 0., 0.};
-    if (formulas == Formulas::von_mises)
-      {
-        const YieldStress yield = body.material.hardening->at(0.);
-        constants.yield_stress  = yield.value;
-        constants.hardening     = yield.slope;
-      }
+    unsigned int failed = numbers::invalid_unsigned_int;
+    const bool   damped = body.hourglass == BodyParameters::Hourglass::viscous;
+    double forces[dim * n_nodes][n_cells], gradient[dim * dim][n_cells], stress[dim * dim][n_cells];
+    const auto          control      = body.hourglass != BodyParameters::Hourglass::stiffness
+                                         ? OnePointKernels::Hourglass::none
+                                       : finite ? OnePointKernels::Hourglass::convected
+                                                : OnePointKernels::Hourglass::fixed;
     const double *const displacement = numbers_of(u), *const velocity = numbers_of(v);
     for (unsigned int b = 0; b < blocks.size(); ++b)
       {
-        const OnePointBlock &block = blocks[b];
-        const unsigned int   first = b * n_cells;
+        const OnePointBlock &block  = blocks[b];
+        const unsigned int   first  = b * n_cells;
+        const unsigned int   n_used = std::min<unsigned int>(n_cells, cells.size() - first);
         OnePointKernels::set_gradients(block, displacement, gradient);
-        if (formulas == Formulas::linear_elastic)
-          OnePointKernels::linear_elastic(kappa - 2. / 3. * mu, mu, gradient, stress);
-        else if (formulas == Formulas::neo_hookean)
-          {
-            OnePointKernels::neo_hookean(kappa, mu, gradient, stress, J);
-            for (unsigned int lane = 0; lane < n_cells && first + lane < cells.size(); ++lane)
-              if (!(J[lane] > 0.))
-                failed = std::min(failed, first + lane);
-          }
-        else if (formulas == Formulas::von_mises)
-          {
-            // Cells beyond the series of the formulas are few; failures show there.
-            von_mises_cycle(constants,
-                            gradient,
-                            reinterpret_cast<double(*)[n_cells]>(&present[b * n_state * n_cells]),
-                            stress,
-                            J);
-            if (std::any_of(J, J + n_cells, [](const double beyond) { return beyond != 0.; }))
-              failed = std::min(failed, respond(b, step, J));
-          }
-        else
-          failed = std::min(failed, respond(b, step));
-        OnePointKernels::set_forces(block,
-                                    displacement,
-                                    gradient,
-                                    stress,
-                                    finite ? OnePointKernels::Hourglass::convected
-                                           : OnePointKernels::Hourglass::fixed,
-                                    forces);
-        scatter(b, forces, force);
+        const unsigned int lane = law.respond(gradient, step, n_used, states.block(b), stress);
+        if (lane < n_used)
+          failed = std::min(failed, first + lane);
+        OnePointKernels::set_forces(block, displacement, gradient, stress, control, forces);
+        scatter(block.nodes, n_used, forces, force);
         if (damped)
           {
             const double none[dim * dim][n_cells] = {};
             OnePointKernels::set_gradients(block, velocity, gradient);
             OnePointKernels::set_forces(
               block, velocity, gradient, none, OnePointKernels::Hourglass::damped, forces);
-            scatter(b, forces, viscous);
+            scatter(block.nodes, n_used, forces, viscous);
           }
       }
     return failed;
@@ -241,46 +143,41 @@ namespace Touchstone
 
 
   void
-  OnePointCells::scatter(const unsigned int b,
-                         const double (*forces)[n_cells],
-                         NodeField &sum) const
+  OnePointCells::add_viscosity(const NodeField           &u,
+                               const NodeField           &v,
+                               const Viscosity           &viscosity,
+                               const std::vector<double> &periods,
+                               NodeField                 &viscous)
   {
-    for (unsigned int lane = 0; lane < n_cells && b * n_cells + lane < cells.size(); ++lane)
-      for (unsigned int a = 0; a < n_nodes; ++a)
-        for (unsigned int i = 0; i < dim; ++i)
-          sum[blocks[b].nodes[lane][a]][i] -= forces[dim * a + i][lane];
+    double forces[dim * n_nodes][n_cells], gradient[dim * dim][n_cells], rates[dim * dim][n_cells],
+      stress[dim * dim][n_cells];
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      {
+        const unsigned int first  = b * n_cells;
+        const unsigned int n_used = std::min<unsigned int>(n_cells, cells.size() - first);
+        double             padded[n_cells];
+        for (unsigned int lane = 0; lane < n_cells; ++lane)
+          padded[lane] = periods[first + std::min(lane, n_used - 1)];
+        OnePointKernels::set_gradients(blocks[b], numbers_of(v), rates);
+        if (finite)
+          OnePointKernels::set_gradients(blocks[b], numbers_of(u), gradient);
+        OnePointKernels::viscous(finite ? gradient : nullptr, rates, viscosity, padded, stress);
+        OnePointKernels::set_forces(
+          blocks[b], numbers_of(v), rates, stress, OnePointKernels::Hourglass::none, forces);
+        scatter(blocks[b].nodes, n_used, forces, viscous);
+      }
   }
 
 
 
-  void
-  OnePointCells::add_viscosity(const NodeField           &u,
-                               const NodeField           &v,
-                               const Viscosity           &coefficients,
-                               const std::vector<double> &squares,
-                               NodeField                 &viscous)
+  double
+  OnePointCells::stiffness(const unsigned int c, const unsigned int m, const unsigned int i) const
   {
-    double forces[dim * n_nodes][n_cells], rates[dim * dim][n_cells];
-    double linear[n_cells], quadratic[n_cells], largest[n_cells];
-    for (unsigned int b = 0; b < blocks.size(); ++b)
-      {
-        for (unsigned int lane = 0; lane < n_cells; ++lane)
-          {
-            const double square =
-              squares[std::min<unsigned int>(b * n_cells + lane, cells.size() - 1)];
-            linear[lane]    = coefficients.linear / std::sqrt(square);
-            quadratic[lane] = coefficients.quadratic / square;
-            largest[lane]   = coefficients.largest(square);
-          }
-        OnePointKernels::set_gradients(blocks[b], numbers_of(v), rates);
-        if (finite)
-          OnePointKernels::set_gradients(blocks[b], numbers_of(u), gradient);
-        OnePointKernels::viscous(
-          finite ? gradient : nullptr, rates, linear, quadratic, largest, stress);
-        OnePointKernels::set_forces(
-          blocks[b], numbers_of(v), rates, stress, OnePointKernels::Hourglass::none, forces);
-        scatter(b, forces, viscous);
-      }
+    if (body.hourglass != BodyParameters::Hourglass::stiffness)
+      return 0.;
+    const auto &control = blocks[c / n_cells].control;
+    return OnePointBlock::warps(m, i) ? control[dim][c % n_cells]
+                                      : OnePointBlock::part(m) * control[i][c % n_cells];
   }
 
 
@@ -323,7 +220,7 @@ namespace Touchstone
             Tensor<1, dim> edge;
             for (unsigned int j = 0; j < dim; ++j)
               edge[j] = block.edges[dim * i + j][lane];
-            sum += 0.5 * block.stiffness[dim * m + i][lane] * (edge * q) * (edge * q);
+            sum += 0.5 * stiffness(c, m, i) * (edge * q) * (edge * q);
           }
       }
     return sum;
@@ -337,7 +234,7 @@ namespace Touchstone
     const double mu     = body.material.shear_modulus(),
                  lambda = body.material.bulk_modulus() - 2. / 3. * mu;
     MaterialResponse    response;
-    std::vector<double> begin(n_state), end(n_state);
+    std::vector<double> begin(states.size()), end(states.size());
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (cell(c).owned)
         {
@@ -345,7 +242,7 @@ namespace Touchstone
           const unsigned int   lane  = c % n_cells;
           Tensor<2, dim>       H     = displacement_gradient(c, u);
           energies.hourglass.add(hourglass_energy(c, u, H));
-          if (!law)
+          if (law.law() == nullptr)
             {
               const SymmetricTensor<2, dim> strain = symmetrize(H);
               energies.strain.add(
@@ -355,12 +252,12 @@ namespace Touchstone
             }
           if (finite)
             H += Tensor<2, dim>(unit_symmetric_tensor<dim>());
-          get_state(c, begin.data());
+          states.get(c, begin.data());
           if (!finite || determinant(H) > 0.)
-            law->respond({H, begin.data(), 0.}, Demand::energy, response, end.data());
+            law.law()->respond({H, begin.data(), 0.}, Demand::energy, response, end.data());
           energies.strain.add(block.volume[lane] * response.elastic_energy);
-          if (n_state > 0)
-            energies.plastic.add(block.volume[lane] * law->dissipation(begin.data()));
+          if (states.size() > 0)
+            energies.plastic.add(block.volume[lane] * law.law()->dissipation(begin.data()));
         }
   }
 
@@ -370,19 +267,11 @@ namespace Touchstone
   OnePointCells::state(const unsigned int c) const
   {
     // The bodies have the history of eight points, which are all alike here.
-    std::vector<double> result(n_nodes * n_state);
+    const std::vector<double> one = states.committed_state(c);
+    std::vector<double>       result;
     for (unsigned int q = 0; q < n_nodes; ++q)
-      get_state(c, result.data() + q * n_state);
+      result.insert(result.end(), one.begin(), one.end());
     return result;
-  }
-
-
-
-  void
-  OnePointCells::get_state(const unsigned int c, double *values) const
-  {
-    for (unsigned int k = 0; k < n_state; ++k)
-      values[k] = present[(c / n_cells * n_state + k) * n_cells + c % n_cells];
   }
 
 
@@ -390,12 +279,8 @@ namespace Touchstone
   void
   OnePointCells::set_state(const unsigned int c, const std::vector<double> &values)
   {
-    AssertThrow(values.size() == n_nodes * n_state,
-                ExcDimensionMismatch(values.size(), n_nodes * n_state));
-    // The rest of the last block repeats the last cell.
-    const unsigned int end = c + 1 == cells.size() ? blocks.size() * n_cells : c + 1;
-    for (unsigned int other = c; other < end; ++other)
-      for (unsigned int k = 0; k < n_state; ++k)
-        kept[&variable(other, k) - present.data()] = variable(other, k) = values[k];
+    AssertThrow(values.size() == n_nodes * states.size(),
+                ExcDimensionMismatch(values.size(), n_nodes * states.size()));
+    states.set(c, {values.begin(), values.begin() + states.size()});
   }
 } // namespace Touchstone

@@ -79,8 +79,8 @@ namespace Touchstone
           for (unsigned int j = 0; j < dim; ++j)
             edges +=
               block.edges[dim * (r % dim) + j][lane] * block.edges[dim * (s % dim) + j][lane];
-          A(r, s) = std::sqrt(block.stiffness[r][lane] * block.stiffness[s][lane]) * edges *
-                    product(modes[r / dim], modes[s / dim], masses);
+          A(r, s) = std::sqrt(stiffness(c, r / dim, r % dim) * stiffness(c, s / dim, s % dim)) *
+                    edges * product(modes[r / dim], modes[s / dim], masses);
         }
     // Where the two kinds of motion are not orthogonal, as in distorted cells, the bound of the
     // cosine is the norm of C = G^{-1/2} (b, gamma) Gamma^{-1/2}, whose square is a trace.
@@ -128,8 +128,8 @@ namespace Touchstone
     Tensor<2, dim>   push    = unit;
     double           volume  = block.volume[lane];
     const double     stretch = eigenvalues(symmetrize(transpose(F) * F))[0];
-    if (finite && n_state == 0)
-      law->respond({F, nullptr, 0.}, Demand::tangent, response, nullptr);
+    if (finite && states.size() == 0)
+      law.law()->respond({F, nullptr, 0.}, Demand::tangent, response, nullptr);
     else
       {
         const double mu     = body.material.shear_modulus(),
@@ -178,7 +178,7 @@ namespace Touchstone
           if (r < n_strains && s < n_strains)
             L(r, s) = volume * response.tangent[r / dim][r % dim][s / dim][s % dim];
           else if (r == s)
-            L(r, s) = stretch * block.stiffness[r - n_strains][lane];
+            L(r, s) = stretch * stiffness(c, (r - n_strains) / dim, (r - n_strains) % dim);
         }
     L.mmult(both, G);
     return bound(both);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/explicit/lanes.h>
 #include <touchstone/explicit/one_point_kernels.h>
-
-#include <cmath>
 
 // Kinematics, elastic stresses and forces of one-point cells, eight at a time (doc/explicit.md,
 // section 5).
@@ -12,19 +11,7 @@ namespace Touchstone
   {
     constexpr unsigned int lane_count = OnePointBlock::n_cells, n_corners = OnePointBlock::n_nodes,
                            mode_count = OnePointBlock::n_modes;
-    using Lanes                       = OnePointBlock::Lanes;
-
-    __attribute__((always_inline)) inline Lanes
-    load(const double *values)
-    {
-      return *reinterpret_cast<const Lanes *>(values);
-    }
-
-    __attribute__((always_inline)) inline void
-    store(const Lanes &lanes, double *values)
-    {
-      *reinterpret_cast<Lanes *>(values) = lanes;
-    }
+    static_assert(lane_count == n_lanes, "Blocks are those of the vectors.");
 
     /** Component @p i of the nodes of all cells. */
     __attribute__((always_inline)) inline void
@@ -110,7 +97,7 @@ namespace Touchstone
         if (control == Hourglass::damped)
           {
             for (unsigned int i = 0; i < dim; ++i)
-              q[i][m] *= load(block.viscosity[m]);
+              q[i][m] *= load(block.control[m]);
             continue;
           }
         // y = F^T q, and w = sum_i k_i (e_i . y) e_i.
@@ -125,7 +112,7 @@ namespace Touchstone
         for (unsigned int i = 0; i < dim; ++i)
           {
             const Lanes along =
-              load(block.stiffness[dim * m + i]) *
+              OnePointBlock::part(m) * load(block.control[OnePointBlock::warps(m, i) ? dim : i]) *
               (load(block.edges[dim * i]) * y[0] + load(block.edges[dim * i + 1]) * y[1] +
                load(block.edges[dim * i + 2]) * y[2]);
             for (unsigned int j = 0; j < dim; ++j)
@@ -167,9 +154,8 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   OnePointKernels::viscous(const double (*gradient)[lane_count],
                            const double (*rates)[lane_count],
-                           const double *linear,
-                           const double *quadratic,
-                           const double *largest,
+                           const Viscosity &viscosity,
+                           const double    *periods,
                            double (*stress)[lane_count])
   {
     const Lanes zero = {};
@@ -181,20 +167,13 @@ namespace Touchstone
         Lanes F[dim * dim];
         for (unsigned int k = 0; k < dim * dim; ++k)
           F[k] = load(gradient[k]) + H[k];
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            {
-              const unsigned int p = (i + 1) % dim, q = (i + 2) % dim, r = (j + 1) % dim,
-                                 s = (j + 2) % dim;
-              H[dim * i + j] = F[dim * p + r] * F[dim * q + s] - F[dim * p + s] * F[dim * q + r];
-            }
+        cofactors(F, H);
         J = F[0] * H[0] + F[1] * H[1] + F[2] * H[2];
       }
     for (unsigned int k = 0; k < dim * dim; ++k)
       rate += H[k] * load(rates[k]);
     rate /= J;
-    const Lanes wanted = load(linear) - (rate < 0. ? load(quadratic) * rate : zero),
-                most = load(largest), pressure = (wanted < most ? wanted : most) * rate;
+    const Lanes pressure = viscosity(rate, load(periods)) * rate;
     for (unsigned int k = 0; k < dim * dim; ++k)
       store(pressure * H[k], stress[k]);
   }
@@ -234,21 +213,11 @@ namespace Touchstone
           F[k] += 1.;
         norm += F[k] * F[k];
       }
-    // Cofactors: J F^{-T}.
     Lanes H[dim * dim];
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        {
-          const unsigned int p = (i + 1) % dim, q = (i + 2) % dim, r = (j + 1) % dim,
-                             s = (j + 2) % dim;
-          H[dim * i + j]       = F[dim * p + r] * F[dim * q + s] - F[dim * p + s] * F[dim * q + r];
-        }
+    cofactors(F, H);
     const Lanes det = F[0] * H[0] + F[1] * H[1] + F[2] * H[2];
     store(det, J);
-    double root[lane_count];
-    for (unsigned int c = 0; c < lane_count; ++c)
-      root[c] = std::cbrt(J[c]);
-    const Lanes power = load(root), m = mu / (power * power),
+    const Lanes root = inverse_cube_root(det), m = mu * root * root,
                 p = (0.5 * kappa * (det * det - 1.) - m * (1. / 3.) * norm) / det;
     for (unsigned int k = 0; k < dim * dim; ++k)
       store(m * F[k] + p * H[k], stress[k]);

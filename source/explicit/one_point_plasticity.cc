@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/explicit/lanes.h>
 #include <touchstone/explicit/one_point_plasticity.h>
-
-#include <cmath>
 
 // Finite-strain von Mises plasticity for eight cells at once (doc/explicit.md, section 5).
 namespace Touchstone
 {
   namespace
   {
-    constexpr unsigned int n_lanes = OnePointBlock::n_cells;
-    using Lanes                    = OnePointBlock::Lanes;
-
-    __attribute__((always_inline)) inline Lanes
-    read(const double *values)
-    {
-      return *reinterpret_cast<const Lanes *>(values);
-    }
-
-    __attribute__((always_inline)) inline void
-    write(const Lanes &lanes, double *values)
-    {
-      *reinterpret_cast<Lanes *>(values) = lanes;
-    }
-
     /** Symmetric tensors: 11, 22, 33, 23, 13, 12. */
     struct Symmetric
     {
@@ -80,18 +64,6 @@ namespace Touchstone
       multiply(A, B, C);
     }
 
-    /** Cofactors, det(F) F^{-T}. */
-    __attribute__((always_inline)) inline void
-    cofactors(const Lanes (&F)[9], Lanes (&H)[9])
-    {
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          {
-            const unsigned int p = (i + 1) % 3, q = (i + 2) % 3, r = (j + 1) % 3, s = (j + 2) % 3;
-            H[3 * i + j] = F[3 * p + r] * F[3 * q + s] - F[3 * p + s] * F[3 * q + r];
-          }
-    }
-
     /** Half of the logarithm of b, for |b - I| of 0.1 or less: with Z = (b-I)(b+I)^{-1} it is
      * Z + Z^3/3 + Z^5/5 + Z^7/7 up to Z^9/9. */
     __attribute__((always_inline)) inline Symmetric
@@ -131,16 +103,6 @@ namespace Touchstone
         }
       return sum;
     }
-
-    __attribute__((always_inline)) inline Lanes
-    root(const Lanes &x)
-    {
-      double values[n_lanes];
-      write(x, values);
-      for (double &value : values)
-        value = std::sqrt(value);
-      return read(values);
-    }
   } // namespace
 
 
@@ -157,8 +119,8 @@ namespace Touchstone
     Lanes F[9], inverse_plastic[9], F_e[9], H[9];
     for (unsigned int k = 0; k < 9; ++k)
       {
-        F[k]               = read(gradient[k]) + (k % 4 == 0 ? 1. : 0.);
-        inverse_plastic[k] = read(state[2 + k]);
+        F[k]               = load(gradient[k]) + (k % 4 == 0 ? 1. : 0.);
+        inverse_plastic[k] = load(state[2 + k]);
       }
     multiply(F, inverse_plastic, F_e);
     cofactors(F, H);
@@ -184,7 +146,7 @@ namespace Touchstone
     const Lanes dilation = s.c[0] + s.c[1] + s.c[2];
     for (unsigned int k = 0; k < 6; ++k)
       s.c[k] = 2. * constants.mu * (k < 3 ? s.c[k] - (1. / 3.) * dilation : s.c[k]);
-    const Lanes strain = read(state[0]), equivalent = root(1.5 * square_norm(s)),
+    const Lanes strain = load(state[0]), equivalent = square_root(1.5 * square_norm(s)),
                 yield     = constants.yield_stress + constants.hardening * strain,
                 excess    = equivalent - yield;
     const Lanes zero      = {};
@@ -198,7 +160,7 @@ namespace Touchstone
     // Where the series are not exact the law itself is asked: so for numbers that are none.
     const Lanes large = square_norm(distance), fast = square_norm(flow), one = zero + 1.;
     const auto  precise = (large < 0.01) & (fast < 0.0004) & (J > 0.);
-    write(precise ? zero : one, beyond);
+    store(precise ? zero : one, beyond);
 
     Symmetric tau;
     for (unsigned int k = 0; k < 6; ++k)
@@ -207,7 +169,7 @@ namespace Touchstone
     Lanes P[9];
     multiply(tau, H, P);
     for (unsigned int k = 0; k < 9; ++k)
-      write(P[k] / J, stress[k]);
+      store(P[k] / J, stress[k]);
 
     // F_p^{-1} = F^{-1} exp(-flow) F_e.
     Lanes turned[9], back[9];
@@ -216,10 +178,10 @@ namespace Touchstone
     multiply(transposed, turned, back);
     const auto changes = precise & flows;
     for (unsigned int k = 0; k < 9; ++k)
-      write(changes ? back[k] / J : inverse_plastic[k], state[2 + k]);
-    write(changes ? strain + increment : strain, state[0]);
-    const Lanes work = read(state[1]);
-    write(changes ? work + (yield + 0.5 * constants.hardening * increment) * increment : work,
+      store(changes ? back[k] / J : inverse_plastic[k], state[2 + k]);
+    store(changes ? strain + increment : strain, state[0]);
+    const Lanes work = load(state[1]);
+    store(changes ? work + (yield + 0.5 * constants.hardening * increment) * increment : work,
           state[1]);
   }
 } // namespace Touchstone

@@ -21,6 +21,8 @@ namespace Touchstone
   NonlinearCells::NonlinearCells(const std::vector<BodyParameters> &bodies, const FESystem<dim> &fe)
     : n_nodes(fe.n_dofs_per_cell() / dim)
     , kernels(bodies.size())
+    , unit_points(FE_Q<dim>(fe.degree).get_unit_support_points())
+    , position(fe.n_dofs_per_cell())
     , displacement(fe.n_dofs_per_cell())
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -45,35 +47,52 @@ namespace Touchstone
    * needed, for energies and history, and of the ghost cells those with a row of this rank: these
    * are assembled here as well, so that forces and stiffness need no communication. */
   void
-  NonlinearCells::reinit(const MappingQ<dim>   &mapping,
-                         const DoFHandler<dim> &dof_handler,
-                         const Matrix          &stiffness)
+  NonlinearCells::reinit(const MappingQ<dim> &new_mapping, const DoFHandler<dim> &new_dof_handler)
+  {
+    mapping     = &new_mapping;
+    dof_handler = &new_dof_handler;
+    if (!any_body)
+      return;
+    const IndexSet    &owned = dof_handler->locally_owned_dofs();
+    std::vector<Index> cell_dofs(dof_handler->get_fe().n_dofs_per_cell());
+    number.assign(dof_handler->get_triangulation().n_active_cells(), -1);
+    for (const auto &cell : dof_handler->active_cell_iterators())
+      if (!cell->is_artificial() && kernels[cell->material_id()])
+        {
+          bool any = cell->is_locally_owned();
+          if (!any)
+            {
+              cell->get_dof_indices(cell_dofs);
+              for (const Index dof : cell_dofs)
+                any = any || owned.is_element(dof);
+            }
+          if (!any)
+            continue;
+          number[cell->active_cell_index()] = cells.size();
+          cells.push_back(
+            {cell->material_id(), cell->is_locally_owned(), cell->active_cell_index(), n_history});
+          n_history += kernels[cell->material_id()]->n_state();
+        }
+  }
+
+
+
+  void
+  NonlinearCells::connect(const Matrix &stiffness)
   {
     if (!any_body)
       return;
-    const FiniteElement<dim>     &fe = dof_handler.get_fe();
-    std::vector<Index>            cell_dofs(fe.n_dofs_per_cell());
-    const std::vector<Point<dim>> unit_points = FE_Q<dim>(fe.degree).get_unit_support_points();
-    std::vector<char>             known(dim * stiffness.n_nodes());
+    const FiniteElement<dim> &fe = dof_handler->get_fe();
+    std::vector<Index>        cell_dofs(fe.n_dofs_per_cell());
+    std::vector<char>         known(dim * stiffness.n_nodes());
     size.assign(known.size(), 0.);
-    number.assign(dof_handler.get_triangulation().n_active_cells(), -1);
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (!cell->is_artificial() && kernels[cell->material_id()])
+    for (const auto &cell : dof_handler->active_cell_iterators())
+      if (!cell->is_artificial() && number[cell->active_cell_index()] >= 0)
         {
           cell->get_dof_indices(cell_dofs);
-          bool any = false;
-          for (const Index dof : cell_dofs)
-            any = any || stiffness.row(dof) >= 0;
-          if (!any && !cell->is_locally_owned())
-            continue;
-          number[cell->active_cell_index()] = cells.size();
-          const CellKernel &kernel          = *kernels[cell->material_id()];
-          cells.push_back({cell->material_id(),
-                           cell->is_locally_owned(),
-                           cell->active_cell_index(),
-                           committed.size()});
-          committed.resize(committed.size() + kernel.n_state());
-          kernel.start(committed.data() + cells.back().state);
+          const CellKernel &kernel = *kernels[cell->material_id()];
+          set_position(cell);
+          positions.insert(positions.end(), position.begin(), position.end());
           for (unsigned int a = 0; a < n_nodes; ++a)
             {
               const Index first = cell_dofs[fe.component_to_system_index(0, a)];
@@ -81,8 +100,6 @@ namespace Touchstone
               dofs.push_back(first);
               rows.push_back(row);
               nodes.push_back(stiffness.node(first));
-              const Point<dim> x = mapping.transform_unit_to_real_cell(cell, unit_points[a]);
-              positions.insert(positions.end(), {x[0], x[1], x[2]});
               if (row < 0)
                 continue;
               if (!known[row])
@@ -96,7 +113,43 @@ namespace Touchstone
                   size[row + d] = std::max(size[row + d], cell->diameter() / fe.degree);
             }
         }
+    need_history();
+  }
+
+
+
+  void
+  NonlinearCells::need_history() const
+  {
+    if (elsewhere != nullptr || committed.size() == n_history)
+      return;
+    committed.resize(n_history);
+    for (const Cell &cell : cells)
+      kernels[cell.body]->start(committed.data() + cell.state);
     present = committed;
+  }
+
+
+
+  void
+  NonlinearCells::keep_in(CellHistory *const other)
+  {
+    elsewhere = other;
+    for (std::vector<double> *values : {&committed, &present})
+      std::vector<double>().swap(*values);
+  }
+
+
+
+  void
+  NonlinearCells::set_position(const DoFHandler<dim>::active_cell_iterator &cell) const
+  {
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      {
+        const Point<dim> x = mapping->transform_unit_to_real_cell(cell, unit_points[a]);
+        for (unsigned int d = 0; d < dim; ++d)
+          position[dim * a + d] = x[d];
+      }
   }
 
 
@@ -217,12 +270,21 @@ namespace Touchstone
 
 
   CellKernel *
-  NonlinearCells::at(const unsigned int cell, const Vector &u)
+  NonlinearCells::at(const DoFHandler<dim>::active_cell_iterator &cell, const Vector &u)
   {
-    if (empty() || number[cell] < 0)
+    if (empty() || number[cell->active_cell_index()] < 0)
       return nullptr;
-    double determinant;
-    return &go_to(number[cell], u, determinant);
+    const FiniteElement<dim> &fe = dof_handler->get_fe();
+    std::vector<Index>        cell_dofs(fe.n_dofs_per_cell());
+    cell->get_dof_indices(cell_dofs);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int d = 0; d < dim; ++d)
+        displacement[dim * a + d] = u(cell_dofs[fe.component_to_system_index(0, a)] + d);
+    set_position(cell);
+    CellKernel               &kernel = *kernels[cell->material_id()];
+    const std::vector<double> values = state(cell->active_cell_index());
+    kernel.reinit(position.data(), displacement.data(), values.data());
+    return &kernel;
   }
 
 
@@ -232,8 +294,13 @@ namespace Touchstone
   {
     if (empty() || number[cell] < 0)
       return {};
-    const Cell &data  = cells[number[cell]];
-    const auto  begin = committed.begin() + data.state;
+    const Cell &data = cells[number[cell]];
+    if (kernels[data.body]->n_state() == 0)
+      return {};
+    if (elsewhere != nullptr)
+      return elsewhere->committed_state(cell);
+    need_history();
+    const auto begin = committed.begin() + data.state;
     return std::vector<double>(begin, begin + kernels[data.body]->n_state());
   }
 
@@ -247,8 +314,14 @@ namespace Touchstone
     const bool         known = !empty() && number[cell] >= 0;
     const unsigned int n     = known ? kernels[cells[number[cell]].body]->n_state() : 0;
     AssertThrow(values.size() == n || !known, ExcDimensionMismatch(values.size(), n));
-    if (!known)
+    if (n == 0)
       return;
+    if (elsewhere != nullptr)
+      {
+        elsewhere->set_state(cell, values);
+        return;
+      }
+    need_history();
     const std::size_t begin = cells[number[cell]].state;
     std::copy(values.begin(), values.end(), committed.begin() + begin);
     std::copy(values.begin(), values.end(), present.begin() + begin);
@@ -268,20 +341,28 @@ namespace Touchstone
    * are needed of the kernel, so it is set to zero displacement. */
   void
   NonlinearCells::for_each_state(
-    const std::function<void(unsigned int, unsigned int, double, const double *)> &visit)
+    const std::function<void(unsigned int, unsigned int, double, const double *)> &visit) const
   {
     std::fill(displacement.begin(), displacement.end(), 0.);
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      if (cells[c].owned && law(cells[c].body))
+    need_history();
+    for (const auto &cell : dof_handler->active_cell_iterators())
+      if (cell->is_locally_owned() && law(cell->material_id()))
         {
-          CellKernel        &kernel  = *kernels[cells[c].body];
-          const unsigned int n_state = kernel.material()->n_state();
-          kernel.reinit(&positions[c * dim * n_nodes], displacement.data());
+          CellKernel               &kernel  = *kernels[cell->material_id()];
+          const unsigned int        n_state = kernel.material()->n_state();
+          const std::vector<double> kept    = elsewhere
+                                                ? elsewhere->committed_state(cell->active_cell_index())
+                                                : std::vector<double>();
+          const double *const       states =
+            elsewhere ? kept.data()
+                            : present.data() + cells[number[cell->active_cell_index()]].state;
+          set_position(cell);
+          kernel.reinit(position.data(), displacement.data());
           for (unsigned int q = 0; q < kernel.n_quadrature_points(); ++q)
-            visit(cells[c].body,
-                  cells[c].number,
+            visit(cell->material_id(),
+                  cell->active_cell_index(),
                   kernel.weight(q),
-                  present.data() + cells[c].state + q * n_state);
+                  states + q * n_state);
         }
   }
 } // namespace Touchstone

@@ -43,6 +43,7 @@ namespace Touchstone
   Solid::reinit()
   {
     nonlinear.reset();
+    matrix.reset();
     dof_handler.distribute_dofs(fe);
     owned = dof_handler.locally_owned_dofs();
     DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
@@ -64,6 +65,19 @@ namespace Touchstone
                         ExcMessage("The unknowns are not numbered by nodes."));
         }
 
+    nonlinear = std::make_unique<NonlinearCells>(bodies, fe);
+    nonlinear->reinit(mapping, dof_handler);
+  }
+
+
+
+  /** The stiffness, zero and with the couplings of this mesh when it is asked for for the first
+   * time. Collective. */
+  Matrix &
+  Solid::matrix_to_fill() const
+  {
+    if (matrix)
+      return *matrix;
     // Rows are built from owned and ghost cells, so that no communication is needed.
     const Index n_nodes = dof_handler.n_dofs() / dim;
     IndexSet    owned_nodes(n_nodes);
@@ -71,7 +85,7 @@ namespace Touchstone
       owned_nodes.add_range(owned.nth_index_in_set(0) / dim,
                             owned.nth_index_in_set(owned.n_elements() - 1) / dim + 1);
     DynamicSparsityPattern couplings(n_nodes, n_nodes, owned_nodes);
-    std::vector<Index>     nodes(dofs.size() / dim);
+    std::vector<Index>     dofs(fe.n_dofs_per_cell()), nodes(dofs.size() / dim);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
@@ -83,11 +97,11 @@ namespace Touchstone
             if (owned_nodes.is_element(row))
               couplings.add_entries(row, nodes.begin(), nodes.end(), true);
         }
-    nonlinear = std::make_unique<NonlinearCells>(bodies, fe);
-    // The matrix stores one of two transposed blocks where the tangent is symmetric, which the
-    // laws tell; hence the cells of nonlinear bodies are made before it.
-    matrix.reinit(owned, couplings, communicator, symmetric());
-    nonlinear->reinit(mapping, dof_handler, matrix);
+    // It stores one of two transposed blocks where the tangent is symmetric, which the laws tell.
+    matrix = std::make_unique<Matrix>();
+    matrix->reinit(owned, couplings, communicator, symmetric());
+    nonlinear->connect(*matrix);
+    return *matrix;
   }
 
 
@@ -135,17 +149,18 @@ namespace Touchstone
   void
   Solid::assemble()
   {
-    matrix = 0.;
+    Matrix &stiffness = matrix_to_fill();
+    stiffness         = 0.;
     std::vector<std::unique_ptr<LinearCells>> linear_cells;
     for (const BodyParameters &body : bodies)
       linear_cells.push_back(
         body.material.linear() ? std::make_unique<LinearCells>(mapping, fe, body) : nullptr);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (!cell->is_artificial() && linear_cells[cell->material_id()])
-        linear_cells[cell->material_id()]->add(cell, matrix);
+        linear_cells[cell->material_id()]->add(cell, stiffness);
     for (const auto &cells : linear_cells)
       if (cells)
-        cells->finish(matrix);
+        cells->finish(stiffness);
     assemble(Vector(owned, communicator));
   }
 
@@ -166,9 +181,10 @@ namespace Touchstone
   void
   Solid::assemble(const Vector &u, const bool symmetric_part)
   {
+    Matrix &stiffness = matrix_to_fill();
     if (!linear())
-      check_solved(nonlinear->assemble(ghosted(u), symmetric_part, matrix));
-    row_sums = matrix.absolute_row_sums();
+      check_solved(nonlinear->assemble(ghosted(u), symmetric_part, stiffness));
+    row_sums = stiffness.absolute_row_sums();
   }
 
 
@@ -178,7 +194,7 @@ namespace Touchstone
   void
   Solid::internal_force(const Vector &u, Vector &force) const
   {
-    matrix.vmult(force, u);
+    stiffness().vmult(force, u);
     if (!linear())
       check_solved(nonlinear->internal_force(ghosted(u), force));
   }
@@ -192,7 +208,7 @@ namespace Touchstone
   Solid::strain_energy(const Vector &u) const
   {
     Vector force(u);
-    matrix.vmult(force, u);
+    stiffness().vmult(force, u);
     for (const int row : nonlinear->rows_of_nodes())
       std::fill(force.begin() + row, force.begin() + row + dim, 0.);
     const double of_linear = 0.5 * (force * u);
@@ -208,8 +224,10 @@ namespace Touchstone
   bool
   Solid::admissible(const Vector &u) const
   {
-    return linear() ||
-           Utilities::MPI::min(nonlinear->smallest_determinant(ghosted(u)), communicator) > 0.;
+    if (linear())
+      return true;
+    matrix_to_fill(); // with it come the arrays of the cells
+    return Utilities::MPI::min(nonlinear->smallest_determinant(ghosted(u)), communicator) > 0.;
   }
 
 
@@ -253,7 +271,7 @@ namespace Touchstone
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          if (CellKernel *kernel = nonlinear->at(cell->active_cell_index(), u))
+          if (CellKernel *kernel = nonlinear->at(cell, u))
             {
               for (unsigned int q = 0; q < kernel->n_quadrature_points(); ++q)
                 visit(cell->material_id(), kernel->point(q), kernel->stress(q), kernel->volume(q));

@@ -30,6 +30,7 @@ namespace Touchstone
                  const Forest        &forest,
                  Solid               &solid,
                  dealii::TimerOutput &timer);
+    ~ExplicitStep() override;
 
     std::vector<std::string>
     start() override;
@@ -63,7 +64,8 @@ namespace Touchstone
     }
     std::string
     advice() const override;
-    /** @brief Never called: scenes with refinement are refused. */
+    /** @throws dealii::ExcInternalError: scenes with refinement are refused
+     * (scene/combinations.cc), and nothing else changes the mesh. */
     StepTransfer
     transfer() const override;
     void
@@ -94,9 +96,17 @@ namespace Touchstone
       /** Length of the last cycle. */
       double    length = 0.;
       NodeField u, v;
-      /** Forces on the nodes at the end of the cycle: of loads, of stress and of bulk viscosity;
-       * and of supports, during the cycle. */
+      /** Forces on the nodes at the end of the cycle: of loads (empty if there are none), of
+       * stress and of bulk viscosity; and of supports, during the cycle. */
       NodeField external, internal, viscous, support;
+
+      /** All but those of supports. */
+      dealii::Tensor<1, dim>
+      force(const unsigned int node) const
+      {
+        return external.empty() ? internal[node] + viscous[node]
+                                : external[node] + internal[node] + viscous[node];
+      }
     };
 
     /** Work since the committed state by owned node, force times length. */
@@ -119,8 +129,8 @@ namespace Touchstone
     ExplicitCells                   cells;
     State                           now, kept;
     std::vector<NodalWork>          work;
-    /** Velocity before a cycle, and loads and viscous forces at its beginning. */
-    NodeField v_before, external_before, viscous_before;
+    /** Velocity before a cycle. */
+    NodeField v_before;
     /** Rayleigh's mass factor by owned node, 1/time; empty if there is none. */
     std::vector<double> damping;
     CycleCounts         counts;
@@ -159,8 +169,11 @@ namespace Touchstone
     /** Set now.v to the velocity that forces and supports give. */
     void
     kick(double length);
+    /** Add half of the work of a cycle, that of the present forces, and the work of damping. */
     void
     add_work(double length);
+    void
+    add_damping(double length);
     /** Let contact change the velocities of a cycle. */
     void
     press(double length);

@@ -4,13 +4,12 @@
 #define touchstone_explicit_cell_forces_h
 
 #include <touchstone/base/exact_sum.h>
+#include <touchstone/explicit/cell_states.h>
 #include <touchstone/explicit/node_map.h>
+#include <touchstone/explicit/viscosity.h>
 #include <touchstone/solid/body_parameters.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -67,40 +66,16 @@ namespace Touchstone
                     NodeField       &force,
                     NodeField       &viscous) = 0;
 
-    /** @brief Coefficients of the bulk viscosity of a body, see add_viscosity(). */
-    struct Viscosity
-    {
-      /** 2 kappa b_1 / omega times the frequency: force per area. */
-      double linear;
-      /** (2 kappa b_2 / omega)^2 / (kappa + 4/3 mu), times the squared frequency: force per area.
-       */
-      double quadratic;
-      /** 2 kappa, force per area, and the length of a cycle: time. */
-      double modulus, step;
-
-      /** The largest viscosity of a cell of squared frequency @p square with which cycles of this
-       * length are stable: h = 2/omega (sqrt(1 + xi^2) - xi), solved for xi. */
-      double
-      largest(const double square) const
-      {
-        if (step == 0.)
-          return std::numeric_limits<double>::max();
-        const double turn = step * std::sqrt(square);
-        return modulus / std::sqrt(square) * std::max(0., (1. - 0.25 * turn * turn) / turn);
-      }
-    };
-
     /**
-     * @brief Add the forces of bulk viscosity to @p viscous: the pressure -(linear / omega -
-     * quadratic / omega^2 min(0, r)) r at the rate r of the volume, but no more than is stable: the
-     * cycle was chosen before an impact came (doc/explicit.md, section 4).
-     * @param squares Of the frequencies omega, by cell.
+     * @brief Add the forces of bulk viscosity to @p viscous: its pressure times the rate of the
+     * volume.
+     * @param periods By cell, see Viscosity.
      */
     virtual void
     add_viscosity(const NodeField           &u,
                   const NodeField           &v,
-                  const Viscosity           &coefficients,
-                  const std::vector<double> &squares,
+                  const Viscosity           &viscosity,
+                  const std::vector<double> &periods,
                   NodeField                 &viscous);
 
     /** @brief Rate of the volume of a cell, relative to it, and the derivative of the volume by the
@@ -133,32 +108,24 @@ namespace Touchstone
 
     /** @name History */
     /** @{ */
-    /** @brief Whether there is any. */
-    virtual bool
-    has_history() const
+    /** @brief Null if there is none. */
+    virtual CellStates *
+    history()
     {
-      return false;
+      return nullptr;
     }
 
-    /** @brief State of cell number @p c of this body in the form of Solid::cell_state(). */
+    /** @brief Committed state of cell number @p c of this body in the form of Solid::cell_state().
+     */
     virtual std::vector<double>
     state(unsigned int /*c*/) const
     {
       return {};
     }
 
+    /** @brief Set the present and the committed state. */
     virtual void
     set_state(unsigned int /*c*/, const std::vector<double> & /*values*/)
-    {
-    }
-
-    /** @brief Keep the present state for rollback(), and return to the one that was kept. */
-    virtual void
-    commit()
-    {
-    }
-    virtual void
-    rollback()
     {
     }
     /** @} */
@@ -178,6 +145,27 @@ namespace Touchstone
     cell(const unsigned int c) const
     {
       return map.cells()[cells[c]];
+    }
+
+    /** Tensors of a field stand one after the other. */
+    static const double *
+    numbers_of(const NodeField &field)
+    {
+      return reinterpret_cast<const double *>(field.data());
+    }
+
+    /** Subtract the forces of the first @p n_used cells of a block, [3a+i], from those of its
+     * nodes. */
+    static void
+    scatter(const unsigned int (*nodes)[NodeMap::nodes_per_cell],
+            const unsigned int n_used,
+            const double (*forces)[CellStates::n_lanes],
+            NodeField &sum)
+    {
+      for (unsigned int lane = 0; lane < n_used; ++lane)
+        for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            sum[nodes[lane][a]][i] -= forces[dim * a + i][lane];
     }
 
     /** Subtract the forces of a cell, 3a+i. */

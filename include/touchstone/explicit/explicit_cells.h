@@ -5,6 +5,7 @@
 
 #include <touchstone/explicit/cell_forces.h>
 #include <touchstone/explicit/explicit_parameters.h>
+#include <touchstone/solid/cell_history.h>
 
 #include <deal.II/base/point.h>
 
@@ -15,8 +16,6 @@
 
 namespace Touchstone
 {
-  class Solid;
-
   /** @brief A cell as messages name it, the same on all ranks. */
   struct CellPlace
   {
@@ -50,7 +49,7 @@ namespace Touchstone
    * Forces at owned nodes are complete without communication, and have the same bits on any number
    * of ranks (doc/explicit.md, section 2).
    */
-  class ExplicitCells
+  class ExplicitCells : public CellHistory
   {
   public:
     ExplicitCells(const NodeMap                     &map,
@@ -106,11 +105,10 @@ namespace Touchstone
     /** @brief Drop what only saves time. */
     void
     forget();
-    /** @brief Give the history to the bodies, for output and checkpoints, and take it. */
+    std::vector<double>
+    committed_state(unsigned int cell) const override;
     void
-    to_solid(Solid &solid) const;
-    void
-    from_solid(const Solid &solid);
+    set_state(unsigned int cell, const std::vector<double> &values) override;
     /** @} */
 
     /** @brief Of the ranks the first cell by key. Collective. */
@@ -123,15 +121,18 @@ namespace Touchstone
     const ExplicitParameters                &parameters;
     std::vector<std::unique_ptr<CellForces>> of_bodies;
     /** By body and cell: masses of the nodes without scaling, the factor of mass scaling, and
-     * the squared frequency with it. */
+     * the period with it, see Viscosity. */
     std::vector<std::vector<CellForces::NodalMasses>> cell_masses;
-    std::vector<std::vector<double>>                  factors, frequencies;
+    std::vector<std::vector<double>>                  factors, periods;
     std::vector<double>                               nodal_mass;
+    /** Number in its body of each active cell of the triangulation that has history, and the
+     * body; -1 for the others. */
+    std::vector<std::pair<int, unsigned int>> place_of;
 
     void
     sum_masses();
     void
-    update_frequencies(const NodeField &u);
+    update_periods(const NodeField &u);
     CellPlace
     place(unsigned int body, unsigned int c) const;
     void

@@ -54,6 +54,13 @@ namespace Touchstone
       return gradients[q][a];
     }
 
+    /** @brief Derivatives of the coordinates of the unit cell by position at point @p q. */
+    const dealii::Tensor<2, dim> &
+    inverse_jacobian(const unsigned int q) const
+    {
+      return inverses[q];
+    }
+
     /** @brief Gradient of incompatible mode @p k at point @p q, see ElementKernel. */
     dealii::Tensor<1, dim>
     mode_gradient(unsigned int q, unsigned int k) const;
@@ -70,6 +77,7 @@ namespace Touchstone
   private:
     std::array<double, n_points>                                      weights;
     std::array<double, n_points>                                      determinants;
+    std::array<dealii::Tensor<2, dim>, n_points>                      inverses;
     std::array<std::array<dealii::Tensor<1, dim>, n_nodes>, n_points> gradients;
     dealii::Tensor<2, dim>                                            centre_inverse;
     double                                                            centre_determinant = 0.;

@@ -38,32 +38,33 @@ namespace Touchstone
       std::fill(estimate.begin(), estimate.end(), 0.);
     }
 
-    bool
-    has_history() const override
+    CellStates *
+    history() override
     {
-      return kernel->n_state() > 0;
+      return states.size() > 0 ? &states : nullptr;
     }
     std::vector<double>
-    state(unsigned int c) const override;
-    void
-    set_state(unsigned int c, const std::vector<double> &values) override;
-    void
-    commit() override
+    state(const unsigned int c) const override
     {
-      kept = present;
+      return states.committed_state(c);
     }
     void
-    rollback() override
+    set_state(const unsigned int c, const std::vector<double> &values) override
     {
-      present = kept;
+      states.set(c, values);
     }
 
   private:
     std::unique_ptr<CellKernel> kernel;
+
+  protected:
+    CellStates states;
+
+  private:
     /** Of the isotropic elasticity at small strain. */
     CellStiffness elastic;
-    /** Histories of all cells. */
-    std::vector<double> present, kept;
+    /** History of a cell. */
+    std::vector<double> before;
     /** By cell: the frequency that was computed last, and the estimate beside it. */
     std::vector<double> exact, estimate;
 

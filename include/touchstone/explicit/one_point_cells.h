@@ -3,11 +3,10 @@
 #ifndef touchstone_explicit_one_point_cells_h
 #define touchstone_explicit_one_point_cells_h
 
-#include <touchstone/base/vectorised.h>
+#include <touchstone/explicit/block_law.h>
 #include <touchstone/explicit/cell_forces.h>
-#include <touchstone/solid/material_law.h>
+#include <touchstone/explicit/cell_states.h>
 
-#include <memory>
 #include <vector>
 
 namespace Touchstone
@@ -16,7 +15,6 @@ namespace Touchstone
   struct OnePointBlock
   {
     static constexpr unsigned int n_cells = 8, n_nodes = NodeMap::nodes_per_cell, n_modes = 4;
-    using Lanes = Simd<double, n_cells>::type;
 
     /** Local nodes of each cell. */
     unsigned int nodes[n_cells][n_nodes];
@@ -25,11 +23,24 @@ namespace Touchstone
     /** Hourglass vectors times positions, [3m+i]. */
     double warp[dim * n_modes][n_cells];
     double volume[n_cells];
-    /** Unit vectors along the edges of the undeformed cell, [3i+j], and the stiffness of each
-     * hourglass mode in these directions, [3m+i], force per length. */
-    double edges[dim * dim][n_cells], stiffness[dim * n_modes][n_cells];
-    /** Viscosity of each hourglass mode. */
-    double viscosity[n_modes][n_cells];
+    /** Unit vectors along the edges of the undeformed cell, [3i+j]. */
+    double edges[dim * dim][n_cells];
+    /** Stiffness of the control of hourglass modes, force per length: of bending along each edge,
+     * and of warping; or the viscosity of each mode, if the control is viscous. */
+    double control[n_modes][n_cells];
+
+    /** @brief Whether mode @p m along edge @p i is a warping, across both of its own edges. */
+    static constexpr bool
+    warps(const unsigned int m, const unsigned int i)
+    {
+      return m < dim && i == (m + 2) % dim;
+    }
+    /** @brief The stiffness of bending of mode @p m relative to that in #control. */
+    static constexpr double
+    part(const unsigned int m)
+    {
+      return m < dim ? 1. : 1. / 3.;
+    }
   };
 
   /**
@@ -55,8 +66,8 @@ namespace Touchstone
     void
     add_viscosity(const NodeField           &u,
                   const NodeField           &v,
-                  const Viscosity           &coefficients,
-                  const std::vector<double> &squares,
+                  const Viscosity           &viscosity,
+                  const std::vector<double> &periods,
                   NodeField                 &viscous) override;
     void
     add_energies(const NodeField &u, CellEnergies &energies) override;
@@ -70,46 +81,21 @@ namespace Touchstone
       estimate.assign(estimate.size(), 0.);
     }
 
-    bool
-    has_history() const override
+    CellStates *
+    history() override
     {
-      return n_state > 0;
+      return states.size() > 0 ? &states : nullptr;
     }
     std::vector<double>
     state(unsigned int c) const override;
     void
     set_state(unsigned int c, const std::vector<double> &values) override;
-    void
-    commit() override
-    {
-      kept = present;
-    }
-    void
-    rollback() override
-    {
-      present = kept;
-    }
 
   private:
-    /** How stresses are computed: by formulas for eight cells at once, or by the law of the
-     * material for one after the other. */
-    enum class Formulas
-    {
-      linear_elastic,
-      neo_hookean,
-      von_mises,
-      any_law
-    };
-
-    std::shared_ptr<const MaterialLaw> law;
-    Formulas                           formulas;
-    bool                               finite;
-    unsigned int                       n_state = 0;
-    /** History of a cell at both ends of a cycle. */
-    std::vector<double>        state_before, state_after;
+    BlockLaw                   law;
+    const bool                 finite;
+    CellStates                 states;
     std::vector<OnePointBlock> blocks;
-    /** Histories, [block][variable][cell of the block]. */
-    std::vector<double> present, kept;
     /** See KernelCells. */
     std::vector<double> exact, estimate;
     /** Gradients of the displacement of a block, and stresses. */
@@ -117,22 +103,9 @@ namespace Touchstone
 
     void
     set_block(OnePointBlock &block, unsigned int first);
-    /** Subtract the forces of a block, [3a+i], from those of its nodes. */
-    void
-    scatter(unsigned int b, const double (*forces)[OnePointBlock::n_cells], NodeField &sum) const;
-    /** Stresses of the cells of block @p b by the law, or of those that are marked. @return the
-     * first cell that fails. */
-    unsigned int
-    respond(unsigned int b, double step, const double *marked = nullptr);
-    /** History variable @p k of cell @p c. */
-    double &
-    variable(const unsigned int c, const unsigned int k)
-    {
-      return present[(c / OnePointBlock::n_cells * n_state + k) * OnePointBlock::n_cells +
-                     c % OnePointBlock::n_cells];
-    }
-    void
-    get_state(unsigned int c, double *values) const;
+    /** Stiffness of hourglass mode @p m along edge @p i of cell @p c, force per length. */
+    double
+    stiffness(unsigned int c, unsigned int m, unsigned int i) const;
     dealii::Tensor<2, dim>
     displacement_gradient(unsigned int c, const NodeField &u) const;
     /** Largest squared frequency of what hourglass control adds, and the largest squared cosine of

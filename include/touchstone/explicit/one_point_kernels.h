@@ -45,14 +45,13 @@ namespace Touchstone
                Hourglass control,
                double (*force)[OnePointBlock::n_cells]);
 
-    /** @brief First Piola-Kirchhoff stress of bulk viscosity, min(linear - quadratic min(0, r),
-     * largest) r cof(F) at the rate r of the volume. @p gradient null: small strain. */
+    /** @brief First Piola-Kirchhoff stress of bulk viscosity times r cof(F) at the rate r of the
+     * volume. @p gradient null: small strain. @p periods see Viscosity. */
     void
     viscous(const double (*gradient)[OnePointBlock::n_cells],
             const double (*rates)[OnePointBlock::n_cells],
-            const double *linear,
-            const double *quadratic,
-            const double *largest,
+            const Viscosity &viscosity,
+            const double    *periods,
             double (*stress)[OnePointBlock::n_cells]);
 
     /** @brief Stress of Hooke's law by the gradients of the displacement. */

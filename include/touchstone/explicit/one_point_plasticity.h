@@ -3,7 +3,7 @@
 #ifndef touchstone_explicit_one_point_plasticity_h
 #define touchstone_explicit_one_point_plasticity_h
 
-#include <touchstone/explicit/one_point_cells.h>
+#include <touchstone/explicit/lanes.h>
 
 namespace Touchstone
 {
@@ -26,9 +26,9 @@ namespace Touchstone
    */
   void
   von_mises_cycle(const VonMisesConstants &constants,
-                  const double (*gradient)[OnePointBlock::n_cells],
-                  double (*state)[OnePointBlock::n_cells],
-                  double (*stress)[OnePointBlock::n_cells],
+                  const double (*gradient)[n_lanes],
+                  double (*state)[n_lanes],
+                  double (*stress)[n_lanes],
                   double *beyond);
 } // namespace Touchstone
 

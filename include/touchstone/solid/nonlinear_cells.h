@@ -5,6 +5,7 @@
 
 #include <touchstone/algebra/matrix.h>
 #include <touchstone/solid/body_parameters.h>
+#include <touchstone/solid/cell_history.h>
 #include <touchstone/solid/cell_kernel.h>
 
 #include <deal.II/dofs/dof_handler.h>
@@ -27,17 +28,23 @@ namespace Touchstone
    *
    * The committed state belongs to the end of the last step. The present one is set by
    * internal_force() alone, from the committed state and the displacement.
+   *
+   * The arrays of nodes are those of assembly, and are made by connect(): steps that assemble
+   * nothing do without them, and with keep_in() without those of history (doc/explicit.md, section 8).
    */
   class NonlinearCells
   {
   public:
     NonlinearCells(const std::vector<BodyParameters> &bodies, const dealii::FESystem<dim> &fe);
 
-    /** @brief Find the cells, and where in @p stiffness their nodes are. */
+    /** @brief Find the cells; both are kept by reference. */
     void
-    reinit(const dealii::MappingQ<dim>   &mapping,
-           const dealii::DoFHandler<dim> &dof_handler,
-           const Matrix                  &stiffness);
+    reinit(const dealii::MappingQ<dim> &mapping, const dealii::DoFHandler<dim> &dof_handler);
+
+    /** @brief Find where in @p stiffness their nodes are: assemble() and what depends on a
+     * displacement, but for at(), come after it. */
+    void
+    connect(const Matrix &stiffness);
 
     /** @brief Whether no body of the scene has such a material; the same on all ranks. */
     bool
@@ -92,10 +99,10 @@ namespace Touchstone
     double
     smallest_determinant(const Vector &u);
 
-    /** @brief The kernel of cell number @p cell (of the triangulation, active), at
-     * @p u; null if the cell is not of such a body. */
+    /** @brief The kernel of a cell, in its committed state and at @p u; null if the cell is not
+     * of such a body. */
     CellKernel *
-    at(unsigned int cell, const Vector &u);
+    at(const dealii::DoFHandler<dim>::active_cell_iterator &cell, const Vector &u);
 
     /** @brief Length to which round-off of the deformation gradient amounts
      * beside that of the displacement, by local row; 0 unless strain is finite. */
@@ -121,6 +128,10 @@ namespace Touchstone
       committed = present;
     }
 
+    /** @brief From now on history is kept elsewhere; null: here, virgin. */
+    void
+    keep_in(CellHistory *other);
+
     /** @brief Return to the committed state. */
     void
     rollback()
@@ -144,9 +155,9 @@ namespace Touchstone
     /** @brief Visit the quadrature points with history of the owned cells: body, active
      * cell, reference volume, present state (for which law() has the meaning). */
     void
-    for_each_state(
-      const std::function<
-        void(unsigned int body, unsigned int cell, double volume, const double *state)> &visit);
+    for_each_state(const std::function<
+                   void(unsigned int body, unsigned int cell, double volume, const double *state)>
+                     &visit) const;
     /** @} */
 
   private:
@@ -161,6 +172,8 @@ namespace Touchstone
       std::size_t state;
     };
 
+    const dealii::MappingQ<dim>   *mapping     = nullptr;
+    const dealii::DoFHandler<dim> *dof_handler = nullptr;
     bool         any_body = false, any_history = false, any_plastic = false, all_symmetric = true;
     unsigned int n_nodes;
     std::vector<std::unique_ptr<CellKernel>> kernels;
@@ -176,11 +189,21 @@ namespace Touchstone
     /** First row of each owned node. */
     std::vector<int>    node_rows;
     std::vector<double> size;
-    /** History of all cells. */
-    std::vector<double> committed, present;
-    /** Displacements of the present cell. */
-    std::vector<double> displacement;
+    /** Numbers of the history of all cells. They are made when they are first needed, unless
+     * they are elsewhere. */
+    std::size_t                 n_history = 0;
+    mutable std::vector<double> committed, present;
+    CellHistory                *elsewhere = nullptr;
+    /** Positions and displacements of a cell. */
+    std::vector<dealii::Point<dim>> unit_points;
+    mutable std::vector<double>     position, displacement;
 
+    /** Have history here, unless it is elsewhere. */
+    void
+    need_history() const;
+    /** Set the positions of a cell. */
+    void
+    set_position(const dealii::DoFHandler<dim>::active_cell_iterator &cell) const;
     /** Evaluate the deformation of cell @p c. */
     CellKernel &
     go_to(std::size_t c, const Vector &u, double &determinant);

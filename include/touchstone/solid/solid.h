@@ -49,8 +49,7 @@ namespace Touchstone
     /** Constraints of hanging nodes, on edges and faces of larger neighbours. */
     dealii::AffineConstraints<double> hanging;
 
-    /** @brief Set up dofs and matrix after the mesh has changed; assemble()
-     * comes next. Collective. */
+    /** @brief Set up dofs after the mesh has changed; assemble() comes next. Collective. */
     void
     reinit();
 
@@ -93,11 +92,12 @@ namespace Touchstone
     void
     assemble(const Vector &u, bool symmetric_part = false);
 
-    /** @brief Stiffness, force per length, with no condition applied. */
+    /** @brief Stiffness, force per length, with no condition applied. It is made when it is
+     * first asked for, here or by what computes with it: explicit steps never do. Collective. */
     const Matrix &
     stiffness() const
     {
-      return matrix;
+      return matrix_to_fill();
     }
 
     /** @brief A vector over the dofs, with ghosts. Collective. */
@@ -193,6 +193,14 @@ namespace Touchstone
       return nonlinear->state(active_cell_index);
     }
 
+    /** @brief From now on @p other keeps the history of the cells of this mesh, and no copy is
+     * here; null: virgin material, kept here. */
+    void
+    keep_history_in(CellHistory *other)
+    {
+      nonlinear->keep_in(other);
+    }
+
     /** @brief Set the state of an owned cell; exchange_cell_states() must follow. */
     void
     set_cell_state(const unsigned int active_cell_index, const std::vector<double> &values)
@@ -235,13 +243,16 @@ namespace Touchstone
     /** @} */
 
   private:
-    Matrix matrix;
-    bool   any_hanging = false;
+    /** Null until it is asked for. */
+    mutable std::unique_ptr<Matrix> matrix;
+    bool                            any_hanging = false;
     /** Sum of the absolute entries of each owned row. */
     std::vector<double> row_sums;
     /** Behind a pointer: its kernels are scratch space of const functions. */
     std::unique_ptr<NonlinearCells> nonlinear;
 
+    Matrix &
+    matrix_to_fill() const;
     void
     check_solved(bool solved) const;
   };
