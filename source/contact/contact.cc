@@ -218,8 +218,8 @@ namespace Touchstone
   Contact::commit()
   {
     // The history needs the forces and the geometry of the step that ends, so it is made before
-    // anything is committed. With impulses it is in record_friction().
-    if (!method->by_impulses())
+    // anything is committed. Explicit steps follow it through their cycles: record_friction().
+    if (!in_cycles)
       friction_rows.end_step(all_rows, method->states());
     for (Stateful *part : parts)
       part->commit();

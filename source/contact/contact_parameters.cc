@@ -195,13 +195,16 @@ namespace Touchstone
                             "leaves a system for any linear solver; "
                             "'lagrange multipliers' as unknowns of their own, which need MUMPS; "
                             "'augmented lagrange', springs whose forces grow until the gaps close; "
-                            "or 'penalty', springs that leave a penetration.",
+                            "or 'penalty', springs that leave a penetration. Both serve explicit "
+                            "dynamics, too.",
                             {"automatic"});
     prm.add_parameter("Penalty factor",
                       penalty_factor,
                       "Multiplies the automatic stiffness of the springs, which is Young's "
                       "modulus times tributary area over face size, times 100 for 'penalty' "
-                      "and 20 for 'augmented lagrange'. [no unit]",
+                      "and 20 for 'augmented lagrange'. In explicit dynamics it is 0.1 K A / V per "
+                      "area for 'penalty', with the bulk modulus and the volume behind the faces, "
+                      "and m / h^2 with mass and cycle, times 0.1 for 'soft penalty'. [no unit]",
                       Patterns::Double());
     augmentation.declare(prm,
                          "Augmentation",
@@ -215,7 +218,8 @@ namespace Touchstone
     prm.add_parameter("Tangential factor",
                       tangential_factor,
                       "Multiplies the automatic stiffness of these springs, which is ten times "
-                      "Young's modulus times tributary area over face size. [no unit]",
+                      "Young's modulus times tributary area over face size, or in explicit "
+                      "dynamics that of the springs along the normal. [no unit]",
                       Patterns::Double());
     linearisation.declare(
       prm,
@@ -228,16 +232,16 @@ namespace Touchstone
     prm.add_parameter(
       "Contact tolerance",
       impulse_tolerance,
-      "Of 'forward increment', in explicit dynamics: the sweeps of a cycle end when "
+      "Of 'forward increment' and 'augmented lagrange', in explicit dynamics: the sweeps of a "
+      "cycle end when "
       "they change no velocity by more than this, relative to the speed at which "
       "bodies would close. [no unit]",
       Patterns::Double(0., 0.1));
-    prm.add_parameter(
-      "Contact iterations",
-      most_sweeps,
-      "Of 'forward increment': the largest number of sweeps in a cycle. Momentum is "
-      "exact and no energy is gained wherever they end. [no unit]",
-      Patterns::Integer(1, 1000000));
+    prm.add_parameter("Contact iterations",
+                      most_sweeps,
+                      "Of the same: the largest number of sweeps in a cycle. Momentum is "
+                      "exact and no energy is gained wherever they end. [no unit]",
+                      Patterns::Integer(1, 1000000));
     enforcement.declare_own_keys(prm);
   }
 

@@ -4,9 +4,11 @@
 #include <touchstone/base/exact_sum.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/explicit_step.h>
+#include <touchstone/explicit/inverted_cells.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 // History of explicit dynamics: energies and momenta at the end of an output interval, what is kept
 // of it and written to checkpoints (doc/explicit.md, sections 6 and 7).
@@ -58,10 +60,15 @@ namespace Touchstone
     result.damping += damped.value(communicator);
     if (impulses)
       {
+        // Forces of stress that moving obstacles balance give no velocity either: as of supports,
+        // half a cycle's work is left out.
         const ImpulseEnergy by_contact = impulses->energy();
         result.contact -= by_contact.normal;
         result.friction -= by_contact.friction;
-        result.external += by_contact.obstacles;
+        result.external += by_contact.obstacles + (by_contact.ahead - obstacles_ahead);
+        result.kinetic += by_contact.ahead;
+        obstacles_ahead_now = by_contact.ahead;
+        held_by_springs     = by_contact.stored;
       }
     result.update_largest();
     return result;
@@ -83,13 +90,37 @@ namespace Touchstone
           beyond * (std::abs(end.initial) + std::abs(end.external) + std::abs(end.contact)))
       throw ExplicitFailure("the motion grows without bound, as cycles are longer than is stable: "
                             "take a smaller 'Courant factor'");
-    if (smallest_part <= 1. && end.gain() > tolerance * end.largest)
-      throw ExplicitFailure("energy " + std::to_string(end.gain() / end.largest) +
-                            " times the largest so far came from nowhere ('Time "
-                            "integration/Gain tolerance'): the motion is not stable, take a "
-                            "smaller 'Courant factor' or 'Step check interval'");
-    committed = end;
-    kept      = now;
+    // Springs hold no more than they have taken.
+    const double by_springs = std::max(0., held_by_springs - std::max(0., end.contact));
+    const double gain       = end.gain() + by_springs;
+    if (smallest_part <= 1. && gain > tolerance * end.largest)
+      throw ExplicitFailure(
+        "energy " + std::to_string(gain / end.largest) +
+        " times the largest so far came from nowhere ('Time "
+        "integration/Gain tolerance'): " +
+        (by_springs + std::max(0., -end.contact) > 0.5 * gain &&
+             contact.enforcement().impulse_rule()->springs()
+           ? "contact springs gain energy, take a smaller 'Courant factor' or "
+             "'Penalty factor', or 'Contact/Enforcement = forward increment'"
+           : "the motion is not stable, take a smaller 'Courant factor' or 'Step "
+             "check interval'"));
+    // After what is not stable, which inverts cells, too.
+    if (const CellPlace inverted = cells.first(inverted_cell(map, now.u));
+        smallest_part <= 1. && inverted.valid())
+      {
+        char time[60];
+        std::snprintf(time, sizeof(time), " at time %.6g: ", now.time);
+        throw ExplicitFailure("a cell has been turned inside out" +
+                              (time + inverted.text(scene.bodies)) +
+                              "; it is crushed, between others or by what drives it: check "
+                              "prescribed displacements, the motion of obstacles and loads, or "
+                              "take a law of finite strain, which resists compression");
+      }
+    committed       = end;
+    kept            = now;
+    obstacles_ahead = obstacles_ahead_now;
+    if (impulses)
+      impulses->commit();
     cells.commit();
     std::fill(work.begin(), work.end(), NodalWork());
     update_results();
@@ -112,6 +143,8 @@ namespace Touchstone
   ExplicitStep::rollback()
   {
     now = kept;
+    if (impulses)
+      impulses->rollback();
     cells.rollback();
     std::fill(work.begin(), work.end(), NodalWork());
     contact.rollback();
@@ -197,6 +230,9 @@ namespace Touchstone
       }
     solid.save(archive);
     contact.save(archive);
+    archive.put("work of obstacles ahead", obstacles_ahead);
+    if (impulses)
+      impulses->save(archive);
     // What is kept of earlier cycles to save time must be the same in a run that resumes.
     cells.forget();
   }
@@ -224,5 +260,9 @@ namespace Touchstone
     map.to_vector(kept.u, displacement);
     map.to_vector(kept.v, velocity);
     contact.load(archive);
+    if (archive.has("work of obstacles ahead")) // not in checkpoints of earlier versions
+      obstacles_ahead = archive.get<double>("work of obstacles ahead");
+    if (impulses)
+      impulses->load(archive);
   }
 } // namespace Touchstone

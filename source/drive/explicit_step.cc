@@ -4,11 +4,14 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/explicit_step.h>
+#include <touchstone/explicit/assembled_frequency.h>
 #include <touchstone/scene/pair_input.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 // The cycles of an output interval (doc/explicit.md, section 1). What is kept of them is in
 // explicit_history.cc.
@@ -43,9 +46,17 @@ namespace Touchstone
                        scene.time_integration.scheme.word(),
                        "is for meshes without hanging nodes",
                        "take a mesh whose cells meet at whole faces, or another scheme");
+    if (parameters.stable_step == ExplicitParameters::StableStepBound::power_iteration &&
+        solid.has_history())
+      throw InputError("Time integration",
+                       "Stable step",
+                       parameters.stable_step.word(),
+                       "is for laws without history: unloading is stiffer than what it could find",
+                       "set it to 'cells'");
     if (!scene.pairs.empty())
-      impulses = std::make_unique<ImpulseContact>(contact, scene.contact, map);
-    for (NodeField *field : {&now.u, &now.v, &now.internal, &now.viscous, &now.support, &v_before})
+      impulses = std::make_unique<ImpulseContact>(contact, scene.contact, map, scene.bodies);
+    for (NodeField *field :
+         {&now.u, &now.v, &now.internal, &now.viscous, &now.support, &support_impulse, &v_before})
       field->resize(map.n_local());
     if (!loads.empty())
       now.external.resize(map.n_local());
@@ -178,13 +189,64 @@ namespace Touchstone
 
 
 
+  // Contact springs with frequencies up to @p square shorten the stable step of the cells: leapfrog
+  // with viscous forces of the velocity half a cycle before is stable where
+  //   h^2/4 v.(K + K_c)v + h/2 v.C v <= v.M v .
+  // At the step of the cells alone the terms of K and C are 1 together; of which part K is matters
+  // little, and with viscosity none is the cautious choice.
+  double
+  ExplicitStep::with_springs(const double length, const double square) const
+  {
+    if (square == 0.)
+      return length;
+    const double q = 0.25 * length * length * square;
+    return length * (parameters.viscous() ? (std::sqrt(1. + 4. * q) - 1.) / (2. * q)
+                                          : 1. / std::sqrt(1. + q));
+  }
+
+
+
+  // The step that the mesh as a whole allows, relative to that of its cells by themselves. Within
+  // an interval it follows the latter.
+  void
+  ExplicitStep::find_assembled_step(const double of_cells)
+  {
+    double size = std::numeric_limits<double>::max();
+    for (const NodeMap::Cell &cell : map.cells())
+      for (unsigned int axis = 0; axis < dim; ++axis)
+        size = std::min(
+          size, (map.positions()[cell.nodes[1U << axis]] - map.positions()[cell.nodes[0]]).norm());
+    size = Utilities::MPI::min(size, solid.communicator);
+    const NodeField at_rest(map.n_local());
+    NodeField       viscous(map.n_local());
+    const double    square = assembled_square_frequency(
+      map,
+      cells.masses(),
+      now.u,
+      [&](NodeField &u, NodeField &force) { cells.evaluate(u, at_rest, 0., force, viscous); },
+      size);
+    // The bound of the cells is one for the mesh, too.
+    assembled_to_cells = std::max(1., 2. / std::sqrt(square) / of_cells);
+  }
+
+
+
   unsigned int
   ExplicitStep::plan_cycles(const double t)
   {
     const StableStep stable = cells.stable_step(now.u, now.v);
     counts.stable_step      = stable.length;
     counts.cell             = stable.cell.text(scene.bodies);
-    const double cycle      = parameters.courant_factor * stable.length;
+    if (parameters.stable_step == ExplicitParameters::StableStepBound::power_iteration)
+      {
+        if (now.time == kept.time)
+          find_assembled_step(stable.length);
+        counts.stable_step *= assembled_to_cells;
+      }
+    if (impulses)
+      counts.stable_step = with_springs(counts.stable_step,
+                                        impulses->square_frequency(now.u, now.time, stable.length));
+    const double cycle = parameters.courant_factor * counts.stable_step;
     // Equal cycles up to the end of the interval: a shorter last one would spoil what is exact for
     // constant steps. What is too long by round-off does not make another cycle.
     const double n = std::ceil((t - now.time) / cycle * (1. - 1e-12));
@@ -196,7 +258,7 @@ namespace Touchstone
         std::snprintf(text,
                       sizeof(text),
                       "the stable step has collapsed to %.3g at ",
-                      stable.length);
+                      counts.stable_step);
         throw ExplicitFailure(text + counts.cell +
                               ": a cell has become very small; take a coarser mesh or a harder "
                               "material there, or 'Mass scaling step'");
@@ -210,10 +272,14 @@ namespace Touchstone
   ExplicitStep::solve(const double t, const NewtonParameters &, const Newton::Observer &)
   {
     TimerOutput::Scope scope(timer, "assembly");
-    counts = CycleCounts();
+    const auto         began = std::chrono::steady_clock::now();
+    counts                   = CycleCounts();
+    found                    = StepFindings();
     if (impulses)
       impulses->begin_interval();
-    double length = 0.;
+    std::fill(support_impulse.begin(), support_impulse.end(), Tensor<1, dim>());
+    const double start  = now.time;
+    double       length = 0.;
     for (unsigned int left = 0, done = 0; now.time < t; ++done, --left)
       {
         if (done % parameters.check_interval == 0)
@@ -228,8 +294,17 @@ namespace Touchstone
           now.time = t;
       }
     boundary_conditions.all_formulas().check(solid.communicator);
+    // What results show of supports is their mean force over the interval, as of contact.
+    for (const unsigned int i : supports.nodes())
+      now.support[i] = support_impulse[i] / (t - start);
     if (impulses)
-      impulses->end_interval(now.u, t);
+      {
+        impulses->end_interval(now.u, t);
+        counts.contact = impulses->work();
+      }
+    judge();
+    counts.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return 0;
   }
 
@@ -242,6 +317,8 @@ namespace Touchstone
     map.update_ghosts(now.v);
     if (impulses)
       press(length);
+    for (const unsigned int i : supports.nodes())
+      support_impulse[i] += 0.5 * (now.length + length) * now.support[i];
     for (unsigned int i = 0; i < map.n_local(); ++i)
       now.u[i] += length * now.v[i];
     now.time += length;
@@ -292,7 +369,10 @@ namespace Touchstone
     const double between = 0.5 * (now.length + length);
     if (!damping.empty() && between != mobile_for)
       set_mobilities(between);
-    impulses->project(now.u, v_before, now.v, now.time, length);
+    const auto began = std::chrono::steady_clock::now();
+    impulses->project(now.u, v_before, now.v, now.time, length, between);
+    counts.contact_seconds +=
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     // What contact exerts along supported directions the supports take.
     impulses->for_each_impulse([&](const unsigned int i, const Tensor<1, dim> &impulse) {
       if (!supports.supported(i))
@@ -382,6 +462,24 @@ namespace Touchstone
         const Tensor<1, dim> mean = 0.5 * (v_before[i] + now.v[i]);
         work[i].damping += between * damping[i] * cells.masses()[i] * (mean * mean);
       }
+  }
+
+
+
+  void
+  ExplicitStep::judge()
+  {
+    if (parameters.courant_factor > 1.)
+      found.warnings.push_back("'Time integration/Courant factor' is above 1: cycles may be longer "
+                               "than is stable for a cell by itself");
+    const ExplicitCells::Energies of = cells.energies(now.u);
+    // Hourglass modes of coarse meshes in bending are of this size.
+    constexpr double much = 0.1;
+    if (of.hourglass > much * (of.strain + of.plastic) && of.hourglass > 1e-6 * committed.largest)
+      found.warnings.push_back(
+        "hourglass modes of one-point cells have more than a tenth of the "
+        "energy in the bodies: take a finer mesh, distribute loads over more "
+        "nodes, or take another 'Element'");
   }
 
 

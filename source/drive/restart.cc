@@ -91,6 +91,7 @@ namespace Touchstone
     archive.put("contact pictures", contact_output.series().list());
     archive.put("last picture", last_vtu_step);
     archive.put("cycles", summary.cycles);
+    archive.put("contact work", summary.contact_work);
     problem->save(archive);
     const std::string name = checkpoints.write(archive.piece(),
                                                position.step - 1,
@@ -209,6 +210,8 @@ namespace Touchstone
       }
     if (archive.has("cycles")) // not in checkpoints of earlier versions
       summary.cycles = archive.get<std::uint64_t>("cycles");
+    if (archive.has("contact work"))
+      summary.contact_work = archive.get<ImpulseWork>("contact work");
     last_checkpoint = start.step;
 
     std::vector<std::string> lines = origin.skipped;

@@ -248,6 +248,11 @@ namespace Touchstone
             record.energies["viscous"]   = energies.viscous;
             record.cycles.emplace(cycles->cycles, cycles->smallest_step);
             summary.cycles += cycles->cycles;
+            if (!scene.pairs.empty())
+              {
+                record.contact_work = cycles->contact;
+                summary.contact_work.add(cycles->contact);
+              }
           }
         for (unsigned int p = 0; p < results.size(); ++p)
           summary.motion->add_step(scene.pairs[p].name, time - size, time, results[p]);
@@ -419,7 +424,14 @@ namespace Touchstone
     committed_time = at.time = next;
     repeated_failure.forget();
     if (const CycleCounts *cycles = problem->cycle_counts())
-      progress.end_step(cycles->cycles, cycles->smallest_step, cycles->cell);
+      progress.end_step(cycles->cycles,
+                        cycles->smallest_step,
+                        cycles->cell,
+                        1e9 * cycles->seconds * Utilities::MPI::n_mpi_processes(communicator) /
+                          (double(summary.cells) * cycles->cycles),
+                        scene.pairs.empty() || cycles->seconds == 0.
+                          ? 0.
+                          : cycles->contact_seconds / cycles->seconds);
     else
       progress.end_step(newton);
     for (const std::string &text : findings.warnings)

@@ -14,8 +14,14 @@ namespace Touchstone
       "Courant factor",
       courant_factor,
       "Of 'central_differences': length of a cycle as a part of the largest one that "
-      "is stable for each cell by itself. [no unit]",
+      "is stable. [no unit]",
       Patterns::Double(1e-3, 10.));
+    stable_step.declare(prm,
+                        "Stable step",
+                        "Of 'central_differences': the largest step that is stable for each of the "
+                        "'cells' by itself; or, by 'power iteration' at the start of each output "
+                        "interval, for all of them together, which is longer on regular meshes. "
+                        "The latter is for laws without history, and without bulk viscosity.");
     prm.add_parameter("Step check interval",
                       check_interval,
                       "Of 'central_differences': cycles after which the stable step is computed "
@@ -52,7 +58,8 @@ namespace Touchstone
   ExplicitParameters::untouched() const
   {
     const ExplicitParameters defaults;
-    return courant_factor == defaults.courant_factor && check_interval == defaults.check_interval &&
+    return courant_factor == defaults.courant_factor && stable_step == defaults.stable_step &&
+           check_interval == defaults.check_interval &&
            linear_viscosity == defaults.linear_viscosity &&
            quadratic_viscosity == defaults.quadratic_viscosity &&
            mass_scaling_step == defaults.mass_scaling_step &&

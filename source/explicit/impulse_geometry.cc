@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/contact/geometry/face_derivative.h>
 #include <touchstone/explicit/impulse_contact.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 // Where the kept rows stand at the start of a cycle: gaps, the velocity that they leave free, what
 // drives obstacles, and the levers that keep the moment of momentum (doc/explicit.md, sections 9.1
@@ -20,6 +23,10 @@ namespace Touchstone
      * a strain of as much. */
     constexpr double undone = 1e-3;
 
+    /** And no more than this part of it: what a change of weights or normals makes of a gap that
+     * was closed is undone over many cycles, so that the work is no matter of one of them. */
+    constexpr double undone_of_overlap = 0.05;
+
     /** A lever shorter than this, relative to the size of the faces, is round-off. */
     constexpr double no_lever = 1e-13;
 
@@ -34,15 +41,46 @@ namespace Touchstone
           result -= outer_product(out, out) / out.norm_square();
       return result;
     }
-
-    /** The gap that the end of the cycle may have, from that at its start: zero, or what is left of
-     * an overlap. */
-    double
-    gap_allowed(const double gap, const double size)
-    {
-      return std::min(0., gap + undone * size);
-    }
   } // namespace
+
+
+
+  // A jump of an obstacle is a mistake of its formula: nodes that it passes would be pressed apart
+  // on the wrong side, or thrown at a speed that nothing survives.
+  void
+  ImpulseContact::check_obstacles(const double time, const double step) const
+  {
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const ContactPair &pair = contact.pair(p); !pair.master())
+        {
+          const Tensor<1, dim> move =
+            pair.pairing().shift(time + step) - pair.pairing().shift(time);
+          if (move.norm() <= smallest_face[p])
+            continue;
+          unsigned int axis = 0;
+          for (unsigned int d = 1; d < dim; ++d)
+            if (std::abs(move[d]) > std::abs(move[axis]))
+              axis = d;
+          char text[200];
+          std::snprintf(text,
+                        sizeof(text),
+                        "moves the obstacle by %.4g within the cycle of %.4g at time %.6g, which "
+                        "is more than a face of the body that it meets (%.4g)",
+                        move.norm(),
+                        step,
+                        time,
+                        smallest_face[p]);
+          const ObstacleParameters &obstacle  = *pair.obstacle();
+          const std::string *const  motions[] = {&obstacle.motion_x,
+                                                 &obstacle.motion_y,
+                                                 &obstacle.motion_z};
+          throw InputError(obstacle.section(),
+                           "Motion " + std::string(1, "xyz"[axis]),
+                           *motions[axis],
+                           text,
+                           "let it move smoothly, as 'min(v*t, d)' or 'd*(1-cos(pi*t/T))/2' do");
+        }
+  }
 
 
 
@@ -70,14 +108,34 @@ namespace Touchstone
 
 
 
+  // The gap that the end of the cycle may have, from that at its start: zero, or what is left of an
+  // overlap. As far as the sides were closing, along the present normal, undoing it takes no work:
+  // an impulse does work on the mean of the velocities before and after. So a node that slides in a
+  // hollow comes back to its surface for nothing.
+  double
+  ImpulseContact::gap_allowed(const ImpulseRow &row,
+                              const double      gap,
+                              const double      size,
+                              const double      step) const
+  {
+    if (gap >= 0.)
+      return 0.;
+    const double closing = -step * (solver.relative_velocity(row, v_before) * row.normal);
+    const double pressed = std::min(undone * size, -undone_of_overlap * gap);
+    return std::min(0., gap + std::max(pressed, closing));
+  }
+
+
+
   void
-  ImpulseContact::set_pair_geometry(ImpulseRow    &row,
-                                    const KeptRow &from,
-                                    const double   time,
-                                    const double   step)
+  ImpulseContact::set_pair_geometry(ImpulseRow  &row,
+                                    KeptRow     &from,
+                                    const double time,
+                                    const double step)
   {
     const ContactRow &of = contact.rows()[from.index];
     row.normal           = of.normal;
+    set_lever(row, of);
     Tensor<1, dim> by_motion;
     for (unsigned int i = 0; i < row.n_nodes; ++i)
       {
@@ -95,19 +153,19 @@ namespace Touchstone
           from.gap + by_motion * row.normal + (from.part - pair.part_of_overlap(time)) * overlap;
         const double grows =
           (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
-        row.allowed = ((gap - gap_allowed(gap, of.size) + grows) / step) * row.normal;
+        from.at_start = gap;
+        row.allowed   = ((gap - gap_allowed(row, gap, of.size, step) + grows) / step) * row.normal;
       }
-    set_lever(row, of);
   }
 
 
 
   // The shape is met where the node is: curved obstacles need no criterion of motion.
   void
-  ImpulseContact::set_obstacle_geometry(ImpulseRow    &row,
-                                        const KeptRow &from,
-                                        const double   time,
-                                        const double   step)
+  ImpulseContact::set_obstacle_geometry(ImpulseRow  &row,
+                                        KeptRow     &from,
+                                        const double time,
+                                        const double step)
   {
     const ContactRow    &of   = contact.rows()[from.index];
     const ContactPair   &pair = contact.pair(of);
@@ -126,7 +184,8 @@ namespace Touchstone
       }
     const double gap   = here->gap_vector * here->normal - pair.part_of_overlap(time) * overlap;
     const double grows = (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
-    row.allowed        = ((gap - gap_allowed(gap, of.size) + grows) / step) * row.normal;
+    from.at_start      = gap;
+    row.allowed        = ((gap - gap_allowed(row, gap, of.size, step) + grows) / step) * row.normal;
   }
 
 

@@ -316,7 +316,7 @@ namespace Touchstone
         const bool done = change <= tolerance;
         if (done || control.one_sweep)
           return done;
-        const bool   uphill = turn.value(nodes.communicator()) > 0.;
+        const bool   uphill = !control.accelerate || turn.value(nodes.communicator()) > 0.;
         const double next   = uphill ? 1. : 0.5 * (1. + std::sqrt(1. + 4. * momentum * momentum));
         const double beta   = uphill ? 0. : (momentum - 1.) / next;
         momentum            = next;
@@ -402,6 +402,13 @@ namespace Touchstone
         ++counts.rounds;
         const double tolerance = velocity_tolerance(control.tolerance);
         set_metric();
+        if (control.relaxation != 1.)
+          for (Metric &m : metric)
+            {
+              m.normal /= control.relaxation;
+              m.tangential /= control.relaxation;
+              m.tied /= control.relaxation;
+            }
         counts.converged = sweep(control, tolerance, counts);
         for (std::size_t k = 0; k < rows.size(); ++k)
           present[k] = rows[k].impulse;
@@ -433,5 +440,50 @@ namespace Touchstone
           }
       }
     return counts;
+  }
+
+
+
+  ImpulseCounts
+  ImpulseSolver::apply_given()
+  {
+    ImpulseCounts counts;
+    free = velocity;
+    std::fill(at_slots.begin(), at_slots.end(), Tensor<1, dim>());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        ImpulseRow &row   = rows[k];
+        row.free_velocity = row.velocity = relative_velocity(row);
+        row.blocked                      = false;
+        active[k]                        = row.impulse.norm_square() > 0.;
+        present[k]                       = row.impulse;
+        counts.active += active[k];
+      }
+    const int some = counts.active > 0;
+    if (Utilities::MPI::max(some, nodes.communicator()) == 0)
+      return counts;
+    counts.rounds = 1;
+    apply(present);
+    for (ImpulseRow &row : rows)
+      row.velocity = relative_velocity(row);
+    return counts;
+  }
+
+
+
+  std::vector<std::array<double, 2>>
+  ImpulseSolver::mobilities()
+  {
+    std::fill(at_slots.begin(), at_slots.end(), Tensor<1, dim>());
+    std::fill(active.begin(), active.end(), true);
+    set_metric();
+    std::vector<std::array<double, 2>> result(rows.size());
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        const Metric &m = metric[k];
+        result[k]       = {
+                {rows[k].tied ? std::max({m.tied[0], m.tied[1], m.tied[2]}) : m.normal, m.tangential}};
+      }
+    return result;
   }
 } // namespace Touchstone

@@ -37,4 +37,14 @@ namespace Touchstone
     : NonConvergence(text(pair))
   {
   }
+
+
+
+  SoftContact::SoftContact(const ContactPairParameters &pair, const double time)
+    : NonConvergence("contact pair '" + pair.name + "': at time " + std::to_string(time) +
+                     " bodies are within each other by more than half a face, since the contact "
+                     "springs are too soft for what presses them; take a larger 'Penalty factor' "
+                     "or 'Contact/Enforcement = forward increment', and check initial overlaps")
+  {
+  }
 } // namespace Touchstone

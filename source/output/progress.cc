@@ -102,11 +102,18 @@ namespace Touchstone
 
 
   void
-  Progress::end_step(const unsigned int cycles, const double step, const std::string &cell)
+  Progress::end_step(const unsigned int cycles,
+                     const double       step,
+                     const std::string &cell,
+                     const double       nanoseconds,
+                     const double       contact)
   {
     const double elapsed = timer.wall_time();
-    log.line(format("  %u cycles of %.4g or longer, as ", cycles, step) + cell + " needs, " +
-             readable_duration(elapsed) + time_left(elapsed));
+    std::string  cost    = format(", %.3g ns a cell and cycle", nanoseconds);
+    if (contact > 0.)
+      cost += format(", %.0f %% of it contact", 100. * contact);
+    log.line(format("  %u cycles of %.4g or longer, as ", cycles, step) + cell + " needs" + cost +
+             ", " + readable_duration(elapsed) + time_left(elapsed));
   }
 
 

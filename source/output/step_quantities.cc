@@ -58,6 +58,13 @@ namespace Touchstone
             values.add("cycles", step.cycles->first);
             values.add("shortest cycle", step.cycles->second);
           }
+        if (step.contact_work)
+          {
+            values.add("contact sweeps", step.contact_work->mean_sweeps());
+            values.add("most contact sweeps",
+                       static_cast<unsigned int>(step.contact_work->most_sweeps));
+            values.add("contact renewals", static_cast<unsigned int>(step.contact_work->renewals));
+          }
       }
     };
 

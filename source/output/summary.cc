@@ -179,6 +179,14 @@ namespace Touchstone
     result.set("steps", steps);
     if (cycles > 0)
       result.set("cycles", cycles);
+    if (contact_work.cycles > 0)
+      result.set("contact_work",
+                 Json::object()
+                   .set("mean_sweeps", contact_work.mean_sweeps())
+                   .set("most_sweeps", contact_work.most_sweeps)
+                   .set("rounds", contact_work.rounds)
+                   .set("renewals", contact_work.renewals)
+                   .set("unconverged_cycles", contact_work.unconverged));
     return result
       .set("iterations",
            Json::object()

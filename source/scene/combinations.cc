@@ -134,12 +134,20 @@ namespace Touchstone
                scene.refinement.estimator.word(),
                "the mesh of explicit dynamics does not change, and " + scheme,
                "set it to 'none'"},
-              {time.runs_in_cycles() && time.mass == MassKind::dispersion_corrected,
+              {time.runs_in_cycles() && time.mass != MassKind::lumped,
                section,
                "Mass",
                time.mass.word(),
                "is no diagonal matrix, and " + scheme,
                "remove the key: the mass is lumped"},
+              {time.runs_in_cycles() && time.cycles.viscous() &&
+                 time.cycles.stable_step == ExplicitParameters::StableStepBound::power_iteration,
+               section,
+               "Stable step",
+               time.cycles.stable_step.word(),
+               "leaves no room for bulk viscosity",
+               "set 'Linear bulk viscosity' and 'Quadratic bulk viscosity' to 0, or this key to "
+               "'cells'"},
               {time.runs_in_cycles() && time.adapt == TimeIntegrationParameters::Adapt::impacts,
                section,
                "Adapt steps",
@@ -158,7 +166,7 @@ namespace Touchstone
                time.scheme.word(),
                "has no cycles, but a key of explicit dynamics is set",
                "set it to 'central_differences', or remove 'Courant factor', 'Step check "
-               "interval', the bulk viscosities and mass scaling"}};
+               "interval', 'Stable step', the bulk viscosities and mass scaling"}};
     }
 
     std::vector<Rule>
@@ -180,6 +188,14 @@ namespace Touchstone
                body.hourglass.word(),
                needless,
                "remove it, or set 'Element = one point'"},
+              {cycles && body.hourglass == BodyParameters::Hourglass::viscous &&
+                 scene.time_integration.cycles.stable_step ==
+                   ExplicitParameters::StableStepBound::power_iteration,
+               section,
+               "Hourglass control",
+               body.hourglass.word(),
+               "goes with 'Time integration/Stable step = cells' only",
+               "set it to 'stiffness'"},
               {!one_point && body.hourglass_coefficient != "automatic",
                section,
                "Hourglass coefficient",
@@ -243,7 +259,12 @@ namespace Touchstone
       const auto enforcement = contact.enforcement.make(contact);
       const bool multipliers = enforcement->uses_multipliers();
       const bool in_cycles   = scene.time_integration.runs_in_cycles();
-      return {{enforcement->by_impulses() != in_cycles,
+      // Multipliers that are updated by twice the stiffness m / h^2 or more move away from those
+      // that close the gaps.
+      const ImpulseRule *const rule     = enforcement->impulse_rule();
+      const bool               diverges = in_cycles && rule != nullptr &&
+                            rule->method == ImpulseRule::Method::augmentation && rule->factor >= 2.;
+      return {{in_cycles ? rule == nullptr : !enforcement->solves_systems(),
                "Contact",
                "Enforcement",
                contact.enforcement.name,
@@ -251,6 +272,12 @@ namespace Touchstone
                                      : "is for explicit dynamics, but") +
                  " 'Time integration/Scheme' is '" + scene.time_integration.scheme.word() + "'",
                "set it to 'automatic', which goes with all schemes"},
+              {diverges,
+               "Contact",
+               "Penalty factor",
+               as_text(contact.penalty_factor),
+               "lets the multipliers of 'augmented lagrange' diverge in explicit dynamics",
+               "take less than 2; 1 is the automatic choice"},
               {scene.refinement.active() && discretised.partitioner != Partitioner::p4est &&
                  discretised.partitioner != Partitioner::automatic,
                "Discretisation",

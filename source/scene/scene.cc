@@ -202,6 +202,15 @@ namespace Touchstone
           prm.leave_subsection();
         }
 
+    // The mass of explicit steps is lumped: shown so by the printed scene, and what else is set is
+    // refused.
+    if (time_integration.runs_in_cycles() && !text.is_set("Time integration", "Mass"))
+      {
+        prm.enter_subsection("Time integration");
+        prm.set("Mass", std::string("lumped"));
+        prm.leave_subsection();
+      }
+
     // Once here, so that everything else sees the enforcement that is used; the printed scene
     // keeps the word.
     if (contact.enforcement.name == "automatic")

@@ -23,6 +23,10 @@ cantilever = checks / "explicit_cantilever.prm"
 for cells in "20,1,1", "20,1,2":
     bent = run("bent", cantilever, {"Body beam/Geometry/Cells": cells})
     below(f"deflection of {cells} cells", bent.error("point_displacement"), 0.03)
+    # One cell over the height bends by its hourglass modes alone, two by a quarter.
+    check(any("hourglass" in text for text in bent.summary["warnings"]),
+          f"{cells} cells: no warning of hourglass energy")
+check(period.summary["warnings"] == [], f"column: warnings {period.summary['warnings']}")
 
 # A cube by itself is stable at the bound, whatever Poisson's ratio: tests/refused/unstable_motion.prm
 # is not, two per cent above. (Exactly there the amplitude of its fastest mode grows linearly.)
@@ -33,6 +37,29 @@ for poisson in 0, 0.3, 0.45, 0.49:
     below(f"energy after 1e5 cycles, nu = {poisson}",
           abs((energies["kinetic"] + energies["strain"] + energies.get("hourglass", 0)) /
               energies["initial"] - 1), 1e-6)
+
+
+# All cells together allow a longer step than each by itself: stable just below it, and not far above.
+CUBES = {"Body block/Geometry/Cells": "6, 6, 6", "Time integration/Stable step": "power iteration",
+         "Load stepping/End time": 20, "Load stepping/Steps": 2}
+together = run("together", checks / "explicit_cube.prm", CUBES)
+alone = run("alone", checks / "explicit_cube.prm",
+            {**CUBES, "Time integration/Stable step": "cells"})
+check(together.value("cycles") < 0.9 * alone.value("cycles"),
+      f"power iteration: {together.value('cycles')} cycles, cells {alone.value('cycles')}")
+energies = together.summary["motion"]["energies"]
+below("energy with the step of all cells",
+      abs((energies["kinetic"] + energies["strain"] + energies.get("hourglass", 0)) /
+          energies["initial"] - 1), 1e-6)
+on_two = run("together-2", checks / "explicit_cube.prm", CUBES, 2)
+check((on_two.folder / "statistics").read_text(encoding="utf-8") ==
+      (together.folder / "statistics").read_text(encoding="utf-8"), "power iteration on 2 ranks")
+above = run("above one", checks / "explicit_cube.prm",
+            {**CUBES, "Time integration/Stable step": "cells",
+             "Time integration/Courant factor": 1.05})
+check(any("above 1" in text for text in above.summary["warnings"]), "no warning of the factor")
+run("too long", checks / "explicit_cube.prm", {**CUBES, "Time integration/Courant factor": 1.03},
+    fails=True)
 
 
 def start(name, settings=None, ranks=1, resume=False):

@@ -148,16 +148,20 @@ for pair in "xyz":
 below("corner, balance error", abs(corner.value("motion", "energies", "balance_error")) /
       corner.value("motion", "energies", "initial"), 1e-3)
 
-# The same bits on any number of ranks.
-for name, scene, settings in (
-        ("ranks_patch", prm / "patch_test.prm",
+# The same bits on any number of ranks: with few cycles, since ranks wait for each other on machines
+# with fewer processors. On 4 ranks some have no contact.
+for name, scene, several, settings in (
+        ("ranks_patch", prm / "patch_test.prm", (2, 3),
          {**EXPLICIT, "Body upper/Boundary top/Pressure": 10, "Body lower/Material/Density": 1,
-          "Body upper/Material/Density": 1, "Load stepping/End time": 0.2, STEPS: 4,
+          "Body upper/Material/Density": 1, "Load stepping/End time": 0.08, STEPS: 4,
           "Contact pair interface/Behaviour": "coulomb",
           "Contact pair interface/Friction/Coefficient": 0.3}),
-        ("ranks_corner", checks / "explicit_corner.prm", {})):
+        ("ranks_corner", checks / "explicit_corner.prm", (2, 4),
+         {"Body block/Geometry/Cells": "2, 2, 2", "Load stepping/End time": 0.06, STEPS: 10})):
     one = run(name, scene, settings)
-    for ranks in 2, 3, 4:
+    check(any(max(one.column(f"{pair}: active nodes")) > 0 for pair in ("interface", "x", "z")),
+          f"{name}: no contact")
+    for ranks in several:
         more = run(f"{name}_{ranks}", scene, settings, ranks)
         check((one.folder / "statistics").read_text(encoding="utf-8") ==
               (more.folder / "statistics").read_text(encoding="utf-8"),

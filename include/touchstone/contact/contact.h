@@ -146,8 +146,15 @@ namespace Touchstone
     void
     commit_positions();
 
-    /** @brief What friction did in a row in the step that ends, where the enforcement follows it
-     * (Enforcement::by_impulses()).
+    /** @brief Steps are explicit: they follow friction through their cycles and tell what came of
+     * it by record_friction(), and commit() makes no history of its own. */
+    void
+    follow_cycles()
+    {
+      in_cycles = true;
+    }
+
+    /** @brief What friction did in a row in the step that ends, see follow_cycles().
      * @param force Tangential. @param slip Of the step, length. @param path Its length.
      * @param work Against friction, force times length. */
     void
@@ -252,7 +259,7 @@ namespace Touchstone
     /** Displacement with the ghosts that the surfaces need. */
     Vector                             ghosted;
     mutable std::optional<GhostImport> import_ghosts;
-    bool                               started      = false;
+    bool                               started = false, in_cycles = false;
     double                             present_time = 0.;
 
     /** All objects with history, in the order in which they are committed and loaded. */

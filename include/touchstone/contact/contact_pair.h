@@ -69,6 +69,13 @@ namespace Touchstone
       return input.parameters;
     }
 
+    /** @brief Null for a master body. */
+    const ObstacleParameters *
+    obstacle() const
+    {
+      return input.obstacle;
+    }
+
     const Surface &
     slave() const
     {

@@ -44,7 +44,7 @@ namespace Touchstone
     StepFindings
     findings() const override
     {
-      return {};
+      return found;
     }
     StepDifficulty
     difficulty() const override
@@ -131,6 +131,14 @@ namespace Touchstone
     std::vector<NodalWork>          work;
     /** Velocity before a cycle. */
     NodeField v_before;
+    /** Stable step of all cells together over that of the cells by themselves, at least 1. */
+    double assembled_to_cells = 1.;
+    /** Of the interval so far. */
+    NodeField    support_impulse;
+    StepFindings found;
+    /** Half a cycle's work of moving obstacles at the committed state, and what contact springs
+     * hold at present; force times length. */
+    double obstacles_ahead = 0., obstacles_ahead_now = 0., held_by_springs = 0.;
     /** Rayleigh's mass factor by owned node, 1/time; empty if there is none. */
     std::vector<double> damping;
     CycleCounts         counts;
@@ -163,6 +171,17 @@ namespace Touchstone
     /** Compute the stable step. @return number of equal cycles up to time @p t. */
     unsigned int
     plan_cycles(double t);
+    /** The stable step of the cells and of contact springs of squared frequencies up to @p square.
+     */
+    double
+    with_springs(double length, double square) const;
+    /** Set assembled_to_cells at the displacement of the committed state. @param of_cells Stable
+     * step of the cells, time. Collective. */
+    void
+    find_assembled_step(double of_cells);
+    /** Set the warnings on the state at the end of an interval. Collective. */
+    void
+    judge();
     /** One cycle of this length. */
     void
     cycle(double length);

@@ -7,6 +7,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/newton.h>
 #include <touchstone/drive/time_integration.h>
+#include <touchstone/explicit/impulse_work.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/solid/boundary_conditions.h>
 
@@ -60,6 +61,10 @@ namespace Touchstone
     double smallest_step = 0., stable_step = 0.;
     /** That cell, as messages name it. */
     std::string cell;
+    /** What contact had to do. */
+    ImpulseWork contact;
+    /** Of this rank; for the terminal alone. */
+    double seconds = 0., contact_seconds = 0.;
   };
 
   /** @brief Remarks and warnings on a step that has been solved. */

@@ -3,6 +3,8 @@
 #ifndef touchstone_explicit_explicit_parameters_h
 #define touchstone_explicit_explicit_parameters_h
 
+#include <touchstone/base/keyword.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 namespace Touchstone
@@ -12,6 +14,16 @@ namespace Touchstone
   {
     /** Length of a cycle as a part of the bound of the stable step; no unit. */
     double courant_factor = 0.95;
+    /** What bounds the stable step: the largest frequency of any cell by itself, or of all cells
+     * together, which is lower. */
+    enum class StableStepBound
+    {
+      cells,
+      power_iteration
+    };
+    Keyword<StableStepBound> stable_step{StableStepBound::cells,
+                                         {{"cells", StableStepBound::cells},
+                                          {"power iteration", StableStepBound::power_iteration}}};
     /** Cycles after which the stable step is computed anew. */
     unsigned int check_interval = 20;
     /** Bulk viscosity, linear and quadratic in the rate of the volume; no unit. */
@@ -23,6 +35,12 @@ namespace Touchstone
 
     void
     declare(dealii::ParameterHandler &prm);
+
+    bool
+    viscous() const
+    {
+      return linear_viscosity > 0. || quadratic_viscosity > 0.;
+    }
 
     /** @brief Whether all keys have their defaults: what else means nothing in implicit runs. */
     bool

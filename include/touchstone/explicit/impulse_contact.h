@@ -4,8 +4,9 @@
 #define touchstone_explicit_impulse_contact_h
 
 #include <touchstone/contact/contact.h>
-#include <touchstone/contact/enforcement/impulse_enforcement.h>
+#include <touchstone/explicit/contact_stiffness.h>
 #include <touchstone/explicit/impulse_solver.h>
+#include <touchstone/explicit/impulse_work.h>
 #include <touchstone/explicit/node_map.h>
 #include <touchstone/explicit/row_motion.h>
 
@@ -20,13 +21,10 @@ namespace Touchstone
     /** Of impulses along the normals and against slip, and the work of obstacles and of overlaps
      * that are pressed apart. */
     double normal = 0., friction = 0., obstacles = 0.;
-  };
-
-  /** @brief Work of contact since the start of the run. */
-  struct ImpulseWork
-  {
-    std::uint64_t cycles = 0, sweeps = 0, renewals = 0, unconverged = 0;
-    unsigned int  most_sweeps = 0;
+    /** Work that moving obstacles do in half a cycle with the last impulses. */
+    double ahead = 0.;
+    /** What springs hold at present. */
+    double stored = 0.;
   };
 
   /**
@@ -38,11 +36,15 @@ namespace Touchstone
    * impulses of an output interval come to goes into the RowState of the rows and into the
    * history of friction, from which all results are made.
    */
-  class ImpulseContact
+  class ImpulseContact : public Stateful
   {
   public:
-    /** @param contact With an enforcement by impulses; must live as long, as the others must. */
-    ImpulseContact(Contact &contact, const ContactParameters &parameters, const NodeMap &nodes);
+    /** @param contact With an enforcement that has an ImpulseRule; must live as long, as the others
+     * must. */
+    ImpulseContact(Contact                           &contact,
+                   const ContactParameters           &parameters,
+                   const NodeMap                     &nodes,
+                   const std::vector<BodyParameters> &bodies);
 
     /** @brief The inverse masses of owned nodes by local node, without the directions that
      * supports determine. Must be set before the first project(), and when they change. */
@@ -56,14 +58,28 @@ namespace Touchstone
 
     /**
      * @brief Change the velocities @p v with which nodes would move during the cycle from @p time
-     * to @p time + @p step so that no row penetrates at its end. Collective.
+     * to @p time + @p step so that no row penetrates at its end, or as springs want it. Collective.
+     * @param acting Time for which forces of springs act in the cycle; 0: @p step.
      * @param u      Displacement at the start of the cycle; ghosts as well, as of the others.
      * @param before Velocities of the cycle before, on the mean of which and the new ones forces do
      *               work. @param v Free velocities; of owned nodes those that contact allows.
      * @throws InfeasibleContact if supports or obstacles leave no such velocity.
+     * @throws InputError if an obstacle jumps.
      */
     void
-    project(const NodeField &u, const NodeField &before, NodeField &v, double time, double step);
+    project(const NodeField &u,
+            const NodeField &before,
+            NodeField       &v,
+            double           time,
+            double           step,
+            double           acting = 0.);
+
+    /** @brief An upper bound of the squared largest frequency of the springs of all rows by
+     * themselves with the displacement @p u, which adds to that of the cells (doc/explicit.md,
+     * section 9.3); zero where the enforcement does not touch the stable step. Collective.
+     * @param step Of the order of a cycle. */
+    double
+    square_frequency(const NodeField &u, double time, double step);
 
     /** @brief Call @p use(node, impulse) for each owned node, by its local number, on which contact
      * acted in the last project(). Impulses, force times time, on supported nodes as well. */
@@ -92,9 +108,21 @@ namespace Touchstone
       return counted;
     }
 
+    /** @name Springs from one output interval to the next */
+    /** @{ */
+    void
+    commit() override;
+    void
+    rollback() override;
+    void
+    save(ArchiveWriter &archive) const override;
+    void
+    load(const ArchiveReader &archive) override;
+    /** @} */
+
   private:
     Contact                 &contact;
-    ImpulseEnforcement      &enforcement;
+    const ImpulseRule        rule;
     const ContactParameters &parameters;
     const NodeMap           &nodes;
     ImpulseSolver            solver;
@@ -116,10 +144,18 @@ namespace Touchstone
        * energies. */
       dealii::Tensor<1, dim> total, slip;
       double                 path = 0., friction_work = 0.;
-      ImpulseEnergy          energy;
-      bool                   pressed = false, slipped = false;
+      /** Without `ahead` and `stored`, which are those of the last cycle. */
+      ImpulseEnergy energy;
+      bool          pressed = false, slipped = false;
     };
     std::vector<RowHistory> history;
+    RowArray<ImpulseSpring> springs{"contact springs"};
+    /** Of springs by cells: K A / V at owned nodes here and at nodes of the solver. */
+    std::vector<double> stiffness_of_cells, stiffness_of_nodes;
+    /** Of springs: ImpulseSolver::mobilities() of the rows. */
+    std::vector<std::array<double, 2>> mobilities;
+    /** By pair with an obstacle: the size of its smallest face, over all ranks, length. */
+    std::vector<double> smallest_face;
     /** First dofs of the nodes around each slave node of a pair of bodies, by row index. */
     std::vector<std::vector<Index>> patches;
 
@@ -132,6 +168,10 @@ namespace Touchstone
       dealii::Tensor<1, dim> gap_vector;
       /** ContactPair::part_of_overlap() that counted when the row was made. */
       double part;
+      /** Nothing has moved since the row was made. */
+      bool fresh;
+      /** The gap at the start of the cycle. */
+      double at_start;
     };
     std::vector<KeptRow>     kept;
     std::vector<std::size_t> kept_rows;
@@ -144,6 +184,13 @@ namespace Touchstone
     void
     find_patches();
     void
+    find_smallest_faces();
+    void
+    check_obstacles(double time, double step) const;
+    /** Renew the rows if an interval begins. @return whether it does. */
+    bool
+    start_interval(const NodeField &u, double time);
+    void
     renew(const NodeField &u, double time);
     void
     make_rows();
@@ -151,16 +198,33 @@ namespace Touchstone
     import(const NodeField &u, const NodeField &before, const NodeField &v);
     void
     set_geometry(double time, double step);
+    double
+    gap_allowed(const ImpulseRow &row, double gap, double size, double step) const;
     void
-    set_pair_geometry(ImpulseRow &row, const KeptRow &from, double time, double step);
+    set_pair_geometry(ImpulseRow &row, KeptRow &from, double time, double step);
     void
-    set_obstacle_geometry(ImpulseRow &row, const KeptRow &from, double time, double step);
+    set_obstacle_geometry(ImpulseRow &row, KeptRow &from, double time, double step);
     void
     set_lever(ImpulseRow &row, const ContactRow &of);
     void
     check_feasible(double step, bool converged) const;
     void
     keep_results(double step);
+    void
+    add_energy(const ImpulseRow &row, RowHistory &h) const;
+    /** The cycle with impulses by projection, and with springs. */
+    ImpulseCounts
+    solve(double time, double step);
+    ImpulseCounts
+    push(double time, double step, double acting);
+    double
+    stiffness(std::size_t k, double step) const;
+    void
+    push_row(std::size_t k, double time, double step, double acting);
+    void
+    push_friction(std::size_t k, double normal_force, double time, double step);
+    void
+    keep_springs(double step);
   };
 } // namespace Touchstone
 

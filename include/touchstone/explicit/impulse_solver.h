@@ -69,6 +69,10 @@ namespace Touchstone
     unsigned int sweeps    = 200;
     /** One sweep from no impulses. */
     bool one_sweep = false;
+    /** Nesterov's acceleration; and the part of the minimum of the bound that a sweep takes, below
+     * 2: without acceleration and from 1 on sweeps are updates of multipliers. */
+    bool   accelerate = true;
+    double relaxation = 1.;
     /** Length of the cycle, and time at its end, for friction laws. */
     double step = 1., time = 0.;
   };
@@ -138,6 +142,16 @@ namespace Touchstone
     /** @brief Find the impulses and change #velocity by them. Collective. */
     ImpulseCounts
     solve(const ImpulseControl &control);
+
+    /** @brief Change #velocity by the impulses that the rows have. Collective. */
+    ImpulseCounts
+    apply_given();
+
+    /** @brief Bounds of the mobility of each row with all others, inverse mass: the springs k along
+     * normals (or in all directions, of tied rows) and k_t across them have no squared frequency
+     * above the largest k times the first and k_t times the second. Collective. */
+    std::vector<std::array<double, 2>>
+    mobilities();
 
   private:
     /** Bounds of the mobility that a row shares, inverse mass. */

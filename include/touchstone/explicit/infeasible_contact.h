@@ -21,6 +21,19 @@ namespace Touchstone
       return false;
     }
   };
+
+  /** @brief Contact springs are too soft for what presses them: bodies pass through each other. */
+  class SoftContact : public NonConvergence
+  {
+  public:
+    SoftContact(const ContactPairParameters &pair, double time);
+
+    bool
+    shorter_step_may_help() const override
+    {
+      return false;
+    }
+  };
 } // namespace Touchstone
 
 #endif

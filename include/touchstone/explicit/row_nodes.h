@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -131,10 +132,31 @@ namespace Touchstone
      * n_slots() on received ones. */
     std::vector<std::size_t> begin, contributions;
 
+    /** A slot on a node of the rank that is asked, and those that each rank asks for. */
+    struct SlotRequest
+    {
+      Index  dof;
+      RowKey key;
+    };
+    using Requests = std::map<unsigned int, std::vector<SlotRequest>>;
+
     mutable std::vector<char>                   buffer;
     mutable std::vector<dealii::Tensor<1, dim>> sent, received;
     mutable std::vector<MPI_Request>            requests;
 
+    /** The steps of reinit(); @p local are the local numbers by dof. */
+    std::map<Index, unsigned int>
+    number_owned(const dealii::IndexSet                      &owned,
+                 const std::vector<std::pair<Index, RowKey>> &slots,
+                 const Requests                              &asked);
+    void
+    number_ghosts(Neighbour                                   &neighbour,
+                  const std::vector<std::pair<Index, RowKey>> &slots,
+                  std::map<Index, unsigned int>               &local);
+    void
+    order_contributions(const std::vector<std::pair<Index, RowKey>> &slots,
+                        const Requests                              &asked,
+                        const std::map<Index, unsigned int>         &local);
     void
     exchange(char *values, std::size_t size) const;
   };

@@ -5,6 +5,7 @@
 
 #include <touchstone/algebra/vector.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/explicit/impulse_work.h>
 
 #include <map>
 #include <optional>
@@ -38,8 +39,10 @@ namespace Touchstone
     /** Where there is inertia: momentum, and angular momentum about the origin. */
     std::optional<dealii::Tensor<1, dim>> momentum, angular_momentum;
 
-    /** Of explicit dynamics: number of cycles in the step, and the length of the shortest. */
+    /** Of explicit dynamics: number of cycles in the step, and the length of the shortest; and what
+     * contact had to do in them, if there are contact pairs. */
     std::optional<std::pair<unsigned int, double>> cycles;
+    std::optional<ImpulseWork>                     contact_work;
 
     /** @name The state itself, on this rank; null or empty where nobody provides it */
     /** @{ */

@@ -54,9 +54,14 @@ namespace Touchstone
     end_step(unsigned int newton_iterations);
 
     /** @brief Of explicit dynamics: the output interval ended after this many cycles, of which the
-     * shortest was @p step, which @p cell decides. */
+     * shortest was @p step, which @p cell decides. @param nanoseconds Of a processor, for each cell
+     * and cycle. @param contact Part of the time that contact took. */
     void
-    end_step(unsigned int cycles, double step, const std::string &cell);
+    end_step(unsigned int       cycles,
+             double             step,
+             const std::string &cell,
+             double             nanoseconds,
+             double             contact);
 
     /** @brief The step did not converge, for @p reason, and is tried again with
      * the step size @p step_size. */

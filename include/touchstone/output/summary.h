@@ -4,6 +4,7 @@
 #define touchstone_output_summary_h
 
 #include <touchstone/contact/results.h>
+#include <touchstone/explicit/impulse_work.h>
 #include <touchstone/output/json.h>
 #include <touchstone/output/motion.h>
 #include <touchstone/output/step_quantity.h>
@@ -26,6 +27,8 @@ namespace Touchstone
     unsigned int  ranks     = 1;
     std::uint64_t cells     = 0;
     std::uint64_t unknowns  = 0;
+    /** What contact of explicit dynamics had to do. */
+    ImpulseWork contact_work;
     /** Load steps that converged. */
     unsigned int steps = 0;
     /** Cycles of explicit dynamics in them; 0 for implicit runs. */

@@ -4,8 +4,9 @@
 
 #include <deal.II/base/exceptions.h>
 
-// The enforcements of explicit dynamics by name. They say how the impulses of a cycle are found;
-// the sweeps themselves are in explicit/impulse_solver.cc.
+// The enforcements of explicit dynamics alone, by name. They say how the forces of a cycle are
+// found; the sweeps themselves are in explicit/impulse_solver.cc, springs in
+// explicit/impulse_springs.cc. 'penalty' and 'augmented lagrange' serve implicit steps, too.
 namespace Touchstone
 {
   using namespace dealii;
@@ -43,13 +44,8 @@ namespace Touchstone
     {
     public:
       explicit ForwardIncrement(const ContactParameters &)
+        : ImpulseEnforcement({ImpulseRule::Method::projection})
       {
-      }
-
-      bool
-      one_sweep() const override
-      {
-        return false;
       }
     };
 
@@ -58,13 +54,19 @@ namespace Touchstone
     {
     public:
       explicit DefenceNode(const ContactParameters &)
+        : ImpulseEnforcement({ImpulseRule::Method::one_sweep})
       {
       }
+    };
 
-      bool
-      one_sweep() const override
+    /** The stiffness from masses and step that crash codes have beside K A^2 / V, for bodies of
+     * very different stiffness. */
+    class SoftPenalty : public ImpulseEnforcement
+    {
+    public:
+      explicit SoftPenalty(const ContactParameters &parameters)
+        : ImpulseEnforcement({ImpulseRule::Method::mass_springs, 0.1 * parameters.penalty_factor})
       {
-        return true;
       }
     };
 
@@ -76,5 +78,9 @@ namespace Touchstone
       defence_node("defence node",
                    "of explicit dynamics: its first sweep alone, exact where no two rows share a "
                    "node.");
+    const EnforcementRegistry::Entry<SoftPenalty>
+      soft_penalty("soft penalty",
+                   "of explicit dynamics: springs as stiff as the masses of the nodes and the "
+                   "cycles allow.");
   } // namespace
 } // namespace Touchstone

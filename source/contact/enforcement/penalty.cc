@@ -392,7 +392,14 @@ namespace Touchstone
       explicit Penalty(const ContactParameters &parameters)
         : SpringEnforcement(100. * parameters.penalty_factor)
         , factor(100. * parameters.penalty_factor)
+        , rule{ImpulseRule::Method::bulk_springs, 0.1 * parameters.penalty_factor}
       {
+      }
+
+      const ImpulseRule *
+      impulse_rule() const override
+      {
+        return &rule;
       }
 
       /** No component of a unit normal exceeds this: cyclic rows are kept, for each has a spring
@@ -404,7 +411,8 @@ namespace Touchstone
       }
 
     private:
-      const double factor;
+      const double      factor;
+      const ImpulseRule rule;
 
       void
       admit_gap(const ContactRow &row, bool) override
@@ -443,7 +451,14 @@ namespace Touchstone
       explicit AugmentedLagrange(const ContactParameters &parameters)
         : SpringEnforcement(20. * parameters.penalty_factor)
         , merged(parameters.augmentation == ContactParameters::Augmentation::merged)
+        , rule{ImpulseRule::Method::augmentation, parameters.penalty_factor}
       {
+      }
+
+      const ImpulseRule *
+      impulse_rule() const override
+      {
+        return &rule;
       }
 
       void
@@ -454,7 +469,8 @@ namespace Touchstone
       }
 
     private:
-      const bool merged;
+      const bool        merged;
+      const ImpulseRule rule;
 
       bool
       stiffens() const override

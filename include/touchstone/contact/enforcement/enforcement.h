@@ -7,6 +7,7 @@
 #include <touchstone/algebra/linear_system.h>
 #include <touchstone/base/registry.h>
 #include <touchstone/contact/contact_parameters.h>
+#include <touchstone/contact/enforcement/impulse_rule.h>
 #include <touchstone/contact/row_array.h>
 #include <touchstone/contact/row_state.h>
 
@@ -82,6 +83,14 @@ namespace Touchstone
       row_states = states;
     }
 
+    /** @brief Set the present state of a row, of explicit steps: its force is the mean over the
+     * time since the committed state. */
+    void
+    set_state(const ContactRow &row, const RowState &state)
+    {
+      row_states[row] = state;
+    }
+
     /** @brief The pairings have been updated: rows find and lose their partners.
      * @param first The bodies are as they are placed: what touches starts in contact. */
     void
@@ -95,14 +104,23 @@ namespace Touchstone
       return false;
     }
 
-    /** @brief Whether it belongs to explicit dynamics, where contact is an impulse in each cycle
-     * and no linear system is solved: it then is an ImpulseEnforcement (doc/explicit.md, section
-     * 9). */
+    /** @name The kinds of steps that it serves: one of them, or both */
+    /** @{ */
+    /** @brief Whether it serves implicit steps, in which linear systems are solved. */
     virtual bool
-    by_impulses() const
+    solves_systems() const
     {
-      return false;
+      return true;
     }
+
+    /** @brief How it finds the forces of a cycle of explicit dynamics (doc/explicit.md, section
+     * 9); null if it does not serve explicit steps. */
+    virtual const ImpulseRule *
+    impulse_rule() const
+    {
+      return nullptr;
+    }
+    /** @} */
 
     /** @brief A step begins, or begins again: no linear solve has come before. */
     virtual void

@@ -8,33 +8,28 @@
 namespace Touchstone
 {
   /**
-   * @brief Contact of explicit dynamics: each cycle takes from the velocities what would let bodies
-   * penetrate at its end, by impulses in the rows (doc/explicit.md, section 9).
-   *
-   * It holds what the impulses made of the rows; they are found by ImpulseContact, which asks
-   * this object how. No linear system is solved: the functions of Newton's method are not to
-   * be called.
+   * @brief Contact of explicit dynamics alone: forces are found cycle by cycle as the rule says
+   * (doc/explicit.md, section 9), and no linear system is solved: the functions of Newton's method
+   * are not to be called.
    */
   class ImpulseEnforcement : public Enforcement
   {
   public:
-    bool
-    by_impulses() const override
+    explicit ImpulseEnforcement(const ImpulseRule &rule)
+      : rule(rule)
     {
-      return true;
     }
 
-    /** @brief Whether the impulses of a cycle are those of a single sweep over the rows: what
-     * rows that share nodes leave undone is done in the next cycle. */
-    virtual bool
-    one_sweep() const = 0;
-
-    /** @brief Set the state of a row: its force is the mean over the time since the committed
-     * state. */
-    void
-    set_state(const ContactRow &row, const RowState &state)
+    bool
+    solves_systems() const override
     {
-      row_states[row] = state;
+      return false;
+    }
+
+    const ImpulseRule *
+    impulse_rule() const override
+    {
+      return &rule;
     }
 
   protected:
@@ -44,6 +39,9 @@ namespace Touchstone
     constrain(const Contact &, ConstraintGraph &, LinearSystem &) override;
     void
     set_forces(const Contact &) override;
+
+  private:
+    const ImpulseRule rule;
   };
 } // namespace Touchstone
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/contact_stiffness.h>
+#include <touchstone/explicit/impulse_contact.h>
+
+#include <algorithm>
+#include <limits>
+
+// The rows that explicit dynamics keeps (doc/explicit.md, section 9.5): taken from Contact when
+// motion demands it, with what a cycle needs of their nodes.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  // The moment of a force that does not act along the gap vector is taken up around the slave node:
+  // these faces are known here whole, and never degenerate.
+  void
+  ImpulseContact::find_patches()
+  {
+    patches.resize(contact.rows().size());
+    for (const ContactRow &row : contact.rows())
+      if (const ContactPair &pair = contact.pair(row); pair.master())
+        {
+          auto faces = pair.slave().faces_around(row.slave);
+          std::sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
+            return a.first->key < b.first->key;
+          });
+          std::vector<Index> &patch = patches[row.index];
+          for (const auto &[face, m] : faces)
+            for (unsigned int i = 0; i < face->n_nodes(); ++i)
+              if (std::find(patch.begin(), patch.end(), dim * face->nodes[i]) == patch.end())
+                patch.push_back(dim * face->nodes[i]);
+        }
+  }
+
+
+
+  void
+  ImpulseContact::find_smallest_faces()
+  {
+    smallest_face.assign(contact.n_pairs(), std::numeric_limits<double>::max());
+    for (const ContactRow &row : contact.rows())
+      smallest_face[row.pair] = std::min(smallest_face[row.pair], row.size);
+    for (double &size : smallest_face)
+      size = Utilities::MPI::min(size, nodes.communicator());
+  }
+
+
+
+  void
+  ImpulseContact::renew(const NodeField &u, const double time)
+  {
+    ++counted.renewals;
+    nodes.to_vector(u, displacement);
+    // Rows in contact leave an edge later than open ones arrive there.
+    if (!renew_rows)
+      for (const ContactRow &row : contact.rows())
+        {
+          RowState state = contact.state(row);
+          if (state.status != ContactStatus::no_partner && !row.tied)
+            state.status = history[row.index].impulse * row.normal > 0. ? ContactStatus::slip
+                                                                        : ContactStatus::open;
+          contact.enforcement().set_state(row, state);
+        }
+    contact.update(displacement, time);
+    contact.commit_positions();
+    make_rows();
+    motion.restart(u);
+    renew_rows = false;
+  }
+
+
+
+  void
+  ImpulseContact::make_rows()
+  {
+    std::vector<std::pair<Index, RowKey>> slots;
+    solver.rows.clear();
+    kept.clear();
+    kept_rows.clear();
+    for (const ContactRow &from : contact.rows())
+      {
+        if (!from.has_partner)
+          {
+            RowHistory &h = history[from.index];
+            h.impulse     = Tensor<1, dim>();
+            // What a spring held is lost with its partner.
+            ImpulseSpring &spring = springs[from];
+            const double   held   = 0.5 * spring.stiffness * spring.gap * spring.gap;
+            h.energy.obstacles -= held;
+            h.energy.normal += held;
+            h.energy.stored = h.energy.ahead = 0.;
+            spring                           = ImpulseSpring();
+            continue;
+          }
+        ImpulseRow row;
+        row.key      = {from.pair, nodes.key(nodes.local(dim * from.slave))};
+        row.first    = slots.size();
+        row.n_nodes  = 1 + from.stencil.size();
+        row.n_lever  = from.stencil.empty() ? 0 : patches[from.index].size();
+        row.tied     = from.tied;
+        row.friction = from.friction;
+        row.area     = from.area;
+        slots.emplace_back(dim * from.slave, row.key);
+        for (const StencilEntry &entry : from.stencil)
+          slots.emplace_back(dim * entry.node, row.key);
+        if (row.n_lever > 0)
+          for (const Index dof : patches[from.index])
+            slots.emplace_back(dof, row.key);
+        solver.rows.push_back(row);
+        kept.push_back({from.index,
+                        from.gap,
+                        from.gap_vector,
+                        contact.pair(from).part_of_overlap(contact.time()),
+                        true,
+                        from.gap});
+        kept_rows.push_back(from.index);
+      }
+    solver.nodes.reinit(contact.solid_model().owned, slots);
+    solver.resize();
+    const RowNodes &on = solver.nodes;
+    local.resize(on.n_owned());
+    reference.resize(on.n());
+    u_nodes.resize(on.n());
+    std::vector<std::uint64_t> keys(on.n());
+    for (unsigned int node = 0; node < on.n_owned(); ++node)
+      {
+        local[node]           = nodes.local(on.dof(node));
+        keys[node]            = nodes.key(local[node]);
+        reference[node]       = nodes.positions()[local[node]];
+        solver.mobility[node] = inverse_masses[local[node]];
+        for (unsigned int d = 0; d < dim; ++d)
+          u_nodes[node][d] = displacement(on.dof(node) + d);
+      }
+    if (rule.method == ImpulseRule::Method::bulk_springs)
+      {
+        stiffness_of_nodes.resize(on.n());
+        for (unsigned int node = 0; node < on.n_owned(); ++node)
+          stiffness_of_nodes[node] = stiffness_of_cells[local[node]];
+        on.forward(stiffness_of_nodes);
+      }
+    on.forward(keys);
+    on.forward(reference);
+    on.forward(u_nodes);
+    on.forward(solver.mobility);
+    solver.sort_slots(keys);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      {
+        const ContactRow &from = contact.rows()[kept[k].index];
+        ImpulseRow       &row  = solver.rows[k];
+        std::size_t       s    = row.first;
+        solver.weights[s++]    = 1.;
+        for (const StencilEntry &entry : from.stencil)
+          solver.weights[s++] = -entry.weight;
+        // Averages over slivers of faces can leave a sum that is one to ten digits only; momentum
+        // wants all of them. The order of slots is that of the keys of nodes.
+        double sum = 0.;
+        for (unsigned int i = 0; i < row.n_nodes; ++i)
+          if (solver.slot(row, i) != row.first)
+            sum -= solver.weights[solver.slot(row, i)];
+        for (std::size_t of_master = row.first + 1; of_master < s; ++of_master)
+          solver.weights[of_master] /= sum;
+        // The gaps that the row would have at zero displacements.
+        Tensor<1, dim> by_motion;
+        for (unsigned int i = 0; i < row.n_nodes; ++i)
+          {
+            const std::size_t slot = solver.slot(row, i);
+            by_motion += solver.weights[slot] * u_nodes[solver.nodes.node(slot)];
+          }
+        kept[k].gap_vector -= by_motion;
+        kept[k].gap -= by_motion * from.normal;
+      }
+    made_at = u_nodes;
+    moved.resize(u_nodes.size());
+    v_before.resize(u_nodes.size());
+  }
+} // namespace Touchstone
