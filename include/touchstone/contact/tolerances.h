@@ -123,13 +123,17 @@ namespace Touchstone
     /** Part of a nodal area that may be missing by round-off where all is covered. */
     constexpr double fully_covered = 1e-10;
 
-    /** How deep a node must be, if it is the closest point, as a multiple of what the mean gap is
-     * deeper, for the mean to count alone; and by how much of the same length another point must
-     * be closer to count as another point. */
-    constexpr double deep_node = 2., elsewhere = 0.5;
+    /** How deep surfaces must overlap anywhere around a node, by what the mean gap lies below that
+     * of the node, for the mean to count alone. Where a ball or a tube is pressed flat, so that the
+     * mean vanishes, they overlap by half of it between the nodes. */
+    constexpr double pressed = 0.4;
 
-    /** By the size of a face: from the first to the second the gap of another point than the node
-     * comes to bound the gap of the row. */
+    /** One less the shape function of a node at the closest covered point, from which on the node
+     * does not count as covered. */
+    constexpr double beside_node = 0.5;
+
+    /** By the size of a face: from the first to the second the smallest gap comes to bound the gap
+     * of a row whose node is not covered. */
     constexpr double hardly_open = 1e-4, well_open = 1e-2;
 
     /** By the size of a face: gaps are equal up to round-off, as mean and closest one are on flat

@@ -279,7 +279,7 @@ namespace Touchstone
 
       // Integrals over what each master face covers: M_jk and Q_jc of doc/theory.md 4.
       std::vector<OverlapIntegrals<n, double>> parts(
-        masters.size(), OverlapIntegrals<n, double>(face_length(slave)));
+        masters.size(), OverlapIntegrals<n, double>(input.slave->largest_face()));
       OverlapSample<n, double> sample;
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
@@ -308,8 +308,10 @@ namespace Touchstone
           if (face.row[k] < 0)
             continue;
           RowSums &sum = sums[face.row[k]];
+          // Where the node hangs the row is that of another node, which is not on this face.
+          const bool on_its_node = !face.basis || face.basis->nodes[k] == slave.nodes[k];
           for (std::size_t f = 0; f < masters.size(); ++f)
-            sum.add<n>(k, dual, *masters[f].master, parts[f]);
+            sum.add<n>(k, dual, *masters[f].master, parts[f], on_its_node);
           // D_kk of equation (5), the area given to other nodes, and D_kk in the reference state,
           // for tractions are nominal (doc/theory.md 2.2).
           const double kept = dual.shares.share[k][k];
@@ -459,6 +461,7 @@ namespace Touchstone
           row.normal     = means.normal;
           row.gap_vector = means.gap_vector;
           row.gap        = row.gap_vector * row.normal;
+          row.slope      = std::max(1., means.slope());
           row.lever      = sum.lever / sum.area;
           // Not more than the tributary area, by round-off or by the ratio of reference to present
           // areas.
@@ -472,7 +475,10 @@ namespace Touchstone
     AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
       // All ranks must take part: finish() is collective.
-      AveragedDerivative derivative(search.exchange(), slave_exchange.get(), /*gradual=*/!tied);
+      AveragedDerivative derivative(search.exchange(),
+                                    slave_exchange.get(),
+                                    /*gradual=*/!tied,
+                                    input.slave->largest_face());
       for (const ContactRow &row : rows)
         if (row.was_active)
           derivative.add_row(row.slave,

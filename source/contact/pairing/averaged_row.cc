@@ -25,44 +25,46 @@ namespace Touchstone
 
   GapCorrection::GapCorrection(const CoverSums &sums, const double mean, const double size)
   {
-    // phi of equation (7) and the correction of equation (6) with derivatives by the five
-    // quantities that they depend on: g mean, g_min, g_s, D_kk and a_k - D_kk.
-    using Number         = Sacado::Fad::SFad<double, 5>;
-    const double covered = sums.own < std::numeric_limits<double>::max() ? 1. : 0.;
-    const Number at_mean = Number(5, 0, mean), least(5, 1, sums.least), kept(5, 3, sums.kept),
-                 given   = Number(5, 4, sums.given);
-    // A node that is not covered has g_s infinite; a large finite value keeps the derivatives
-    // finite.
-    const Number own = covered > 0. ? Number(5, 2, sums.own) : Number(sums.least + 1e10 * size);
-    const Number difference = least - at_mean;
-    Number       result     = 0.;
-    // On plane faces the mean is the smallest gap up to round-off, and the quotients below would be
-    // noise.
-    if (difference > Tolerances::equal_gaps * size)
+    // The corrections of equations (6) and (7) with derivatives by the six quantities that they
+    // depend on: g mean, g_min, the two of g_s, D_kk and a_k - D_kk.
+    using Number = Sacado::Fad::SFad<double, 6>;
+    const Number at_mean(6, 0, mean), least(6, 1, sums.least), own(6, 2, sums.own),
+      beside(6, 3, sums.beside), kept(6, 4, sums.kept), given(6, 5, sums.given);
+    Number result = 0.;
+    // chi of equation (7): whether the node itself is covered.
+    const Number at_node = 1. - smooth_step(beside, 0., Tolerances::beside_node);
+    // On plane faces all gaps are the mean up to round-off, and the quotients below would be noise.
+    const double noise = Tolerances::equal_gaps * size;
+    if (const Number above = own - sums.length * beside - at_mean; at_node > 0. && above > noise)
       {
-        // omega of equation (7): 1 if another point than the node is the closest.
-        const Number other =
-          smooth_step(Number((own - least) / difference), 0., Tolerances::elsewhere);
-        Number part = 1. - other;
-        if (least < 0.)
-          part *= 1. - smooth_step(Number(-least / difference), 0., Tolerances::deep_node);
-        else
-          part += other *
-                  smooth_step(Number(least / size), Tolerances::hardly_open, Tolerances::well_open);
-        result = part * difference;
+        // As long as nothing overlaps the gap is that of the node, which the force of the row moves
+        // and no other row has in common with it.
+        Number part = at_node;
+        if (const Number deep = -least / above; deep >= Tolerances::pressed)
+          part = 0.;
+        else if (deep > 0.)
+          part *= 1. - deep / Tolerances::pressed;
+        result += part * above;
       }
+    if (const Number above = least - at_mean; at_node < 1. && above > noise)
+      result += (1. - at_node) * above *
+                smooth_step(Number(least / size), Tolerances::hardly_open, Tolerances::well_open);
     // 0.01 h r^4 of equation (6): the row opens before its area vanishes.
     if (given > 0.)
       {
         const Number ratio = given / kept;
         result += Tolerances::gap_growth * size * ratio * ratio * ratio * ratio;
       }
-    value    = result.val();
-    by_mean  = result.dx(0);
-    by_least = result.dx(1);
-    by_own   = result.dx(2);
-    by_kept  = result.dx(3);
-    by_given = result.dx(4);
+    value     = result.val();
+    by_mean   = result.dx(0);
+    by_least  = result.dx(1);
+    by_own    = result.dx(2);
+    by_beside = result.dx(3);
+    by_kept   = result.dx(4);
+    by_given  = result.dx(5);
+    // The mean with a dual basis and the gap at the node follow the node alone, that at another
+    // point by the shape function there.
+    slope = 1. + by_mean + by_own + by_least * sums.at_least;
   }
 
 
@@ -95,7 +97,8 @@ namespace Touchstone
     const Tensor<2, dim> d_mean  = (d.gap - outer_product(mean, d.area)) / area;
     const Tensor<1, dim> d_value = correction.by_mean * (normal * d_mean + mean * d_normal) +
                                    correction.by_least * d.least + correction.by_own * d.own +
-                                   correction.by_kept * d.kept + correction.by_given * d.given;
+                                   correction.by_beside * d.beside + correction.by_kept * d.kept +
+                                   correction.by_given * d.given;
     const Tensor<1, dim> d_share = (d.area - share * d.kept) / kept;
     d_gap_vector                 = outer_product(mean + correction.value * normal, d_share) +
                    share * (d_mean + outer_product(normal, d_value) + correction.value * d_normal);

@@ -130,8 +130,13 @@ namespace Touchstone
         // search for the closest point is spared.
         if (row.needs_least())
           offer<n>(least, part.least, part.least_by_normals, face, *part.master);
+        if (face.own[k] != face.slave.face().nodes[k])
+          continue;
         if (row.needs_own())
           offer<n>(own, part.own[k], part.own_by_normals[k], face, *part.master);
+        // Shape functions of facets do not depend on normals.
+        if (row.needs_beside())
+          offer<n>(beside, part.beside[k], {}, face, *part.master);
       }
   }
 
@@ -225,6 +230,8 @@ namespace Touchstone
       continue_closest(*least, &CoverSumsDerivative::least, of_master, of_slave);
     if (own)
       continue_closest(*own, &CoverSumsDerivative::own, of_master, of_slave);
+    if (beside)
+      continue_closest(*beside, &CoverSumsDerivative::beside, of_master, of_slave);
 
     // The sums are complete: now the row.
     RowDerivative &result = *builder.result;

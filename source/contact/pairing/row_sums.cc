@@ -18,6 +18,7 @@ namespace Touchstone
     static_cast<CoverSums &>(*this) = CoverSums();
     // Infinite until a point is added.
     least = own = std::numeric_limits<double>::max();
+    beside      = 1.;
     lever       = Tensor<1, dim>();
     for (Stencil *list : {&stencil, &taken, &left})
       list->clear();
@@ -30,7 +31,8 @@ namespace Touchstone
   RowSums::add(const unsigned int                 k,
                const DualBasis                   &dual,
                const Face                        &master,
-               const OverlapIntegrals<n, double> &part)
+               const OverlapIntegrals<n, double> &part,
+               const bool                         on_its_node)
   {
     // r_k = W_k Q, see DualBasis.
     std::array<double, OverlapIntegrals<n, double>::n_columns> r{};
@@ -46,8 +48,16 @@ namespace Touchstone
       }
     for (unsigned int m = 0; m < n; ++m)
       add(stencil, master.nodes[m], r[OverlapColumns::master + m]);
-    least = std::min(least, part.least);
-    own   = std::min(own, part.own[k]);
+    if (part.least < least)
+      {
+        least    = part.least;
+        at_least = dual.shape(k, part.at_least);
+      }
+    if (!on_its_node)
+      return;
+    own    = std::min(own, part.own[k]);
+    beside = std::min(beside, part.beside[k]);
+    length = part.length;
   }
 
 
@@ -98,10 +108,12 @@ namespace Touchstone
   RowSums::add<4>(unsigned int,
                   const DualBasis &,
                   const Face &,
-                  const OverlapIntegrals<4, double> &);
+                  const OverlapIntegrals<4, double> &,
+                  bool);
   template void
   RowSums::add<9>(unsigned int,
                   const DualBasis &,
                   const Face &,
-                  const OverlapIntegrals<9, double> &);
+                  const OverlapIntegrals<9, double> &,
+                  bool);
 } // namespace Touchstone

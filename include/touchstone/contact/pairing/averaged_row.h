@@ -20,8 +20,13 @@ namespace Touchstone
     /** Integrals of gap and normal with psi'_k. */
     dealii::Tensor<1, dim> gap, normal;
     /** The smallest gap at any quadrature point or corner of what is covered, along the normal
-     * there, and that at the node itself, infinite if the node is not covered; length. */
-    double least = 0., own = 0.;
+     * there, length. */
+    double least = 0.;
+    /** The shape function of the node there. */
+    double at_least = 0.;
+    /** OverlapIntegrals::own, ::beside and ::length: with them the gap at the node is own - length
+     * * beside; length, no unit, length. */
+    double own = 0., beside = 1., length = 0.;
 
     /** @brief Whether enough of the node is covered for a row.
      * @param whole Tributary area. */
@@ -32,7 +37,7 @@ namespace Touchstone
   /** @brief Derivatives of CoverSums with respect to the position of one node. */
   struct CoverSumsDerivative
   {
-    dealii::Tensor<1, dim> area, kept, given, reference, least, own;
+    dealii::Tensor<1, dim> area, kept, given, reference, least, own, beside;
     /** [i][e]: of component i with respect to component e of the position. */
     dealii::Tensor<2, dim> gap, normal;
   };
@@ -42,16 +47,18 @@ namespace Touchstone
    * 3.1, equations (6) and (7)).
    *
    * A weight function that changes its sign can give a mean below the gap at every point:
-   * on a curved face by a part of its sagitta, on a part of a face by extrapolation. While
-   * surfaces are apart the gap of a row is not less than the smallest gap of its points:
-   * immediately if that point is the node itself, which the force of the row moves; for another
-   * point, which the force hardly moves, only where it is clearly open. As the node penetrates, the
-   * mean takes over. Besides, the gap of a node that gives away area grows with the part given, so
-   * that its row opens before its area vanishes and forces change smoothly.
+   * on a curved face by a part of its sagitta, on a part of a face by extrapolation. While no
+   * point of the faces around it overlaps, the gap of a row is that of its node if it is higher;
+   * the mean takes over as they overlap anywhere. A node that is not covered has the mean, and the
+   * smallest gap of its points where that is clearly open. Besides, the gap of a node that gives
+   * away area grows with the part given, so that its row opens before its area vanishes and forces
+   * change smoothly.
    */
   struct GapCorrection
   {
-    double value, by_mean, by_least, by_own, by_kept, by_given;
+    double value, by_mean, by_least, by_own, by_beside, by_kept, by_given;
+    /** Of mean and correction together by the motion of the node along the normal. */
+    double slope;
 
     /** @param mean Mean gap along the mean normal. @param size Size of the faces. */
     GapCorrection(const CoverSums &sums, double mean, double size);
@@ -77,6 +84,13 @@ namespace Touchstone
     double                 share;
     dealii::Tensor<1, dim> normal, gap_vector;
 
+    /** @brief ContactRow::slope. */
+    double
+    slope() const
+    {
+      return correction.slope;
+    }
+
     /** @brief Whether the smallest gaps matter, of all points and at the node: otherwise their
      * derivatives are not used. */
     bool
@@ -88,6 +102,11 @@ namespace Touchstone
     needs_own() const
     {
       return correction.by_own != 0.;
+    }
+    bool
+    needs_beside() const
+    {
+      return correction.by_beside != 0.;
     }
 
     /** @brief d normal, d gap_vector for the derivatives of the sums. */

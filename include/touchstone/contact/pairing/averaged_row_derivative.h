@@ -76,7 +76,7 @@ namespace Touchstone
     RowDerivativeBuilder builder;
     /** By the index of the node in the builder. */
     std::vector<CoverSumsDerivative> sums;
-    std::optional<ClosestPoint>      least, own;
+    std::optional<ClosestPoint>      least, own, beside;
 
     std::unordered_map<const Face *, ByNormals> by_master_normals;
     /** The integral of the gap by normals of slave faces, known by their keys. */

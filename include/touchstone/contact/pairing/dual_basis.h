@@ -67,6 +67,19 @@ namespace Touchstone
       dealii::FullMatrix<double> of_basis, of_shapes;
     };
 
+    /** @brief N~_k of the values of the N_j at a point. */
+    template <std::size_t n>
+    double
+    shape(const unsigned int k, const std::array<double, n> &values) const
+    {
+      if (!basis)
+        return values[k];
+      double result = 0.;
+      for (unsigned int j = 0; j < n; ++j)
+        result += basis->weights[j][k] * values[j];
+      return result;
+    }
+
     /** @brief The Y of some integrals Q. */
     Solution
     solve(const dealii::FullMatrix<double> &q) const;

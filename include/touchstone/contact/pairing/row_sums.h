@@ -25,13 +25,15 @@ namespace Touchstone
     void
     clear();
 
-    /** @brief Add what row @p k takes of what one master face covers. */
+    /** @brief Add what row @p k takes of what one master face covers.
+     * @param on_its_node Whether node k of the face is the node of the row. */
     template <unsigned int n>
     void
     add(unsigned int                       k,
         const DualBasis                   &dual,
         const Face                        &master,
-        const OverlapIntegrals<n, double> &part);
+        const OverlapIntegrals<n, double> &part,
+        bool                               on_its_node);
 
     /** @brief All faces have been added: the stencil gets what is taken from other nodes. */
     void
