@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The gap of an averaged row over a curved face (doc/theory.md 3.1, equations (6) and (7)): it is
-// not negative while nothing overlaps, it grows with its node and does not fall with others, and it
-// is the mean where surfaces are pressed together. Derivatives are compared with differences.
+// not negative while nothing overlaps, it is that of the node where surfaces touch on a line of
+// nodes and the mean where they are pressed together, it grows with all nodes and with its own
+// most, and with all together as much as they move. Derivatives are compared with differences.
 
 #include <touchstone/contact/pairing/averaged_row.h>
 
@@ -11,18 +12,22 @@
 #include <random>
 
 using namespace Touchstone;
+using namespace dealii;
 
 namespace
 {
-  /** A tube of radius 1/2 over a plane, faces of size 1 on both sides of a node: gaps between the
-   * nodes are below their interpolation by up to 1/4, means by 1/6. */
+  /** A tube of radius 1/2 over a plane, faces of size 1 on both sides of a node: means are below
+   * those of the interpolated gaps at the nodes by 1/6. */
   constexpr double radius = 0.5, size = 1., below = 1. / (12. * radius);
+
+  const Tensor<1, dim> normal({0., 0., 1.});
 
   /** Gaps at a node and its two neighbours. */
   struct Gaps
   {
     double node, neighbour[2];
 
+    /** The smallest gap. */
     double
     least() const
     {
@@ -36,23 +41,39 @@ namespace
       return result;
     }
 
+    double
+    mean() const
+    {
+      return node - below;
+    }
+
     CoverSums
     sums() const
     {
       CoverSums result;
       result.area = result.kept = 1.;
-      result.least              = least();
-      result.own                = node;
-      result.beside             = 0.;
-      result.length             = 1.;
+      // Not clearly apart.
+      result.least  = -1.;
+      result.own    = node;
+      result.beside = 0.;
+      result.length = 1.;
+      for (const double other : neighbour)
+        {
+          FaceShare face;
+          face.area = face.shape_area = 0.5;
+          face.gap                    = 0.5 * mean() * normal;
+          face.shape_gap              = 0.5 * (2. / 3. * node + 1. / 3. * other - below) * normal;
+          face.own                    = node;
+          face.beside                 = 0.;
+          result.faces.push_back(face);
+        }
       return result;
     }
 
     double
     row() const
     {
-      const double mean = node - below;
-      return mean + GapCorrection(sums(), mean, size).value;
+      return mean() + GapCorrection(sums(), normal, mean(), size).value;
     }
   };
 
@@ -62,31 +83,42 @@ namespace
     std::cout << what << ": " << (holds ? "yes" : "no") << std::endl;
   }
 
-  /** Whether the derivatives by all quantities are those of the value. */
+  /** Whether the derivatives by all quantities are those of the value, with the face @p deciding.
+   */
   bool
-  derivatives(CoverSums sums, const double mean)
+  derivatives(CoverSums sums, double mean, const int deciding)
   {
     constexpr double    step = 1e-6;
-    const GapCorrection correction(sums, mean, size);
-    const auto          difference = [&](double &x) {
+    const GapCorrection correction(sums, normal, mean, size);
+    double              error = 0.;
+    const auto          check = [&](double &x, const double derivative) {
       const double before = x;
       x                   = before + step;
-      const double above  = GapCorrection(sums, mean, size).value;
+      const double above  = GapCorrection(sums, normal, mean, size).value;
       x                   = before - step;
-      const double result = (above - GapCorrection(sums, mean, size).value) / (2. * step);
+      const double under  = GapCorrection(sums, normal, mean, size).value;
       x                   = before;
-      return result;
+      error = std::max(error, std::abs(derivative - (above - under) / (2. * step)));
     };
-    const double by_mean = (GapCorrection(sums, mean + step, size).value -
-                            GapCorrection(sums, mean - step, size).value) /
-                           (2. * step);
-    double error = std::abs(correction.by_mean - by_mean);
-    error        = std::max(error, std::abs(correction.by_least - difference(sums.least)));
-    error        = std::max(error, std::abs(correction.by_own - difference(sums.own)));
-    error        = std::max(error, std::abs(correction.by_beside - difference(sums.beside)));
-    error        = std::max(error, std::abs(correction.by_kept - difference(sums.kept)));
-    error        = std::max(error, std::abs(correction.by_given - difference(sums.given)));
-    return error < 1e-6;
+    check(mean, correction.by_mean);
+    check(sums.least, correction.by_least);
+    check(sums.own, correction.by_own);
+    check(sums.beside, correction.by_beside);
+    check(sums.kept, correction.by_kept);
+    check(sums.given, correction.by_given);
+    check(sums.area, correction.by_area);
+    if (deciding < 0)
+      return error < 1e-6 && correction.face == nullptr;
+    FaceShare &face = sums.faces[deciding];
+    check(face.gap[2], correction.by_face_mean / face.area);
+    check(face.shape_gap[2], correction.by_face_positive / face.shape_area);
+    check(face.own, correction.by_face_own);
+    check(face.beside, correction.by_face_beside);
+    // The mean of the face changes with its area as well.
+    check(face.area,
+          correction.by_face_area -
+            correction.by_face_mean * face.gap[2] / (face.area * face.area));
+    return error < 1e-6 && correction.face == &face;
   }
 } // namespace
 
@@ -96,45 +128,52 @@ int
 main()
 {
   std::mt19937                           random(1);
-  std::uniform_real_distribution<double> gap(-0.5, 1.);
-  bool apart = true, own = true, others = true, alone = true, pressed = true, mean = true;
+  std::uniform_real_distribution<double> gap(-0.5, 1.), place(-0.5, 0.5);
+  constexpr double                       step = 1e-4, round_off = 1e-12;
+  bool apart = true, touching = true, between = true, own = true, others = true, together = true;
   for (unsigned int i = 0; i < 20000; ++i)
     {
-      const Gaps       gaps{gap(random), {gap(random), gap(random)}};
-      const double     row  = gaps.row();
-      constexpr double step = 1e-4, round_off = 1e-12;
-      const Gaps       higher{gaps.node + step, {gaps.neighbour[0], gaps.neighbour[1]}};
-      const Gaps       beside{gaps.node, {gaps.neighbour[0] + step, gaps.neighbour[1]}};
-      // The largest that it may be is that of the node.
-      pressed = pressed && row <= gaps.node + round_off && row >= gaps.node - below - round_off;
-      own     = own && higher.row() - row >= step - round_off;
-      others  = others && beside.row() >= row - round_off;
-      if (gaps.least() >= 0.)
-        {
-          apart = apart && row >= 0.;
-          alone = alone && std::abs(beside.row() - row) < round_off;
-        }
+      const Gaps   gaps{gap(random), {gap(random), gap(random)}};
+      const double row = gaps.row();
+      const Gaps   higher{gaps.node + step, {gaps.neighbour[0], gaps.neighbour[1]}};
+      const Gaps   beside{gaps.node, {gaps.neighbour[0] + step, gaps.neighbour[1]}};
+      const Gaps   all{gaps.node + step, {gaps.neighbour[0] + step, gaps.neighbour[1] + step}};
+      between  = between && row <= gaps.node + round_off && row >= gaps.mean() - round_off;
+      own      = own && higher.row() - row >= 0.5 * step - round_off;
+      others   = others && beside.row() >= row - round_off;
+      together = together && std::abs(all.row() - row - step) < round_off;
+      apart    = apart && (gaps.least() < 0. || row >= -round_off);
+      // Undeformed and pressed by nothing; the lowest point is beside the node.
+      const double x        = place(random);
+      const auto undeformed = [&](const double at) { return (at - x) * (at - x) / (2. * radius); };
+      touching =
+        touching && Gaps{undeformed(0.), {undeformed(-1.), undeformed(1.)}}.row() >= -round_off;
     }
-  // Pressed flat: means vanish.
-  const Gaps flat{below, {below, below}};
-  mean = std::abs(flat.row()) < 1e-12;
   print("no overlap, no negative gap", apart);
-  print("between the mean and the gap at the node", pressed);
-  print("grows with its node at least as much", own);
+  print("touching bodies: no negative gap", touching);
+  print("between the mean and the gap at the node", between);
+  print("grows with its node by half of the motion at least", own);
   print("does not fall with its neighbours", others);
-  print("changes with its node alone while nothing overlaps", alone);
-  print("the mean where the surfaces are pressed together", mean);
+  print("changes as much as all nodes together", together);
+  // On a line of contact; pressed flat; and so on one side, at the edge of a contact.
+  const Gaps line{0., {1., 1.}}, flat{below, {below, below}}, edge{below, {below, below + 1.}};
+  print("the gap at the node where one line of nodes touches", std::abs(line.row()) < round_off);
+  print("the mean where the surfaces are pressed together", std::abs(flat.row()) < round_off);
+  print("the mean at the edge of a contact", std::abs(edge.row()) < round_off);
 
-  CoverSums sums = Gaps{0.05, {0.4, 0.5}}.sums();
-  print("derivatives, apart", derivatives(sums, 0.05 - below));
-  sums.least = -0.02;
-  print("derivatives, in between", derivatives(sums, 0.05 - below));
-  sums.beside = 0.2;
+  const Gaps hardly{0.05, {0.8, 0.9}}, half{0.05, {0.6, 0.4}}, open{0.05, {1.3, 1.2}};
+  print("derivatives, hardly flattened", derivatives(hardly.sums(), hardly.mean(), 0));
+  print("derivatives, half flattened", derivatives(half.sums(), half.mean(), 1));
+  print("derivatives, not flattened", derivatives(open.sums(), open.mean(), -1));
+  CoverSums sums = half.sums();
+  sums.beside    = 0.2;
   sums.own += 0.2;
-  print("derivatives, beside the cover", derivatives(sums, 0.05 - below));
+  print("derivatives, beside the cover", derivatives(sums, half.mean(), 1));
+  sums.faces[1].area = 0.05;
+  sums.faces[1].gap *= 0.1;
+  print("derivatives, a small part of a face", derivatives(sums, half.mean(), 1));
   sums.least = 0.004;
   sums.given = 0.3;
-  sums.own   = 0.3;
-  print("derivatives, area given away", derivatives(sums, -0.2));
+  print("derivatives, apart and area given away", derivatives(sums, half.mean(), 1));
   return 0;
 }

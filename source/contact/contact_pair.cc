@@ -229,8 +229,7 @@ namespace Touchstone
             for (const StencilEntry &entry : row.stencil)
               row.gap_vector[d] -= entry.weight * stencil_values(dim * entry.node + d);
           }
-        row.gap   = row.gap_vector * row.normal;
-        row.slope = 1.;
+        row.gap = row.gap_vector * row.normal;
       }
   }
 

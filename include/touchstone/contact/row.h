@@ -102,9 +102,6 @@ namespace Touchstone
     dealii::Tensor<1, dim> gap_vector;
     /** Gap, negative for penetration, length. */
     double gap = 0.;
-    /** How much the gap grows with the motion of the slave node along the normal while normal and
-     * stencil are constant: at least 1, which it is for pointwise rows and for mean gaps. */
-    double slope = 1.;
     /** Tributary area of the slave node in the reference state, as far as it is covered:
      * lambda / area is the pressure. */
     double area = 0.;

@@ -123,17 +123,17 @@ namespace Touchstone
     /** Part of a nodal area that may be missing by round-off where all is covered. */
     constexpr double fully_covered = 1e-10;
 
-    /** How deep surfaces must overlap anywhere around a node, by what the mean gap lies below that
-     * of the node, for the mean to count alone. Where a ball or a tube is pressed flat, so that the
-     * mean vanishes, they overlap by half of it between the nodes. */
-    constexpr double pressed = 0.4;
+    /** Part of the sagitta of a row, weighted by area, from which on one face can decide alone
+     * whether surfaces are pressed flat: a quarter of what one of four equal faces has. With less
+     * it counts less, so that faces come and go smoothly. */
+    constexpr double fair_part = 1. / 16.;
 
     /** One less the shape function of a node at the closest covered point, from which on the node
      * does not count as covered. */
     constexpr double beside_node = 0.5;
 
     /** By the size of a face: from the first to the second the smallest gap comes to bound the gap
-     * of a row whose node is not covered. */
+     * of a row. */
     constexpr double hardly_open = 1e-4, well_open = 1e-2;
 
     /** By the size of a face: gaps are equal up to round-off, as mean and closest one are on flat

@@ -152,16 +152,11 @@ namespace Touchstone
       }
 
     condition.direction = row.normal;
-    // A condition n^T M du = -g stands for dg = -g. Where the gap grows more than its node moves a
-    // full step would go too far, and back, and never come to an end.
-    condition.value = -row.gap / row.slope;
+    condition.value     = -row.gap;
     // With changing normals the force still acts along M^T n, the condition reads dg = -g: an
     // unsymmetric system.
     if (row.derivative && !keep_symmetric)
-      {
-        condition.gradient = gap_gradient(row);
-        condition.value    = -row.gap;
-      }
+      condition.gradient = gap_gradient(row);
     // In slip the friction force follows the normal force: both act with lambda along n + L' tau,
     // equation (22).
     if (row.friction && state.friction.d_lambda.norm_square() > 0.)

@@ -309,9 +309,14 @@ namespace Touchstone
             continue;
           RowSums &sum = sums[face.row[k]];
           // Where the node hangs the row is that of another node, which is not on this face.
-          const bool on_its_node = !face.basis || face.basis->nodes[k] == slave.nodes[k];
+          FaceShare *share = nullptr;
+          if (!face.basis || face.basis->nodes[k] == slave.nodes[k])
+            {
+              share      = &sum.faces.emplace_back();
+              share->key = slave.key;
+            }
           for (std::size_t f = 0; f < masters.size(); ++f)
-            sum.add<n>(k, dual, *masters[f].master, parts[f], on_its_node);
+            sum.add<n>(k, dual, *masters[f].master, parts[f], share);
           // D_kk of equation (5), the area given to other nodes, and D_kk in the reference state,
           // for tractions are nominal (doc/theory.md 2.2).
           const double kept = dual.shares.share[k][k];
@@ -461,7 +466,6 @@ namespace Touchstone
           row.normal     = means.normal;
           row.gap_vector = means.gap_vector;
           row.gap        = row.gap_vector * row.normal;
-          row.slope      = std::max(1., means.slope());
           row.lever      = sum.lever / sum.area;
           // Not more than the tributary area, by round-off or by the ratio of reference to present
           // areas.

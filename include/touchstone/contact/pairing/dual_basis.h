@@ -67,17 +67,11 @@ namespace Touchstone
       dealii::FullMatrix<double> of_basis, of_shapes;
     };
 
-    /** @brief N~_k of the values of the N_j at a point. */
-    template <std::size_t n>
+    /** @brief The part of N_j in N~_k: C_jk, no unit. */
     double
-    shape(const unsigned int k, const std::array<double, n> &values) const
+    shape(const unsigned int k, const unsigned int j) const
     {
-      if (!basis)
-        return values[k];
-      double result = 0.;
-      for (unsigned int j = 0; j < n; ++j)
-        result += basis->weights[j][k] * values[j];
-      return result;
+      return basis ? basis->weights[j][k] : (j == k ? 1. : 0.);
     }
 
     /** @brief The Y of some integrals Q. */

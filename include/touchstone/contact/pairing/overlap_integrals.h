@@ -42,8 +42,6 @@ namespace Touchstone
     std::array<std::array<Number, n_columns>, n> q{};
     /** The smallest gap along the normal at any point or corner of the overlap; length. */
     Number least = std::numeric_limits<double>::max();
-    /** The slave shapes at that point. */
-    std::array<double, n> at_least{};
     /** For each slave node the smallest of g + l (1 - N_j) and of 1 - N_j over the corners, from
      * which the gap at the node follows (doc/theory.md 3.1, equation (7)). Where the node is not
      * covered, the closest corner stands for it: a node that comes to lie on the other side of the
@@ -68,11 +66,7 @@ namespace Touchstone
     {
       const Number distance = dot(sample.gap, sample.normal);
       if (distance < least)
-        {
-          least = distance;
-          for (unsigned int j = 0; j < n; ++j)
-            at_least[j] = value_of(sample.slave_shape[j]);
-        }
+        least = distance;
       if (value_of(sample.weight) == 0.)
         {
           for (unsigned int j = 0; j < n; ++j)

@@ -26,14 +26,15 @@ namespace Touchstone
     clear();
 
     /** @brief Add what row @p k takes of what one master face covers.
-     * @param on_its_node Whether node k of the face is the node of the row. */
+     * @param face The entry of the slave face in `faces`, or null where the node of the row does
+     * not belong to the face. */
     template <unsigned int n>
     void
     add(unsigned int                       k,
         const DualBasis                   &dual,
         const Face                        &master,
         const OverlapIntegrals<n, double> &part,
-        bool                               on_its_node);
+        FaceShare                         *face);
 
     /** @brief All faces have been added: the stencil gets what is taken from other nodes. */
     void
