@@ -169,8 +169,8 @@ main()
   sums.beside    = 0.2;
   sums.own += 0.2;
   print("derivatives, beside the cover", derivatives(sums, half.mean(), 1));
-  sums.faces[1].area = 0.05;
-  sums.faces[1].gap *= 0.1;
+  sums.faces[1].area = 0.01;
+  sums.faces[1].gap *= 0.02;
   print("derivatives, a small part of a face", derivatives(sums, half.mean(), 1));
   sums.least = 0.004;
   sums.given = 0.3;

@@ -181,7 +181,7 @@ namespace
     steepest = Utilities::MPI::max(steepest, MPI_COMM_WORLD);
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << "quarter of a ball: change of the gap over the motion "
-                << (steepest <= 4. ? "at most 4" : std::to_string(steepest) + " FAILED")
+                << (steepest <= 3. ? "at most 3" : std::to_string(steepest) + " FAILED")
                 << std::endl;
   }
 } // namespace

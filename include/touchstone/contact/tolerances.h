@@ -124,9 +124,10 @@ namespace Touchstone
     constexpr double fully_covered = 1e-10;
 
     /** Part of the sagitta of a row, weighted by area, from which on one face can decide alone
-     * whether surfaces are pressed flat: a quarter of what one of four equal faces has. With less
-     * it counts less, so that faces come and go smoothly. */
-    constexpr double fair_part = 1. / 16.;
+     * whether surfaces are pressed flat: less than what one face has that is half as large as the
+     * three others, beside hanging nodes, 1/49. With less it counts less, so that faces come and
+     * go smoothly. */
+    constexpr double fair_part = 1. / 64.;
 
     /** One less the shape function of a node at the closest covered point, from which on the node
      * does not count as covered. */
