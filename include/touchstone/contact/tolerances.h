@@ -129,6 +129,11 @@ namespace Touchstone
      * go smoothly. */
     constexpr double fair_part = 1. / 64.;
 
+    /** By how much the part of the curvature between two surfaces that is left on a face may be
+     * mistaken, because it is not constant, as on a coarse ball: bodies that only touch must have
+     * no force. */
+    constexpr double odd_curvature = 0.05;
+
     /** One less the shape function of a node at the closest covered point, from which on the node
      * does not count as covered. */
     constexpr double beside_node = 0.5;

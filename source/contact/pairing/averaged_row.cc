@@ -73,7 +73,7 @@ namespace Touchstone
         return 0.;
       if (weight > 1.)
         weight = 1.;
-      const Number left = 0.5 * (positive - mean) / sagitta;
+      const Number left = 0.5 * (positive - mean) / sagitta + Tolerances::odd_curvature;
       if (left >= 1.)
         return 0.;
       // 3/2 (1 - kappa)^2 up to the slope 3/2, and from there on straight to one.
