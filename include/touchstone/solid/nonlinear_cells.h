@@ -30,7 +30,8 @@ namespace Touchstone
    * internal_force() alone, from the committed state and the displacement.
    *
    * The arrays of nodes are those of assembly, and are made by connect(): steps that assemble
-   * nothing do without them, and with keep_in() without those of history (doc/explicit.md, section 8).
+   * nothing do without them, and with keep_in() without those of history (doc/explicit.md, section
+   * 8).
    */
   class NonlinearCells
   {
