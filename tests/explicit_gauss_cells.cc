@@ -143,4 +143,5 @@ main(int argc, char **argv)
   double       cube[8], square[8];
   roots(zero, cube, square);
   std::cout << "Roots: " << (error < 2e-15 && square[0] == 0. ? "exact" : "NOT exact") << std::endl;
+  return 0;
 }
