@@ -25,16 +25,13 @@ namespace Touchstone
     /** @param exchange       Of the master surface.
      * @param slave_exchange Of the slave surface; needed where its faces are smoothed,
      *                     or null. Both must live as long.
-     * @param gradual      Of the CoverShares.
-     * @param length       Of the OverlapIntegrals. */
+     * @param gradual      Of the CoverShares. */
     AveragedDerivative(const FaceExchange &exchange,
                        const FaceExchange *slave_exchange,
-                       const bool          gradual,
-                       const double        length)
+                       const bool          gradual)
       : exchange(exchange)
       , slave_exchange(slave_exchange)
       , gradual(gradual)
-      , length(length)
     {
     }
 
@@ -83,7 +80,6 @@ namespace Touchstone
     const FaceExchange                              &exchange;
     const FaceExchange                              *slave_exchange;
     const bool                                       gradual;
-    const double                                     length;
     std::unordered_map<Index, AveragedRowDerivative> rows;
     std::unordered_map<const Face *, Master>         masters;
 

@@ -32,9 +32,8 @@ namespace Touchstone
     };
     ByNormals least_by_normals, own_by_normals[n];
 
-    /** @param length Of the OverlapIntegrals. */
-    OverlapDerivative(const double length, const FaceGeometry &master)
-      : OverlapIntegrals<n, PositionFad<n>>(length)
+    OverlapDerivative(const Face &slave, const FaceGeometry &master)
+      : OverlapIntegrals<n, PositionFad<n>>(face_length(slave))
       , master(&master.face())
       , master_smooth(master.smooth())
     {
