@@ -281,9 +281,10 @@ namespace Touchstone
       for (unsigned int d = 0; d < dim; ++d)
         displacement[dim * a + d] = u(cell_dofs[fe.component_to_system_index(0, a)] + d);
     set_position(cell);
-    CellKernel               &kernel = *kernels[cell->material_id()];
-    const std::vector<double> values = state(cell->active_cell_index());
-    kernel.reinit(position.data(), displacement.data(), values.data());
+    CellKernel &kernel = *kernels[cell->material_id()];
+    // The kernel reads it as long as it is at this cell.
+    kernel_state = state(cell->active_cell_index());
+    kernel.reinit(position.data(), displacement.data(), kernel_state.data());
     return &kernel;
   }
 

@@ -2,47 +2,63 @@
 """An explicit run that is killed at random places and resumed: the same bits in statistics, summary
 and VTU files as those of one that was not (doc/explicit.md, section 7).
 
-    python3 explicit_killed.py PROGRAM PROJECT FOLDER [PLACES]
+    PLACES=20 python3 explicit_killed.py PROGRAM PROJECT FOLDER
 
-kills at PLACES places, 20 for instance, on one and two ranks in turn; ctest at three."""
+kills at 20 places, on one and two ranks in turn; ctest at three."""
 
+import contextlib
 import os
+import pathlib
 import random
 import shutil
 import signal
 import subprocess
-import sys
 import time
 
-from touchstone_test import (Run, check, checks, finish, folder, processors, program,
+from touchstone_test import (STEPS, Run, check, checks, finish, folder, processors, program,
                              settings_options)
 
 BLOCKS = checks / "explicit_blocks.prm"
-SETTINGS = {"Output/VTU interval": 5, "Checkpoints/Steps between": 1, "Load stepping/Steps": 30,
+STEPS_OF_RUN = 30
+SETTINGS = {"Output/VTU interval": 5, "Checkpoints/Steps between": 1, STEPS: STEPS_OF_RUN,
             "Load stepping/End time": 1.5}
 
 
-def attempt(name, ranks, seconds=None, resume=False):
-    """Run, but no longer than that. @return whether the run came to its end."""
+def session(leader):
+    """Processes of a session: mpirun and ranks are in one, but not in one group of processes."""
+    members = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            # Behind the name in parentheses: state, parent, group, session.
+            if int(stat.read_text(encoding="utf-8").rpartition(")")[2].split()[3]) == leader:
+                members.append(int(stat.parent.name))
+    return members
+
+
+def newest_checkpoint(name):
+    """Number of the newest complete checkpoint, 0 without any."""
+    return max([0, *(int(path.name.split("_")[1]) for path in
+                     (folder / name).glob("checkpoint_[0-9]*") if path.suffix != ".part")])
+
+
+def attempt(name, ranks, checkpoint=None, delay=0, resume=False):
+    """Run, but no longer than DELAY seconds after a CHECKPOINT. @return whether the run came to its
+    end."""
     command = [*(["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []), program,
                "--results-only", "--output", name, *(["--resume"] if resume else []),
                *settings_options(SETTINGS), BLOCKS]
     with processors(ranks), open(folder / f"{name}.log", "a", encoding="utf-8") as log:
         with subprocess.Popen(list(map(str, command)), stdout=log, stderr=subprocess.STDOUT,
                               start_new_session=True) as running:
-            try:
-                return running.wait(seconds) == 0
-            except subprocess.TimeoutExpired:
-                pass
-            # mpirun and ranks are in one session, but not in one group of processes.
-            victims = subprocess.run(["ps", "-o", "pid=", "-s", str(running.pid)], check=False,
-                                     stdout=subprocess.PIPE, text=True).stdout.split()
-            for victim in victims:
-                try:
-                    os.kill(int(victim), signal.SIGKILL)
-                except ProcessLookupError:
-                    pass
-            return False
+            if checkpoint is None:
+                return running.wait() == 0
+            while running.poll() is None and newest_checkpoint(name) < checkpoint:
+                time.sleep(1e-3)
+            time.sleep(delay)
+            for victim in session(running.pid):
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(victim, signal.SIGKILL)
+            return running.wait() == 0
 
 
 def outputs(name):
@@ -60,7 +76,7 @@ def fresh(name):
     (folder / f"{name}.log").unlink(missing_ok=True)
 
 
-places = int(sys.argv[4]) if len(sys.argv) > 4 else 3
+places = int(os.environ.get("PLACES", 3))
 random.seed(22)
 whole, lasts = {}, {}
 for ranks in (1, 2):
@@ -74,14 +90,15 @@ for place in range(places):
     ranks = 1 + place % 2
     name = f"killed-{ranks}"
     fresh(name)
-    if not attempt(name, ranks, random.uniform(0.2, 1) * lasts[ranks]):
+    checkpoint = random.randrange(STEPS_OF_RUN - 4)
+    if not attempt(name, ranks, checkpoint, random.uniform(0, lasts[ranks] / STEPS_OF_RUN)):
         kills += 1
         # Before the first checkpoint there is nothing to resume.
-        resume = any((folder / name).glob("checkpoint_[0-9]*"))
+        resume = newest_checkpoint(name) > 0
         resumes += resume
         check(attempt(name, ranks, resume=resume), f"{name}, place {place}: the run has failed")
     for what, was, now in zip(("statistics", "VTU", "summary"), whole[ranks], outputs(name)):
         check(was == now, f"{name}, place {place}: other bits in {what}")
 print(f"{kills} kills at {places} places, {resumes} resumed")
-check(kills > 0, "no run was killed")
+check(resumes > 0, "no run was killed between two checkpoints")
 finish()

@@ -198,6 +198,8 @@ namespace Touchstone
     /** Positions and displacements of a cell. */
     std::vector<dealii::Point<dim>> unit_points;
     mutable std::vector<double>     position, displacement;
+    /** History of the cell of at(). */
+    std::vector<double> kernel_state;
 
     /** Have history here, unless it is elsewhere. */
     void
