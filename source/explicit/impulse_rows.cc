@@ -79,45 +79,72 @@ namespace Touchstone
     kept.clear();
     kept_rows.clear();
     for (const ContactRow &from : contact.rows())
-      {
-        if (!from.has_partner)
-          {
-            RowHistory &h = history[from.index];
-            h.impulse     = Tensor<1, dim>();
-            // What a spring held is lost with its partner.
-            ImpulseSpring &spring = springs[from];
-            const double   held   = 0.5 * spring.stiffness * spring.gap * spring.gap;
-            h.energy.obstacles -= held;
-            h.energy.normal += held;
-            h.energy.stored = h.energy.ahead = 0.;
-            spring                           = ImpulseSpring();
-            continue;
-          }
-        ImpulseRow row;
-        row.key      = {from.pair, nodes.key(nodes.local(dim * from.slave))};
-        row.first    = slots.size();
-        row.n_nodes  = 1 + from.stencil.size();
-        row.n_lever  = from.stencil.empty() ? 0 : patches[from.index].size();
-        row.tied     = from.tied;
-        row.friction = from.friction;
-        row.area     = from.area;
-        slots.emplace_back(dim * from.slave, row.key);
-        for (const StencilEntry &entry : from.stencil)
-          slots.emplace_back(dim * entry.node, row.key);
-        if (row.n_lever > 0)
-          for (const Index dof : patches[from.index])
-            slots.emplace_back(dof, row.key);
-        solver.rows.push_back(row);
-        kept.push_back({from.index,
-                        from.gap,
-                        from.gap_vector,
-                        contact.pair(from).part_of_overlap(contact.time()),
-                        true,
-                        from.gap});
-        kept_rows.push_back(from.index);
-      }
+      if (from.has_partner)
+        {
+          add_row(from, slots);
+          kept.push_back({from.index,
+                          from.gap,
+                          from.gap_vector,
+                          contact.pair(from).part_of_overlap(contact.time()),
+                          true,
+                          from.gap});
+          kept_rows.push_back(from.index);
+        }
+      else
+        lose_partner(from);
     solver.nodes.reinit(contact.solid_model().owned, slots);
     solver.resize();
+    set_nodes();
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      set_weights(k);
+    made_at = u_nodes;
+    moved.resize(u_nodes.size());
+    v_before.resize(u_nodes.size());
+  }
+
+
+
+  // What a spring held is lost with its partner.
+  void
+  ImpulseContact::lose_partner(const ContactRow &row)
+  {
+    RowHistory &h         = history[row.index];
+    h.impulse             = Tensor<1, dim>();
+    ImpulseSpring &spring = springs[row];
+    const double   held   = 0.5 * spring.stiffness * spring.gap * spring.gap;
+    h.energy.obstacles -= held;
+    h.energy.normal += held;
+    h.energy.stored = h.energy.ahead = 0.;
+    spring                           = ImpulseSpring();
+  }
+
+
+
+  void
+  ImpulseContact::add_row(const ContactRow &from, std::vector<std::pair<Index, RowKey>> &slots)
+  {
+    ImpulseRow row;
+    row.key      = {from.pair, nodes.key(nodes.local(dim * from.slave))};
+    row.first    = slots.size();
+    row.n_nodes  = 1 + from.stencil.size();
+    row.n_lever  = from.stencil.empty() ? 0 : patches[from.index].size();
+    row.tied     = from.tied;
+    row.friction = from.friction;
+    row.area     = from.area;
+    slots.emplace_back(dim * from.slave, row.key);
+    for (const StencilEntry &entry : from.stencil)
+      slots.emplace_back(dim * entry.node, row.key);
+    if (row.n_lever > 0)
+      for (const Index dof : patches[from.index])
+        slots.emplace_back(dof, row.key);
+    solver.rows.push_back(row);
+  }
+
+
+
+  void
+  ImpulseContact::set_nodes()
+  {
     const RowNodes &on = solver.nodes;
     local.resize(on.n_owned());
     reference.resize(on.n());
@@ -144,34 +171,35 @@ namespace Touchstone
     on.forward(u_nodes);
     on.forward(solver.mobility);
     solver.sort_slots(keys);
-    for (std::size_t k = 0; k < kept.size(); ++k)
+  }
+
+
+
+  void
+  ImpulseContact::set_weights(const std::size_t k)
+  {
+    const ContactRow &from = contact.rows()[kept[k].index];
+    ImpulseRow       &row  = solver.rows[k];
+    std::size_t       s    = row.first;
+    solver.weights[s++]    = 1.;
+    for (const StencilEntry &entry : from.stencil)
+      solver.weights[s++] = -entry.weight;
+    // Averages over slivers of faces can leave a sum that is one to ten digits only; momentum
+    // wants all of them. The order of slots is that of the keys of nodes.
+    double sum = 0.;
+    for (unsigned int i = 0; i < row.n_nodes; ++i)
+      if (solver.slot(row, i) != row.first)
+        sum -= solver.weights[solver.slot(row, i)];
+    for (std::size_t of_master = row.first + 1; of_master < s; ++of_master)
+      solver.weights[of_master] /= sum;
+    // The gaps that the row would have at zero displacements.
+    Tensor<1, dim> by_motion;
+    for (unsigned int i = 0; i < row.n_nodes; ++i)
       {
-        const ContactRow &from = contact.rows()[kept[k].index];
-        ImpulseRow       &row  = solver.rows[k];
-        std::size_t       s    = row.first;
-        solver.weights[s++]    = 1.;
-        for (const StencilEntry &entry : from.stencil)
-          solver.weights[s++] = -entry.weight;
-        // Averages over slivers of faces can leave a sum that is one to ten digits only; momentum
-        // wants all of them. The order of slots is that of the keys of nodes.
-        double sum = 0.;
-        for (unsigned int i = 0; i < row.n_nodes; ++i)
-          if (solver.slot(row, i) != row.first)
-            sum -= solver.weights[solver.slot(row, i)];
-        for (std::size_t of_master = row.first + 1; of_master < s; ++of_master)
-          solver.weights[of_master] /= sum;
-        // The gaps that the row would have at zero displacements.
-        Tensor<1, dim> by_motion;
-        for (unsigned int i = 0; i < row.n_nodes; ++i)
-          {
-            const std::size_t slot = solver.slot(row, i);
-            by_motion += solver.weights[slot] * u_nodes[solver.nodes.node(slot)];
-          }
-        kept[k].gap_vector -= by_motion;
-        kept[k].gap -= by_motion * from.normal;
+        const std::size_t slot = solver.slot(row, i);
+        by_motion += solver.weights[slot] * u_nodes[solver.nodes.node(slot)];
       }
-    made_at = u_nodes;
-    moved.resize(u_nodes.size());
-    v_before.resize(u_nodes.size());
+    kept[k].gap_vector -= by_motion;
+    kept[k].gap -= by_motion * from.normal;
   }
 } // namespace Touchstone

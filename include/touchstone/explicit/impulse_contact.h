@@ -194,6 +194,16 @@ namespace Touchstone
     renew(const NodeField &u, double time);
     void
     make_rows();
+    /** Parts of make_rows(): a row that has lost its partner; one that has one, with its nodes;
+     * what the nodes are like; the weights of row @p k, and its gap without motion. */
+    void
+    lose_partner(const ContactRow &row);
+    void
+    add_row(const ContactRow &from, std::vector<std::pair<Index, RowKey>> &slots);
+    void
+    set_nodes();
+    void
+    set_weights(std::size_t k);
     void
     import(const NodeField &u, const NodeField &before, const NodeField &v);
     void
