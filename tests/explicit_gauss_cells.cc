@@ -60,8 +60,10 @@ namespace
         for (unsigned int i = 0; i < u.size(); ++i)
           u[i] += velocity[i];
         NodeField a(u.size()), b(u.size());
-        if (together.subtract_forces(u, none, 1e-3, a, none) != numbers::invalid_unsigned_int ||
-            singly.subtract_forces(u, none, 1e-3, b, none) != numbers::invalid_unsigned_int)
+        if (together.subtract_forces(u, none, 1e-3, nullptr, a, none) !=
+              numbers::invalid_unsigned_int ||
+            singly.subtract_forces(u, none, 1e-3, nullptr, b, none) !=
+              numbers::invalid_unsigned_int)
           std::cout << "  A cell has failed." << std::endl;
         for (unsigned int i = 0; i < u.size(); ++i)
           {
@@ -94,8 +96,8 @@ namespace
     const unsigned int last = numbers.size() - 1;
     for (const unsigned int node : map.cells()[last].nodes)
       u[node] = -2. * map.positions()[node];
-    const unsigned int failed = together.subtract_forces(u, none, 1e-3, none, none);
-    const unsigned int other  = singly.subtract_forces(u, none, 1e-3, none, none);
+    const unsigned int failed = together.subtract_forces(u, none, 1e-3, nullptr, none, none);
+    const unsigned int other  = singly.subtract_forces(u, none, 1e-3, nullptr, none, none);
     if (failed == numbers::invalid_unsigned_int || failed != other)
       std::cout << "  The inverted cell is " << other << ", not " << failed << std::endl;
   }

@@ -117,7 +117,7 @@ namespace
           std::fill(force.begin(), force.end(), Tensor<1, dim>());
           for (const auto &cell : map.cells())
             u[cell.nodes[j / dim]][j % dim] = side * small;
-          cells->subtract_forces(u, v, 0., force, other);
+          cells->subtract_forces(u, v, 0., nullptr, force, other);
           for (unsigned int c = 0; c < n_cells; ++c)
             for (unsigned int i = 0; i < n; ++i)
               stiffness[c](i, j) -=

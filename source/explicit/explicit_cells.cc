@@ -123,30 +123,19 @@ namespace Touchstone
   {
     std::fill(force.begin(), force.end(), Tensor<1, dim>());
     std::fill(viscous.begin(), viscous.end(), Tensor<1, dim>());
-    CellPlace failed;
+    const bool damped = parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.;
+    CellPlace  failed;
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
-        const unsigned int c = of_bodies[b]->subtract_forces(u, v, step, force, viscous);
+        const CellForces::BulkViscosity bulk{Viscosity(bodies[b].material, parameters, step),
+                                             periods[b]};
+        const unsigned int              c =
+          of_bodies[b]->subtract_forces(u, v, step, damped ? &bulk : nullptr, force, viscous);
         if (c != numbers::invalid_unsigned_int)
           if (const CellPlace one = place(b, c); one.key < failed.key)
             failed = one;
       }
-    if (parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.)
-      add_viscosity(u, v, step, viscous);
     return failed;
-  }
-
-
-
-  void
-  ExplicitCells::add_viscosity(const NodeField &u,
-                               const NodeField &v,
-                               const double     step,
-                               NodeField       &viscous) const
-  {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      of_bodies[b]->add_viscosity(
-        u, v, Viscosity(bodies[b].material, parameters, step), periods[b], viscous);
   }
 
 

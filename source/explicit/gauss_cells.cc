@@ -52,11 +52,12 @@ namespace Touchstone
 
 
   unsigned int
-  GaussCells::subtract_forces(const NodeField &u,
-                              const NodeField & /*v*/,
-                              const double step,
-                              NodeField   &force,
-                              NodeField & /*viscous*/)
+  GaussCells::subtract_forces(const NodeField           &u,
+                              const NodeField           &v,
+                              const double               step,
+                              const BulkViscosity *const bulk,
+                              NodeField                 &force,
+                              NodeField                 &viscous)
   {
     unsigned int         failed  = numbers::invalid_unsigned_int;
     const unsigned int   n_state = states.size() / GaussBlock::n_points;
@@ -87,6 +88,7 @@ namespace Touchstone
         GaussKernels::set_forces(blocks[b], points, f_bar, forces);
         scatter(blocks[b].nodes, n_used, forces, force);
       }
+    subtract_viscosity(u, v, bulk, viscous);
     return failed;
   }
 } // namespace Touchstone

@@ -83,11 +83,12 @@ namespace Touchstone
 
 
   unsigned int
-  KernelCells::subtract_forces(const NodeField &u,
-                               const NodeField & /*v*/,
-                               const double step,
-                               NodeField   &force,
-                               NodeField & /*viscous*/)
+  KernelCells::subtract_forces(const NodeField           &u,
+                               const NodeField           &v,
+                               const double               step,
+                               const BulkViscosity *const bulk,
+                               NodeField                 &force,
+                               NodeField                 &viscous)
   {
     unsigned int failed = numbers::invalid_unsigned_int;
     kernel->set_step_length(step);
@@ -104,6 +105,7 @@ namespace Touchstone
         states.put(c, kernel->present().data());
       }
     kernel->set_step_length(0.);
+    subtract_viscosity(u, v, bulk, viscous);
     return failed;
   }
 
@@ -193,10 +195,11 @@ namespace Touchstone
 
   unsigned int
   ElasticCells::subtract_forces(const NodeField &u,
-                                const NodeField & /*v*/,
+                                const NodeField &v,
                                 const double /*step*/,
-                                NodeField &force,
-                                NodeField & /*viscous*/)
+                                const BulkViscosity *const bulk,
+                                NodeField                 &force,
+                                NodeField                 &viscous)
   {
     double x[n], y[n];
     for (unsigned int c = 0; c < cells.size(); ++c)
@@ -208,6 +211,7 @@ namespace Touchstone
         multiply(&stiffness[c * n * n], x, y);
         subtract(one, y, force);
       }
+    subtract_viscosity(u, v, bulk, viscous);
     return numbers::invalid_unsigned_int;
   }
 
@@ -268,17 +272,16 @@ namespace Touchstone
 
 
   void
-  CellForces::add_viscosity(const NodeField           &u,
-                            const NodeField           &v,
-                            const Viscosity           &viscosity,
-                            const std::vector<double> &periods,
-                            NodeField                 &viscous)
+  CellForces::subtract_viscosity(const NodeField           &u,
+                                 const NodeField           &v,
+                                 const BulkViscosity *const bulk,
+                                 NodeField                 &viscous) const
   {
     std::array<Tensor<1, dim>, 8> derivative;
-    for (unsigned int c = 0; c < cells.size(); ++c)
+    for (unsigned int c = 0; bulk != nullptr && c < cells.size(); ++c)
       {
         const double rate     = volume_rate(c, u, v, derivative);
-        const double pressure = viscosity(rate, periods[c]) * rate;
+        const double pressure = bulk->viscosity(rate, bulk->periods[c]) * rate;
         for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
           viscous[cell(c).nodes[a]] -= pressure * derivative[a];
       }

@@ -103,19 +103,20 @@ namespace Touchstone
 
 
   unsigned int
-  OnePointCells::subtract_forces(const NodeField &u,
-                                 const NodeField &v,
-                                 const double     step,
-                                 NodeField       &force,
-                                 NodeField       &viscous)
+  OnePointCells::subtract_forces(const NodeField           &u,
+                                 const NodeField           &v,
+                                 const double               step,
+                                 const BulkViscosity *const bulk,
+                                 NodeField                 &force,
+                                 NodeField                 &viscous)
   {
+    using Hourglass     = OnePointKernels::Hourglass;
     unsigned int failed = numbers::invalid_unsigned_int;
     const bool   damped = body.hourglass == BodyParameters::Hourglass::viscous;
     double forces[dim * n_nodes][n_cells], gradient[dim * dim][n_cells], stress[dim * dim][n_cells];
-    const auto          control      = body.hourglass != BodyParameters::Hourglass::stiffness
-                                         ? OnePointKernels::Hourglass::none
-                                       : finite ? OnePointKernels::Hourglass::convected
-                                                : OnePointKernels::Hourglass::fixed;
+    const auto control = body.hourglass != BodyParameters::Hourglass::stiffness ? Hourglass::none
+                         : finite ? Hourglass::convected
+                                  : Hourglass::fixed;
     const double *const displacement = numbers_of(u), *const velocity = numbers_of(v);
     for (unsigned int b = 0; b < blocks.size(); ++b)
       {
@@ -128,44 +129,23 @@ namespace Touchstone
           failed = std::min(failed, first + lane);
         OnePointKernels::set_forces(block, displacement, gradient, stress, control, forces);
         scatter(block.nodes, n_used, forces, force);
-        if (damped)
+        if (!damped && bulk == nullptr)
+          continue;
+        double rates[dim * dim][n_cells], periods[n_cells];
+        OnePointKernels::set_gradients(block, velocity, rates);
+        std::fill_n(&stress[0][0], dim * dim * n_cells, 0.);
+        if (bulk != nullptr)
           {
-            const double none[dim * dim][n_cells] = {};
-            OnePointKernels::set_gradients(block, velocity, gradient);
-            OnePointKernels::set_forces(
-              block, velocity, gradient, none, OnePointKernels::Hourglass::damped, forces);
-            scatter(block.nodes, n_used, forces, viscous);
+            for (unsigned int l = 0; l < n_cells; ++l)
+              periods[l] = bulk->periods[first + std::min(l, n_used - 1)];
+            OnePointKernels::viscous(
+              finite ? gradient : nullptr, rates, bulk->viscosity, periods, stress);
           }
+        OnePointKernels::set_forces(
+          block, velocity, rates, stress, damped ? Hourglass::damped : Hourglass::none, forces);
+        scatter(block.nodes, n_used, forces, viscous);
       }
     return failed;
-  }
-
-
-
-  void
-  OnePointCells::add_viscosity(const NodeField           &u,
-                               const NodeField           &v,
-                               const Viscosity           &viscosity,
-                               const std::vector<double> &periods,
-                               NodeField                 &viscous)
-  {
-    double forces[dim * n_nodes][n_cells], gradient[dim * dim][n_cells], rates[dim * dim][n_cells],
-      stress[dim * dim][n_cells];
-    for (unsigned int b = 0; b < blocks.size(); ++b)
-      {
-        const unsigned int first  = b * n_cells;
-        const unsigned int n_used = std::min<unsigned int>(n_cells, cells.size() - first);
-        double             padded[n_cells];
-        for (unsigned int lane = 0; lane < n_cells; ++lane)
-          padded[lane] = periods[first + std::min(lane, n_used - 1)];
-        OnePointKernels::set_gradients(blocks[b], numbers_of(v), rates);
-        if (finite)
-          OnePointKernels::set_gradients(blocks[b], numbers_of(u), gradient);
-        OnePointKernels::viscous(finite ? gradient : nullptr, rates, viscosity, padded, stress);
-        OnePointKernels::set_forces(
-          blocks[b], numbers_of(v), rates, stress, OnePointKernels::Hourglass::none, forces);
-        scatter(blocks[b].nodes, n_used, forces, viscous);
-      }
   }
 
 

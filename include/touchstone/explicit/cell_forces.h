@@ -50,33 +50,31 @@ namespace Touchstone
     static std::unique_ptr<CellForces>
     make(const NodeMap &map, const std::vector<unsigned int> &cells, const BodyParameters &body);
 
+    /** @brief Bulk viscosity of the body in a cycle. */
+    struct BulkViscosity
+    {
+      Viscosity viscosity;
+      /** By cell, see Viscosity. */
+      const std::vector<double> &periods;
+    };
+
     /**
      * @brief Subtract the internal forces from @p force, and let the history of the material go on
      * to the displacement @p u.
-     * @param v    Velocity, for the viscous control of hourglass modes.
-     * @param viscous From which the forces of viscous control are subtracted.
+     * @param v    Velocity, for the viscous control of hourglass modes and bulk viscosity.
      * @param step Time since the last call, for materials that depend on it; 0 if none.
+     * @param bulk Null: no bulk viscosity.
+     * @param viscous From which the forces of both are subtracted.
      * @return the place in cells of the first cell that cannot go on, as it is inverted or its law
      * has no answer; invalid_unsigned_int if there is none.
      */
     virtual unsigned int
-    subtract_forces(const NodeField &u,
-                    const NodeField &v,
-                    double           step,
-                    NodeField       &force,
-                    NodeField       &viscous) = 0;
-
-    /**
-     * @brief Add the forces of bulk viscosity to @p viscous: its pressure times the rate of the
-     * volume.
-     * @param periods By cell, see Viscosity.
-     */
-    virtual void
-    add_viscosity(const NodeField           &u,
-                  const NodeField           &v,
-                  const Viscosity           &viscosity,
-                  const std::vector<double> &periods,
-                  NodeField                 &viscous);
+    subtract_forces(const NodeField     &u,
+                    const NodeField     &v,
+                    double               step,
+                    const BulkViscosity *bulk,
+                    NodeField           &force,
+                    NodeField           &viscous) = 0;
 
     /** @brief Rate of the volume of a cell, relative to it, and the derivative of the volume by the
      * positions of the nodes. */
@@ -140,6 +138,14 @@ namespace Touchstone
     const NodeMap                  &map;
     const std::vector<unsigned int> cells;
     const BodyParameters           &body;
+
+    /** Subtract the forces of bulk viscosity, if there is any: its pressure times the rate of the
+     * volume. */
+    void
+    subtract_viscosity(const NodeField     &u,
+                       const NodeField     &v,
+                       const BulkViscosity *bulk,
+                       NodeField           &viscous) const;
 
     const NodeMap::Cell &
     cell(const unsigned int c) const

@@ -135,8 +135,6 @@ namespace Touchstone
     update_periods(const NodeField &u);
     CellPlace
     place(unsigned int body, unsigned int c) const;
-    void
-    add_viscosity(const NodeField &u, const NodeField &v, double step, NodeField &viscous) const;
     double
     step_of(unsigned int body, unsigned int c, const NodeField &u, const NodeField &v) const;
   };

@@ -23,11 +23,12 @@ namespace Touchstone
                const BodyParameters            &body);
 
     unsigned int
-    subtract_forces(const NodeField &u,
-                    const NodeField &v,
-                    double           step,
-                    NodeField       &force,
-                    NodeField       &viscous) override;
+    subtract_forces(const NodeField     &u,
+                    const NodeField     &v,
+                    double               step,
+                    const BulkViscosity *bulk,
+                    NodeField           &force,
+                    NodeField           &viscous) override;
 
   private:
     BlockLaw                law;

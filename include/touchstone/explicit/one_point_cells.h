@@ -58,17 +58,12 @@ namespace Touchstone
                   const BodyParameters            &body);
 
     unsigned int
-    subtract_forces(const NodeField &u,
-                    const NodeField &v,
-                    double           step,
-                    NodeField       &force,
-                    NodeField       &viscous) override;
-    void
-    add_viscosity(const NodeField           &u,
-                  const NodeField           &v,
-                  const Viscosity           &viscosity,
-                  const std::vector<double> &periods,
-                  NodeField                 &viscous) override;
+    subtract_forces(const NodeField     &u,
+                    const NodeField     &v,
+                    double               step,
+                    const BulkViscosity *bulk,
+                    NodeField           &force,
+                    NodeField           &viscous) override;
     void
     add_energies(const NodeField &u, CellEnergies &energies) override;
     void
