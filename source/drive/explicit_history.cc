@@ -217,12 +217,16 @@ namespace Touchstone
     for (const auto &[name, values] : {std::make_pair("displacement", &kept.u),
                                        std::make_pair("velocity", &kept.v),
                                        std::make_pair("internal force", &kept.internal),
-                                       std::make_pair("viscous force", &kept.viscous),
-                                       std::make_pair("support force", &kept.support)})
+                                       std::make_pair("viscous force", &kept.viscous)})
       {
         map.to_vector(*values, field);
         archive.put_field(name, field);
       }
+    NodeField of_supports(map.n_owned());
+    for (std::size_t k = 0; k < kept.support.size(); ++k)
+      of_supports[supports.nodes()[k]] = kept.support[k];
+    map.to_vector(of_supports, field);
+    archive.put_field("support force", field);
     if (!loads.empty())
       {
         map.to_vector(kept.external, field);
@@ -248,9 +252,12 @@ namespace Touchstone
     for (const auto &[name, values] : {std::make_pair("displacement", &now.u),
                                        std::make_pair("velocity", &now.v),
                                        std::make_pair("internal force", &now.internal),
-                                       std::make_pair("viscous force", &now.viscous),
-                                       std::make_pair("support force", &now.support)})
+                                       std::make_pair("viscous force", &now.viscous)})
       map.from_vector(archive.field(name), *values);
+    NodeField of_supports(map.n_local());
+    map.from_vector(archive.field("support force"), of_supports);
+    for (std::size_t k = 0; k < now.support.size(); ++k)
+      now.support[k] = of_supports[supports.nodes()[k]];
     if (!loads.empty())
       map.from_vector(archive.field("external force"), now.external);
     solid.load(archive);

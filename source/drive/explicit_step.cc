@@ -55,9 +55,10 @@ namespace Touchstone
                        "set it to 'cells'");
     if (!scene.pairs.empty())
       impulses = std::make_unique<ImpulseContact>(contact, scene.contact, map, scene.bodies);
-    for (NodeField *field :
-         {&now.u, &now.v, &now.internal, &now.viscous, &now.support, &support_impulse, &v_before})
+    for (NodeField *field : {&now.u, &now.v, &now.internal, &now.viscous, &v_before})
       field->resize(map.n_local());
+    now.support.resize(supports.nodes().size());
+    support_impulse.resize(supports.nodes().size());
     if (!loads.empty())
       now.external.resize(map.n_local());
     for (const BodyParameters &body : scene.bodies)
@@ -166,11 +167,8 @@ namespace Touchstone
       }
     boundary_conditions.all_formulas().check(solid.communicator);
     // The velocity half a cycle before time 0, so that all cycles are alike.
-    const NodeField v_0 = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
-      {
-        now.v[i] -= supports.free_part(i, 0.5 * now.length / cells.masses()[i] * now.force(i));
-      }
+      now.v[i] -= supports.free_part(i, 0.5 * now.length / cells.masses()[i] * now.force(i));
     map.update_ghosts(now.v);
     kept = now;
     cells.commit();
@@ -295,8 +293,8 @@ namespace Touchstone
       }
     boundary_conditions.all_formulas().check(solid.communicator);
     // What results show of supports is their mean force over the interval, as of contact.
-    for (const unsigned int i : supports.nodes())
-      now.support[i] = support_impulse[i] / (t - start);
+    for (std::size_t k = 0; k < now.support.size(); ++k)
+      now.support[k] = support_impulse[k] / (t - start);
     if (impulses)
       {
         impulses->end_interval(now.u, t);
@@ -317,8 +315,8 @@ namespace Touchstone
     map.update_ghosts(now.v);
     if (impulses)
       press(length);
-    for (const unsigned int i : supports.nodes())
-      support_impulse[i] += 0.5 * (now.length + length) * now.support[i];
+    for (std::size_t k = 0; k < now.support.size(); ++k)
+      support_impulse[k] += 0.5 * (now.length + length) * now.support[k];
     for (unsigned int i = 0; i < map.n_local(); ++i)
       now.u[i] += length * now.v[i];
     now.time += length;
@@ -350,14 +348,15 @@ namespace Touchstone
       }
     // Their forces are what changes the velocity, and do work on the mean of those before and
     // after.
-    for (const unsigned int i : supports.nodes())
-      now.support[i] = now.v[i];
+    for (std::size_t k = 0; k < now.support.size(); ++k)
+      now.support[k] = now.v[supports.nodes()[k]];
     supports.set_velocities(now.time + length, length, now.u, now.v);
-    for (const unsigned int i : supports.nodes())
+    for (std::size_t k = 0; k < now.support.size(); ++k)
       {
         // As an impulse of contact it acts together with the damping, see damped_mass().
-        now.support[i] = damped_mass(i, between) / between * (now.v[i] - now.support[i]);
-        work[i].external += 0.5 * between * (now.support[i] * (v_before[i] + now.v[i]));
+        const unsigned int i = supports.nodes()[k];
+        now.support[k]       = damped_mass(i, between) / between * (now.v[i] - now.support[k]);
+        work[i].external += 0.5 * between * (now.support[k] * (v_before[i] + now.v[i]));
       }
   }
 
@@ -378,7 +377,7 @@ namespace Touchstone
       if (!supports.supported(i))
         return;
       const Tensor<1, dim> taken = impulse - supports.free_part(i, impulse);
-      now.support[i] -= taken / between;
+      now.support[supports.place(i)] -= taken / between;
       work[i].external -= 0.5 * (taken * (v_before[i] + now.v[i]));
     });
     map.update_ghosts(now.v);

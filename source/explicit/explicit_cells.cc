@@ -42,7 +42,15 @@ namespace Touchstone
     , nodal_mass(map.n_local())
   {
     std::vector<std::vector<unsigned int>> cells(bodies.size());
-    Hexahedron                             shapes;
+    std::vector<std::size_t>               n_cells(bodies.size());
+    for (const NodeMap::Cell &cell : map.cells())
+      ++n_cells[cell.body];
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        cells[b].reserve(n_cells[b]);
+        cell_masses[b].reserve(n_cells[b]);
+      }
+    Hexahedron shapes;
     for (unsigned int c = 0; c < map.cells().size(); ++c)
       {
         const NodeMap::Cell &cell = map.cells()[c];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 #include <tuple>
+#include <unordered_map>
 
 // Local numbers of nodes and cells for explicit dynamics, in an order that all partitions
 // agree on (doc/explicit.md, section 2).
@@ -100,6 +101,8 @@ namespace Touchstone
       return a.cell.key < b.cell.key;
     });
     std::vector<std::array<Index, nodes_per_cell>> result;
+    all_cells.reserve(found.size());
+    result.reserve(found.size());
     for (const Found &one : found)
       {
         all_cells.push_back(one.cell);
@@ -157,7 +160,7 @@ namespace Touchstone
     std::vector<unsigned int> owners;
     for (const Node &node : sorted)
       {
-        local_numbers[node.dof] = first_dofs.size();
+        local_numbers.emplace_back(node.dof, first_dofs.size());
         first_dofs.push_back(node.dof);
         keys.push_back(node.key);
         bodies.push_back(node.body);
@@ -166,10 +169,12 @@ namespace Touchstone
       }
     AssertThrow(dim * std::size_t(number_owned) == solid.owned.n_elements(), ExcInternalError());
 
+    std::sort(local_numbers.begin(), local_numbers.end());
+
     reference.resize(first_dofs.size());
     for (std::size_t c = 0; c < dofs.size(); ++c)
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        all_cells[c].nodes[a] = local_numbers.at(dofs[c][a]);
+        all_cells[c].nodes[a] = local(dofs[c][a]);
     std::vector<const Cell *> by_index(solid.dof_handler.get_triangulation().n_active_cells());
     for (const Cell &cell : all_cells)
       by_index[cell.index] = &cell;
@@ -198,7 +203,7 @@ namespace Touchstone
       }
     for (const auto &[rank, dofs] : exchange_records(wanted, comm))
       for (const Index dof : dofs)
-        all[rank].sent.push_back(local_numbers.at(dof));
+        all[rank].sent.push_back(local(dof));
     for (auto &[rank, neighbour] : all)
       {
         neighbour.rank = rank;
@@ -251,8 +256,11 @@ namespace Touchstone
   unsigned int
   NodeMap::local(const Index first_dof) const
   {
-    const auto found = local_numbers.find(first_dof);
-    return found == local_numbers.end() ? dealii::numbers::invalid_unsigned_int : found->second;
+    const auto found =
+      std::lower_bound(local_numbers.begin(), local_numbers.end(), std::make_pair(first_dof, 0U));
+    return found == local_numbers.end() || found->first != first_dof
+             ? dealii::numbers::invalid_unsigned_int
+             : found->second;
   }
 
 

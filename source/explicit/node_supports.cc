@@ -13,13 +13,14 @@ namespace Touchstone
   NodeSupports::NodeSupports(const BoundaryConditions &conditions, const NodeMap &map)
     : conditions(conditions)
     , map(map)
-    , n_directions(map.n_local())
   {
+    std::vector<unsigned int>  n_directions(map.n_local());
+    std::array<NodeField, dim> directions;
     for (NodeField &field : directions)
       field.resize(map.n_local());
     for (const auto &prescribed : conditions.prescribed_directions())
       {
-        Direction  one{map.local(dim * prescribed.node),
+        Direction          one{map.local(dim * prescribed.node),
                       prescribed.direction,
                       prescribed.support,
                       -1,
@@ -27,8 +28,8 @@ namespace Touchstone
                       0.,
                       {{0., 0.}},
                       0};
-        const auto n  = static_cast<unsigned int>(n_directions[one.node]);
-        one.n_earlier = n;
+        const unsigned int n = n_directions[one.node];
+        one.n_earlier        = n;
         for (unsigned int k = 0; k < n; ++k)
           {
             const double part = one.unit * directions[k][one.node];
@@ -42,9 +43,7 @@ namespace Touchstone
           continue;
         one.unit /= one.norm;
         directions[n][one.node] = one.unit;
-        n_directions[one.node] += 1.;
-        if (n == 0)
-          supported_nodes.push_back(one.node);
+        ++n_directions[one.node];
         if (prescribed.value)
           {
             const auto found = std::find(formulas.begin(), formulas.end(), prescribed.value);
@@ -58,11 +57,30 @@ namespace Touchstone
     std::stable_sort(all.begin(), all.end(), [](const Direction &a, const Direction &b) {
       return a.node < b.node;
     });
-    std::sort(supported_nodes.begin(), supported_nodes.end());
-    map.update_ghosts(n_directions);
+    formula_values.resize(formulas.size());
+    set_frames(directions);
+  }
+
+
+
+  void
+  NodeSupports::set_frames(std::array<NodeField, dim> &directions)
+  {
     for (NodeField &field : directions)
       map.update_ghosts(field);
-    formula_values.resize(formulas.size());
+    places.assign(map.n_local(), numbers::invalid_unsigned_int);
+    for (unsigned int node = 0; node < map.n_local(); ++node)
+      {
+        Frame frame;
+        for (; frame.n < dim && directions[frame.n][node].norm_square() > 0.; ++frame.n)
+          frame.directions[frame.n] = directions[frame.n][node];
+        if (frame.n == 0)
+          continue;
+        places[node] = frames.size();
+        frames.push_back(frame);
+        if (node < map.n_owned())
+          supported_nodes.push_back(node);
+      }
   }
 
 
@@ -122,7 +140,7 @@ namespace Touchstone
     std::vector<std::array<ExactSum, dim>> sums(result.size());
     for (const Direction &one : all)
       {
-        const Tensor<1, dim> share = (one.unit * force[one.node]) * one.unit;
+        const Tensor<1, dim> share = (one.unit * force[place(one.node)]) * one.unit;
         for (unsigned int d = 0; d < dim; ++d)
           sums[one.support][d].add(share[d]);
       }

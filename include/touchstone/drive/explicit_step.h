@@ -97,8 +97,10 @@ namespace Touchstone
       double    length = 0.;
       NodeField u, v;
       /** Forces on the nodes at the end of the cycle: of loads (empty if there are none), of
-       * stress and of bulk viscosity; and of supports, during the cycle. */
-      NodeField external, internal, viscous, support;
+       * stress and of bulk viscosity. */
+      NodeField external, internal, viscous;
+      /** Forces of supports during the cycle, by place in NodeSupports::nodes(). */
+      NodeField support;
 
       /** All but those of supports. */
       dealii::Tensor<1, dim>
@@ -133,7 +135,7 @@ namespace Touchstone
     NodeField v_before;
     /** Stable step of all cells together over that of the cells by themselves, at least 1. */
     double assembled_to_cells = 1.;
-    /** Of the interval so far. */
+    /** Of the supports in the interval so far, as State::support. */
     NodeField    support_impulse;
     StepFindings found;
     /** Half a cycle's work of moving obstacles at the committed state, and what contact springs

@@ -10,7 +10,7 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -129,12 +129,13 @@ namespace Touchstone
     const MPI_Comm comm;
     unsigned int   number_owned = 0;
     /** By local node. */
-    std::vector<Index>                      first_dofs;
-    std::vector<std::uint64_t>              keys;
-    std::vector<unsigned int>               bodies;
-    NodeField                               reference;
-    std::unordered_map<Index, unsigned int> local_numbers;
-    std::vector<Cell>                       all_cells;
+    std::vector<Index>         first_dofs;
+    std::vector<std::uint64_t> keys;
+    std::vector<unsigned int>  bodies;
+    NodeField                  reference;
+    /** First dofs, ascending, and their local nodes. */
+    std::vector<std::pair<Index, unsigned int>> local_numbers;
+    std::vector<Cell>                           all_cells;
     /** Ghosts of a rank stand next to each other: messages are received in place. */
     struct Neighbour
     {

@@ -27,15 +27,25 @@ namespace Touchstone
     bool
     supported(const unsigned int node) const
     {
-      return n_directions[node] > 0.;
+      return place(node) < frames.size();
+    }
+
+    /** @brief Place of a supported node; of an owned one, that in nodes(). */
+    unsigned int
+    place(const unsigned int node) const
+    {
+      return places[node];
     }
 
     /** @brief The part of a vector at a local node, owned or ghost, that supports leave free. */
     dealii::Tensor<1, dim>
     free_part(const unsigned int node, dealii::Tensor<1, dim> vector) const
     {
-      for (unsigned int k = 0; k < n_directions[node]; ++k)
-        vector -= (vector * directions[k][node]) * directions[k][node];
+      if (!supported(node))
+        return vector;
+      const Frame &frame = frames[place(node)];
+      for (unsigned int k = 0; k < frame.n; ++k)
+        vector -= (vector * frame.directions[k]) * frame.directions[k];
       return vector;
     }
 
@@ -51,12 +61,12 @@ namespace Touchstone
     set_displacements(double t, NodeField &u) const;
 
     /** @brief Sum forces at owned nodes over the boundaries that exert them, bitwise the same on
-     * any number of ranks. @param force Of the supports; its components in free directions are
-     * ignored. Collective. */
+     * any number of ranks. @param force Of the supports, by place in nodes(); components in free
+     * directions are ignored. Collective. */
     std::vector<Reaction>
     reactions(const NodeField &force) const;
 
-    /** @brief Owned nodes that are supported. */
+    /** @brief Owned nodes that are supported, ascending. */
     const std::vector<unsigned int> &
     nodes() const
     {
@@ -91,14 +101,25 @@ namespace Touchstone
 
     const BoundaryConditions &conditions;
     const NodeMap            &map;
-    /** By local node; numbers are double for the exchange with other ranks. */
-    std::vector<double>                       n_directions;
-    std::array<NodeField, dim>                directions;
+    /** The orthonormal directions of a node. */
+    struct Frame
+    {
+      unsigned int                            n = 0;
+      std::array<dealii::Tensor<1, dim>, dim> directions;
+    };
+    /** Of the supported nodes, owned ones first, and by local node its place there: the highest
+     * number if it is free. */
+    std::vector<Frame>                        frames;
+    std::vector<unsigned int>                 places;
     std::vector<Direction>                    all;
     std::vector<BoundaryConditions::Function> formulas;
     std::vector<unsigned int>                 supported_nodes;
     mutable std::vector<double>               formula_values;
 
+    /** Set the frames from the directions of the owned nodes, one field for the first, the second
+     * and the third direction, zero where there is none. Collective. */
+    void
+    set_frames(std::array<NodeField, dim> &directions);
     /** Call @p use with each direction and the displacement that is prescribed along it. */
     template <class Use>
     void
