@@ -4,16 +4,14 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/explicit_step.h>
-#include <touchstone/explicit/assembled_frequency.h>
 #include <touchstone/scene/pair_input.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <limits>
 
-// The cycles of an output interval (doc/explicit.md, section 1). What is kept of them is in
+// An output interval of explicit dynamics (doc/explicit.md, section 1). Its cycles are in
+// explicit_cycle.cc, their lengths in explicit_plan.cc, what is kept of them in
 // explicit_history.cc.
 namespace Touchstone
 {
@@ -74,23 +72,6 @@ namespace Touchstone
   ExplicitStep::~ExplicitStep()
   {
     solid.keep_history_in(nullptr);
-  }
-
-
-
-  void
-  ExplicitStep::set_mobilities(const double between)
-  {
-    mobile_for = between;
-    std::vector<SymmetricTensor<2, dim>> mobilities(map.n_owned());
-    for (unsigned int i = 0; i < map.n_owned(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const Tensor<1, dim> free = supports.free_part(i, Point<dim>::unit_vector(d));
-          for (unsigned int e = d; e < dim; ++e)
-            mobilities[i][d][e] = free[e] / damped_mass(i, between);
-        }
-    impulses->set_mobility(mobilities);
   }
 
 
@@ -187,85 +168,6 @@ namespace Touchstone
 
 
 
-  // Contact springs with frequencies up to @p square shorten the stable step of the cells: leapfrog
-  // with viscous forces of the velocity half a cycle before is stable where
-  //   h^2/4 v.(K + K_c)v + h/2 v.C v <= v.M v .
-  // At the step of the cells alone the terms of K and C are 1 together; of which part K is matters
-  // little, and with viscosity none is the cautious choice.
-  double
-  ExplicitStep::with_springs(const double length, const double square) const
-  {
-    if (square == 0.)
-      return length;
-    const double q = 0.25 * length * length * square;
-    return length * (parameters.viscous() ? (std::sqrt(1. + 4. * q) - 1.) / (2. * q)
-                                          : 1. / std::sqrt(1. + q));
-  }
-
-
-
-  // The step that the mesh as a whole allows, relative to that of its cells by themselves. Within
-  // an interval it follows the latter.
-  void
-  ExplicitStep::find_assembled_step(const double of_cells)
-  {
-    double size = std::numeric_limits<double>::max();
-    for (const NodeMap::Cell &cell : map.cells())
-      for (unsigned int axis = 0; axis < dim; ++axis)
-        size = std::min(
-          size, (map.positions()[cell.nodes[1U << axis]] - map.positions()[cell.nodes[0]]).norm());
-    size = Utilities::MPI::min(size, solid.communicator);
-    const NodeField at_rest(map.n_local());
-    NodeField       viscous(map.n_local());
-    const double    square = assembled_square_frequency(
-      map,
-      cells.masses(),
-      now.u,
-      [&](NodeField &u, NodeField &force) { cells.evaluate(u, at_rest, 0., force, viscous); },
-      size);
-    // The bound of the cells is one for the mesh, too.
-    assembled_to_cells = std::max(1., 2. / std::sqrt(square) / of_cells);
-  }
-
-
-
-  unsigned int
-  ExplicitStep::plan_cycles(const double t)
-  {
-    const StableStep stable = cells.stable_step(now.u, now.v);
-    counts.stable_step      = stable.length;
-    counts.cell             = stable.cell.text(scene.bodies);
-    if (parameters.stable_step == ExplicitParameters::StableStepBound::power_iteration)
-      {
-        if (now.time == kept.time)
-          find_assembled_step(stable.length);
-        counts.stable_step *= assembled_to_cells;
-      }
-    if (impulses)
-      counts.stable_step = with_springs(counts.stable_step,
-                                        impulses->square_frequency(now.u, now.time, stable.length));
-    const double cycle = parameters.courant_factor * counts.stable_step;
-    // Equal cycles up to the end of the interval: a shorter last one would spoil what is exact for
-    // constant steps. What is too long by round-off does not make another cycle.
-    const double n = std::ceil((t - now.time) / cycle * (1. - 1e-12));
-    // Far beyond what can be run: the step has collapsed.
-    constexpr double most = 1e9;
-    if (!(n < most))
-      {
-        char text[80];
-        std::snprintf(text,
-                      sizeof(text),
-                      "the stable step has collapsed to %.3g at ",
-                      counts.stable_step);
-        throw ExplicitFailure(text + counts.cell +
-                              ": a cell has become very small; take a coarser mesh or a harder "
-                              "material there, or 'Mass scaling step'");
-      }
-    return std::max(1., n);
-  }
-
-
-
   unsigned int
   ExplicitStep::solve(const double t, const NewtonParameters &, const Newton::Observer &)
   {
@@ -304,163 +206,6 @@ namespace Touchstone
     counts.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return 0;
-  }
-
-
-
-  void
-  ExplicitStep::cycle(const double length)
-  {
-    kick(length);
-    map.update_ghosts(now.v);
-    if (impulses)
-      press(length);
-    for (std::size_t k = 0; k < now.support.size(); ++k)
-      support_impulse[k] += 0.5 * (now.length + length) * now.support[k];
-    for (unsigned int i = 0; i < map.n_local(); ++i)
-      now.u[i] += length * now.v[i];
-    now.time += length;
-    // Forces at both ends of a cycle do work on its motion (doc/explicit.md, section 6).
-    add_work(length);
-    evaluate_forces(length);
-    add_work(length);
-    add_damping(length);
-    now.length = length;
-  }
-
-
-
-  void
-  ExplicitStep::kick(const double length)
-  {
-    // Central differences with cycles of different length: the velocities are those in the middle.
-    const double between = 0.5 * (now.length + length);
-    v_before             = now.v;
-    for (unsigned int i = 0; i < map.n_owned(); ++i)
-      {
-        now.v[i] += between / cells.masses()[i] * now.force(i);
-      }
-    // Damping with the mean of the velocities before and after, which is stable for any factor.
-    for (unsigned int i = 0; i < damping.size(); ++i)
-      {
-        const double half = 0.5 * damping[i] * between;
-        now.v[i]          = (now.v[i] - half * v_before[i]) / (1. + half);
-      }
-    // Their forces are what changes the velocity, and do work on the mean of those before and
-    // after.
-    for (std::size_t k = 0; k < now.support.size(); ++k)
-      now.support[k] = now.v[supports.nodes()[k]];
-    supports.set_velocities(now.time + length, length, now.u, now.v);
-    for (std::size_t k = 0; k < now.support.size(); ++k)
-      {
-        // As an impulse of contact it acts together with the damping, see damped_mass().
-        const unsigned int i = supports.nodes()[k];
-        now.support[k]       = damped_mass(i, between) / between * (now.v[i] - now.support[k]);
-        work[i].external += 0.5 * between * (now.support[k] * (v_before[i] + now.v[i]));
-      }
-  }
-
-
-
-  void
-  ExplicitStep::press(const double length)
-  {
-    const double between = 0.5 * (now.length + length);
-    if (!damping.empty() && between != mobile_for)
-      set_mobilities(between);
-    const auto began = std::chrono::steady_clock::now();
-    impulses->project(now.u, v_before, now.v, now.time, length, between);
-    counts.contact_seconds +=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    // What contact exerts along supported directions the supports take.
-    impulses->for_each_impulse([&](const unsigned int i, const Tensor<1, dim> &impulse) {
-      if (!supports.supported(i))
-        return;
-      const Tensor<1, dim> taken = impulse - supports.free_part(i, impulse);
-      now.support[supports.place(i)] -= taken / between;
-      work[i].external -= 0.5 * (taken * (v_before[i] + now.v[i]));
-    });
-    map.update_ghosts(now.v);
-  }
-
-
-
-  void
-  ExplicitStep::evaluate_forces(const double step)
-  {
-    const CellPlace failed = cells.evaluate(now.u, now.v, step, now.internal, now.viscous);
-    if (!loads.empty())
-      loads.evaluate(now.time, now.u, now.external);
-    check(failed);
-  }
-
-
-
-  void
-  ExplicitStep::check(const CellPlace &failed) const
-  {
-    // A sum of squares is not finite if any component is not.
-    double sum = 0.;
-    for (unsigned int i = 0; i < map.n_owned(); ++i)
-      sum += now.v[i].norm_square();
-    const bool broken = failed.valid() || !std::isfinite(sum);
-    if (Utilities::MPI::max(broken ? 1 : 0, solid.communicator) == 0)
-      return;
-    // Mistakes of the input come first.
-    boundary_conditions.all_formulas().check(solid.communicator);
-    char time[60];
-    std::snprintf(time, sizeof(time), " at time %.6g: ", now.time);
-    const CellPlace first = cells.first(failed);
-    if (first.valid())
-      throw ExplicitFailure("a cell is turned inside out or its material law has no answer" +
-                            (time + first.text(scene.bodies)) +
-                            "; it may be crushed between others, or take a finer mesh there, the "
-                            "element 'full' or 'F-bar', a smaller 'Courant factor', or a law that "
-                            "resists compression");
-    CellPlace node;
-    for (unsigned int i = 0; i < map.n_owned() && !node.valid(); ++i)
-      if (!std::isfinite(now.v[i].norm_square()))
-        {
-          node.key  = map.key(i);
-          node.body = map.body(i);
-          for (unsigned int d = 0; d < dim; ++d)
-            node.position[d] = map.positions()[i][d];
-        }
-    throw ExplicitFailure("a velocity is not finite any more" +
-                          (time + cells.first(node).text(scene.bodies)) +
-                          "; the motion is not stable, take a smaller 'Courant factor'");
-  }
-
-
-
-  void
-  ExplicitStep::add_work(const double length)
-  {
-    const bool viscous = parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.;
-    if (!viscous && loads.empty())
-      return;
-    for (unsigned int i = 0; i < map.n_owned(); ++i)
-      {
-        const Tensor<1, dim> half = 0.5 * length * now.v[i];
-        if (!loads.empty())
-          work[i].external += half * now.external[i];
-        if (viscous)
-          work[i].viscous -= half * now.viscous[i];
-      }
-  }
-
-
-
-  void
-  ExplicitStep::add_damping(const double length)
-  {
-    // Impulses do work on the mean of the velocities before and after.
-    const double between = 0.5 * (now.length + length);
-    for (unsigned int i = 0; i < damping.size(); ++i)
-      {
-        const Tensor<1, dim> mean = 0.5 * (v_before[i] + now.v[i]);
-        work[i].damping += between * damping[i] * cells.masses()[i] * (mean * mean);
-      }
   }
 
 

@@ -9,8 +9,6 @@ namespace Touchstone
 {
   namespace
   {
-    static_assert(GaussBlock::n_cells == n_lanes, "Blocks are those of the vectors.");
-
     /** Shapes of a line at its two Gauss points. */
     constexpr double near_end = 0.78867513459481288, far_end = 0.21132486540518712;
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/base/vectorised.h>
-#include <touchstone/explicit/gauss_cells.h>
 #include <touchstone/explicit/kernel_cells.h>
-#include <touchstone/explicit/one_point_cells.h>
 #include <touchstone/explicit/stable_step.h>
 #include <touchstone/solid/finite_strain_kernel.h>
 #include <touchstone/solid/small_strain_kernel.h>
@@ -34,19 +31,6 @@ namespace Touchstone
       if (body.material.finite_strain())
         return std::make_unique<FiniteStrainKernel>(1, body.element(), body.material);
       return std::make_unique<SmallStrainKernel>(1, body.element(), body.material);
-    }
-
-    /** y = K x */
-    TOUCHSTONE_VECTORISED
-    void
-    multiply(const double *K, const double *x, double *y)
-    {
-      for (unsigned int i = 0; i < n_unknowns; ++i)
-        y[i] = 0.;
-      // K is symmetric: by columns, which are vectors.
-      for (unsigned int k = 0; k < n_unknowns; ++k)
-        for (unsigned int i = 0; i < n_unknowns; ++i)
-          y[i] += K[n_unknowns * k + i] * x[k];
     }
   } // namespace
 
@@ -170,136 +154,5 @@ namespace Touchstone
           }
         result[c] = exact[c] * (now / estimate[c]);
       }
-  }
-
-
-
-  ElasticCells::ElasticCells(const NodeMap                   &map,
-                             const std::vector<unsigned int> &cells,
-                             const BodyParameters            &body)
-    : CellForces(map, cells, body)
-    , stiffness(cells.size() * n * n)
-  {
-    CellStiffness one(body.element(), body.material);
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      {
-        one.reinit(corners(map, cell(c)));
-        // The symmetric part: the condensation of modes leaves round-off.
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            stiffness[(c * n + i) * n + j] = 0.5 * (one(i, j) + one(j, i));
-      }
-  }
-
-
-
-  unsigned int
-  ElasticCells::subtract_forces(const NodeField &u,
-                                const NodeField &v,
-                                const double /*step*/,
-                                const BulkViscosity *const bulk,
-                                NodeField                 &force,
-                                NodeField                 &viscous)
-  {
-    double x[n], y[n];
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      {
-        const NodeMap::Cell &one = cell(c);
-        for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            x[dim * a + d] = u[one.nodes[a]][d];
-        multiply(&stiffness[c * n * n], x, y);
-        subtract(one, y, force);
-      }
-    subtract_viscosity(u, v, bulk, viscous);
-    return numbers::invalid_unsigned_int;
-  }
-
-
-
-  void
-  ElasticCells::add_energies(const NodeField &u, CellEnergies &energies)
-  {
-    double x[n], y[n];
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      if (const NodeMap::Cell &one = cell(c); one.owned)
-        {
-          for (unsigned int i = 0; i < n; ++i)
-            x[i] = u[one.nodes[i / dim]][i % dim];
-          multiply(&stiffness[c * n * n], x, y);
-          double sum = 0.;
-          for (unsigned int i = 0; i < n; ++i)
-            sum += 0.5 * x[i] * y[i];
-          energies.strain.add(sum);
-        }
-  }
-
-
-
-  void
-  ElasticCells::square_frequencies(const NodeField & /*u*/,
-                                   const std::vector<NodalMasses> &masses,
-                                   std::vector<double>            &result)
-  {
-    if (exact.size() != cells.size())
-      for (unsigned int c = 0; c < cells.size(); ++c)
-        exact.push_back(
-          largest_eigenvalue([&](const unsigned int i,
-                                 const unsigned int j) { return stiffness[(c * n + i) * n + j]; },
-                             masses[c]));
-    result = exact;
-  }
-
-
-
-  double
-  CellForces::volume_rate(const unsigned int             c,
-                          const NodeField               &u,
-                          const NodeField               &v,
-                          std::array<Tensor<1, dim>, 8> &derivative) const
-  {
-    const auto x  = corners(map, cell(c), body.material.finite_strain() ? &u : nullptr);
-    derivative    = volume_derivative(x);
-    double volume = 0., rate = 0.;
-    for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-      {
-        volume += derivative[a] * x[a] / dim;
-        rate += derivative[a] * v[cell(c).nodes[a]];
-      }
-    return volume > 0. ? rate / volume : 0.;
-  }
-
-
-
-  void
-  CellForces::subtract_viscosity(const NodeField           &u,
-                                 const NodeField           &v,
-                                 const BulkViscosity *const bulk,
-                                 NodeField                 &viscous) const
-  {
-    std::array<Tensor<1, dim>, 8> derivative;
-    for (unsigned int c = 0; bulk != nullptr && c < cells.size(); ++c)
-      {
-        const double rate     = volume_rate(c, u, v, derivative);
-        const double pressure = bulk->viscosity(rate, bulk->periods[c]) * rate;
-        for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-          viscous[cell(c).nodes[a]] -= pressure * derivative[a];
-      }
-  }
-
-
-
-  std::unique_ptr<CellForces>
-  CellForces::make(const NodeMap                   &map,
-                   const std::vector<unsigned int> &cells,
-                   const BodyParameters            &body)
-  {
-    if (body.element() == ElementType::one_point)
-      return std::make_unique<OnePointCells>(map, cells, body);
-    if (body.material.linear())
-      return std::make_unique<ElasticCells>(map, cells, body);
-    if (GaussCells::suits(body))
-      return std::make_unique<GaussCells>(map, cells, body);
-    return std::make_unique<KernelCells>(map, cells, body);
   }
 } // namespace Touchstone

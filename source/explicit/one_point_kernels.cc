@@ -11,7 +11,6 @@ namespace Touchstone
   {
     constexpr unsigned int lane_count = OnePointBlock::n_cells, n_corners = OnePointBlock::n_nodes,
                            mode_count = OnePointBlock::n_modes;
-    static_assert(lane_count == n_lanes, "Blocks are those of the vectors.");
 
     /** Component @p i of the nodes of all cells. */
     __attribute__((always_inline)) inline void

@@ -3,6 +3,7 @@
 #ifndef touchstone_explicit_block_law_h
 #define touchstone_explicit_block_law_h
 
+#include <touchstone/explicit/n_lanes.h>
 #include <touchstone/explicit/one_point_plasticity.h>
 #include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/material_law.h>
@@ -17,8 +18,6 @@ namespace Touchstone
   class BlockLaw
   {
   public:
-    static constexpr unsigned int n_lanes = 8;
-
     explicit BlockLaw(const BodyParameters &body);
 
     /** @brief Null: linear elastic. */

@@ -165,7 +165,7 @@ namespace Touchstone
     static void
     scatter(const unsigned int (*nodes)[NodeMap::nodes_per_cell],
             const unsigned int n_used,
-            const double (*forces)[CellStates::n_lanes],
+            const double (*forces)[n_lanes],
             NodeField &sum)
     {
       for (unsigned int lane = 0; lane < n_used; ++lane)

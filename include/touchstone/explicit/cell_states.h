@@ -3,6 +3,7 @@
 #ifndef touchstone_explicit_cell_states_h
 #define touchstone_explicit_cell_states_h
 
+#include <touchstone/explicit/n_lanes.h>
 #include <touchstone/solid/material_law.h>
 
 #include <vector>
@@ -18,8 +19,6 @@ namespace Touchstone
   class CellStates
   {
   public:
-    static constexpr unsigned int n_lanes = 8;
-
     /** @brief Virgin material. @param law Null: no history. @param n_points Of a cell. */
     CellStates(unsigned int n_cells, const MaterialLaw *law, unsigned int n_points);
 

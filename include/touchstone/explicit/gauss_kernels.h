@@ -4,13 +4,14 @@
 #define touchstone_explicit_gauss_kernels_h
 
 #include <touchstone/base/types.h>
+#include <touchstone/explicit/n_lanes.h>
 
 namespace Touchstone
 {
   /** @brief Eight hexahedra with 2x2x2 points each, of which everything is computed at once. */
   struct GaussBlock
   {
-    static constexpr unsigned int n_cells = 8, n_nodes = 8, n_points = 8;
+    static constexpr unsigned int n_cells = n_lanes, n_nodes = 8, n_points = 8;
 
     /** Local nodes of each cell. */
     unsigned int nodes[n_cells][n_nodes];

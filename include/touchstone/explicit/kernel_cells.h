@@ -73,35 +73,6 @@ namespace Touchstone
     double
     go_to(unsigned int c, const NodeField &u);
   };
-
-  /** @brief Cells of a linear elastic body by their stiffness, which never changes. */
-  class ElasticCells : public CellForces
-  {
-  public:
-    ElasticCells(const NodeMap                   &map,
-                 const std::vector<unsigned int> &cells,
-                 const BodyParameters            &body);
-
-    unsigned int
-    subtract_forces(const NodeField     &u,
-                    const NodeField     &v,
-                    double               step,
-                    const BulkViscosity *bulk,
-                    NodeField           &force,
-                    NodeField           &viscous) override;
-    void
-    add_energies(const NodeField &u, CellEnergies &energies) override;
-    void
-    square_frequencies(const NodeField                &u,
-                       const std::vector<NodalMasses> &masses,
-                       std::vector<double>            &result) override;
-
-  private:
-    static constexpr unsigned int n = CellStiffness::n;
-    /** Of all cells, row by row. */
-    std::vector<double> stiffness;
-    std::vector<double> exact;
-  };
 } // namespace Touchstone
 
 #endif

@@ -4,6 +4,7 @@
 #define touchstone_explicit_lanes_h
 
 #include <touchstone/base/vectorised.h>
+#include <touchstone/explicit/n_lanes.h>
 
 #include <cstdint>
 #include <cstring>
@@ -12,8 +13,7 @@ namespace Touchstone
 {
   /** @brief A number of each of eight cells. What works on them is always inlined, so that
    * it becomes part of each version of a vectorised function. */
-  using Lanes                    = Simd<double, 8>::type;
-  constexpr unsigned int n_lanes = 8;
+  using Lanes = Simd<double, n_lanes>::type;
 
   __attribute__((always_inline)) inline Lanes
   load(const double *values)

@@ -14,7 +14,7 @@ namespace Touchstone
   /** @brief Eight one-point cells, of which everything is computed at once. */
   struct OnePointBlock
   {
-    static constexpr unsigned int n_cells = 8, n_nodes = NodeMap::nodes_per_cell, n_modes = 4;
+    static constexpr unsigned int n_cells = n_lanes, n_nodes = NodeMap::nodes_per_cell, n_modes = 4;
 
     /** Local nodes of each cell. */
     unsigned int nodes[n_cells][n_nodes];

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/base/input_error.h>
+#include <touchstone/explicit/explicit_cells.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+// The stable step of all cells and mass scaling (doc/explicit.md, section 4).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  ExplicitCells::update_periods(const NodeField &u)
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        of_bodies[b]->square_frequencies(u, cell_masses[b], periods[b]);
+        for (unsigned int c = 0; c < factors[b].size(); ++c)
+          periods[b][c] = std::sqrt(factors[b][c] / periods[b][c]);
+      }
+  }
+
+
+
+  double
+  ExplicitCells::step_of(const unsigned int body,
+                         const unsigned int c,
+                         const NodeField   &u,
+                         const NodeField   &v) const
+  {
+    // Viscous forces are those of the velocity half a cycle before: the step of a mode with the
+    // part xi of critical damping (doc/explicit.md, section 4).
+    std::array<Tensor<1, dim>, 8> derivative;
+    double                        rate = 0.;
+    if (parameters.quadratic_viscosity > 0.)
+      rate = of_bodies[body]->volume_rate(c, u, v, derivative);
+    const double xi =
+      Viscosity(bodies[body].material, parameters, 0.).damping(rate, periods[body][c]);
+    return 2. * periods[body][c] * (std::sqrt(1. + xi * xi) - xi);
+  }
+
+
+
+  StableStep
+  ExplicitCells::stable_step(const NodeField &u, const NodeField &v)
+  {
+    update_periods(u);
+    StableStep result;
+    result.length = std::numeric_limits<double>::max();
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int c = 0; c < periods[b].size(); ++c)
+        {
+          const double step = step_of(b, c, u, v);
+          if (step < result.length || (step == result.length && place(b, c).key < result.cell.key))
+            {
+              result.length = step;
+              result.cell   = place(b, c);
+            }
+        }
+    for (const auto &others : gather_records(std::vector<StableStep>{result}, map.communicator()))
+      for (const StableStep &other : others)
+        if (other.length < result.length ||
+            (other.length == result.length && other.cell.key < result.cell.key))
+          result = other;
+    return result;
+  }
+
+
+
+  std::pair<double, double>
+  ExplicitCells::scale_masses(const NodeField &u)
+  {
+    update_periods(u);
+    const NodeField rest(u.size());
+    ExactSum        total, added;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int c = 0; c < periods[b].size(); ++c)
+        {
+          const double step = parameters.courant_factor * step_of(b, c, u, rest);
+          factors[b][c]     = std::max(1., std::pow(parameters.mass_scaling_step / step, 2));
+          if (map.cells()[of_bodies[b]->cell_numbers()[c]].owned)
+            for (const double mass : cell_masses[b][c])
+              {
+                total.add(mass);
+                added.add((factors[b][c] - 1.) * mass);
+              }
+        }
+    const double all = total.value(map.communicator()), more = added.value(map.communicator());
+    if (more > parameters.largest_added_mass * all)
+      {
+        char text[160];
+        std::snprintf(text,
+                      sizeof(text),
+                      "needs %.4g of additional mass, %.3g of that of all bodies, and 'Largest "
+                      "added mass' is %.3g",
+                      more,
+                      more / all,
+                      parameters.largest_added_mass);
+        throw InputError("Time integration",
+                         "Mass scaling step",
+                         Patterns::Tools::to_string(parameters.mass_scaling_step),
+                         text,
+                         "take a shorter step, a mesh without small cells, or allow that mass");
+      }
+    sum_masses();
+    return {all, more};
+  }
+} // namespace Touchstone
