@@ -3,6 +3,7 @@
 #include <touchstone/base/formula.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/contact_checks.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/scene/pair_input.h>
 
@@ -224,6 +225,18 @@ namespace Touchstone
         "hourglass modes of one-point cells have more than a tenth of the "
         "energy in the bodies: take a finer mesh, distribute loads over more "
         "nodes, or take another 'Element'");
+  }
+
+
+
+  StepFindings
+  ExplicitStep::findings() const
+  {
+    // As in implicit steps: rows of nodes and faces would give it a force in a wrong direction.
+    if (impulses)
+      if (const std::string text = unresolved_contact(contact); !text.empty())
+        throw UnresolvedContactFailure(text);
+    return found;
   }
 
 

@@ -42,10 +42,7 @@ namespace Touchstone
     {
     }
     StepFindings
-    findings() const override
-    {
-      return found;
-    }
+    findings() const override;
     StepDifficulty
     difficulty() const override
     {
