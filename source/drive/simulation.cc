@@ -3,6 +3,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_counts.h>
+#include <touchstone/contact/overlapping_bodies.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
@@ -529,6 +530,12 @@ namespace Touchstone
   Simulation::write_summary()
   {
     check_lost_contact();
+    {
+      const StepState state = problem->state();
+      for (const std::string &text :
+           overlapping_bodies(state.contact, state.ghosted_displacement()))
+        warnings.add(text);
+    }
     finish_summary();
     summary.quantities = statistics.for_summary();
     summary.warnings   = warnings.list();

@@ -160,6 +160,11 @@ namespace Touchstone
      * height of the arc over it before the nodes of that meet anything. */
     constexpr double deep_smooth_node = 0.1;
 
+    /** How deep a surface node may lie in another cell of the surface, by its thickness, before
+     * bodies count as overlapping; and the distance from inner faces, which nodes that hang lie on,
+     * from which it lies in a cell at all. */
+    constexpr double deep_in_body = 0.25, within_cell = 1e-3;
+
     /** Distance of edges that come close, by the shorter one. */
     constexpr double near_edge = 0.1;
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_overlapping_bodies_h
+#define touchstone_contact_overlapping_bodies_h
+
+#include <touchstone/contact/contact.h>
+
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Bodies that reach into each other or into themselves, in words, whether or not a contact
+   * pair names them: for each two bodies the node or face centre of a surface that lies deepest in
+   * a cell.
+   *
+   * A pair that a scene forgets, a side of a body that no pair names or a node that has passed
+   * through a face in a single step would otherwise go unnoticed: rows know nothing of them. Points
+   * count from a quarter of the thickness of a cell on, as coarse surfaces that touch overlap by
+   * the height of arcs over their faces, see Tolerances::deep_in_body. Bodies whose overlap at the
+   * start is adjusted or grows with time are left out.
+   *
+   * @param u Displacement, with ghosts.
+   * @return the same texts on all ranks and any number of them. Collective.
+   */
+  std::vector<std::string>
+  overlapping_bodies(const Contact &contact, const Vector &u);
+} // namespace Touchstone
+
+#endif

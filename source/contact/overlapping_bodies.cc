@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <set>
+#include <tuple>
+
+// Points of surfaces within cells to which they do not belong, of any body: what contact should
+// have prevented, or would have, had a pair been there (doc/theory.md 4.1).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Box = BoundingBox<dim>;
+
+    constexpr unsigned int n_corners = 8, n_faces = 6;
+
+    /** A cell in its present position. */
+    struct BodyCell
+    {
+      unsigned int                      body;
+      std::array<Point<dim>, n_corners> corners;
+      /** First dofs of the corners. */
+      std::array<Index, n_corners> nodes;
+      /** Whether a face is part of the surface of the body. */
+      std::array<bool, n_faces> outer;
+    };
+
+    /** A node on the surface of a body, or the centre of a face (invalid_index): all nodes of a
+     * strip that is one face wide may lie on the sides of what it reaches into. */
+    struct SurfacePoint
+    {
+      unsigned int body;
+      Index        node;
+      Point<dim>   x;
+    };
+
+    struct Overlap
+    {
+      /** Bodies of the point and of the cell. */
+      unsigned int body, other;
+      /** Of the point in the other body, at least; length. */
+      double     depth;
+      Point<dim> x;
+    };
+
+    std::vector<BodyCell>
+    own_cells(const Solid &solid, const Vector &u)
+    {
+      std::vector<BodyCell> result;
+      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            BodyCell one;
+            one.body = cell->material_id();
+            for (unsigned int v = 0; v < n_corners; ++v)
+              {
+                one.corners[v] = cell->vertex(v);
+                one.nodes[v]   = cell->vertex_dof_index(v, 0);
+                for (unsigned int d = 0; d < dim; ++d)
+                  one.corners[v][d] += u(cell->vertex_dof_index(v, d));
+              }
+            for (unsigned int f = 0; f < n_faces; ++f)
+              one.outer[f] = cell->at_boundary(f);
+            result.push_back(one);
+          }
+      return result;
+    }
+
+
+
+    Box
+    box_of(const BodyCell &cell)
+    {
+      return Box(std::vector<Point<dim>>(cell.corners.begin(), cell.corners.end()));
+    }
+
+
+
+    /** Of this rank's cells. */
+    std::vector<SurfacePoint>
+    surface_points(const std::vector<BodyCell> &cells)
+    {
+      std::vector<SurfacePoint> result;
+      std::set<Index>           done;
+      for (const BodyCell &cell : cells)
+        for (unsigned int f = 0; f < n_faces; ++f)
+          if (cell.outer[f])
+            {
+              Point<dim> centre;
+              for (unsigned int k = 0; k < GeometryInfo<dim>::vertices_per_face; ++k)
+                {
+                  const unsigned int v = GeometryInfo<dim>::face_to_cell_vertices(f, k);
+                  centre += 0.25 * cell.corners[v];
+                  if (done.insert(cell.nodes[v]).second)
+                    result.push_back({cell.body, cell.nodes[v], cell.corners[v]});
+                }
+              result.push_back({cell.body, invalid_index, centre});
+            }
+      return result;
+    }
+
+
+
+    /** How far a point lies behind the surface of the body in a cell, or behind the nearest face if
+     * the cell has no part of the surface; zero for points outside, or not deep inside. */
+    double
+    depth_in(const BodyCell &cell, const Point<dim> &x)
+    {
+      double least = std::numeric_limits<double>::max(), least_outer = least;
+      for (unsigned int f = 0; f < n_faces; ++f)
+        {
+          std::array<Point<dim>, 4> p;
+          for (unsigned int k = 0; k < 4; ++k)
+            p[k] = cell.corners[GeometryInfo<dim>::face_to_cell_vertices(f, k)];
+          // The plane of a warped face, through its centre and along its diagonals.
+          Tensor<1, dim> normal = cross_product_3d(p[3] - p[0], p[2] - p[1]);
+          normal *= (f % 2 == 0 ? -1. : 1.) / normal.norm();
+          const Point<dim> centre    = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+          double           thickness = 0.;
+          for (const Point<dim> &corner : cell.corners)
+            thickness = std::max(thickness, (centre - corner) * normal);
+          const double depth = (centre - x) * normal;
+          if (!(depth >
+                (cell.outer[f] ? Tolerances::deep_in_body : Tolerances::within_cell) * thickness))
+            return 0.;
+          least = std::min(least, depth);
+          if (cell.outer[f])
+            least_outer = std::min(least_outer, depth);
+        }
+      return least_outer < std::numeric_limits<double>::max() ? least_outer : least;
+    }
+
+
+
+    /** The points of all ranks that may lie in cells of this rank. */
+    std::vector<SurfacePoint>
+    points_around(const std::vector<SurfacePoint> &own, const Box &box, const MPI_Comm communicator)
+    {
+      const std::vector<Box> boxes = Utilities::MPI::all_gather(communicator, box);
+      std::map<unsigned int, std::vector<SurfacePoint>> messages;
+      for (unsigned int rank = 0; rank < boxes.size(); ++rank)
+        for (const SurfacePoint &point : own)
+          if (boxes[rank].point_inside(point.x))
+            messages[rank].push_back(point);
+      std::vector<SurfacePoint> result;
+      for (const auto &[rank, points] : exchange_records(messages, communicator))
+        result.insert(result.end(), points.begin(), points.end());
+      return result;
+    }
+
+
+
+    /** Points within cells of this rank. */
+    std::vector<Overlap>
+    own_overlaps(const std::vector<BodyCell>                           &cells,
+                 const std::vector<SurfacePoint>                       &points,
+                 const std::set<std::pair<unsigned int, unsigned int>> &left_out)
+    {
+      std::vector<std::pair<Box, std::size_t>> boxes;
+      for (std::size_t c = 0; c < cells.size(); ++c)
+        boxes.emplace_back(box_of(cells[c]), c);
+      const auto           tree = pack_rtree(boxes);
+      std::vector<Overlap> result;
+      for (const SurfacePoint &point : points)
+        for (const auto &entry : tree | boost::geometry::index::adaptors::queried(
+                                          boost::geometry::index::intersects(point.x)))
+          {
+            const BodyCell &cell = cells[entry.second];
+            if (std::find(cell.nodes.begin(), cell.nodes.end(), point.node) != cell.nodes.end() ||
+                left_out.count(std::minmax(point.body, cell.body)) > 0)
+              continue;
+            if (const double depth = depth_in(cell, point.x); depth > 0.)
+              result.push_back({point.body, cell.body, depth, point.x});
+          }
+      return result;
+    }
+
+
+
+    std::string
+    text(const Overlap &overlap, const std::vector<BodyParameters> &bodies)
+    {
+      char where[120];
+      std::snprintf(where,
+                    sizeof(where),
+                    " at (%.3g, %.3g, %.3g), by %.3g or more",
+                    overlap.x[0] + 0.,
+                    overlap.x[1] + 0.,
+                    overlap.x[2] + 0.,
+                    overlap.depth);
+      const bool self = overlap.body == overlap.other;
+      return "body '" + bodies[overlap.body].name + "' reaches into " +
+             (self ? "itself" : "body '" + bodies[overlap.other].name + "'") + where +
+             ": no contact pair keeps these surfaces apart" +
+             (self ? "" : ", or its rows did not see them");
+    }
+  } // namespace
+
+
+
+  std::vector<std::string>
+  overlapping_bodies(const Contact &contact, const Vector &u)
+  {
+    const Solid                                    &solid = contact.solid_model();
+    std::set<std::pair<unsigned int, unsigned int>> left_out;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const ContactPair &pair = contact.pair(p);
+          pair.master() != nullptr &&
+          pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
+        left_out.insert(std::minmax(pair.slave_body(), pair.master_body()));
+
+    const std::vector<BodyCell> cells = own_cells(solid, u);
+    std::vector<Point<dim>>     corners;
+    for (const BodyCell &cell : cells)
+      corners.insert(corners.end(), cell.corners.begin(), cell.corners.end());
+    // A rank without cells has a box that contains no point.
+    const Box                       box = corners.empty() ? Box() : Box(corners);
+    const std::vector<SurfacePoint> points =
+      points_around(surface_points(cells), box, solid.communicator);
+
+    // Of each two bodies, in an order that does not depend on the partition.
+    std::vector<Overlap> all;
+    for (const auto &part :
+         gather_records(own_overlaps(cells, points, left_out), solid.communicator))
+      all.insert(all.end(), part.begin(), part.end());
+    double deepest = 0.;
+    for (const Overlap &overlap : all)
+      deepest = std::max(deepest, overlap.depth);
+    // Rounded: of points that are equally deep the first, whatever round-off makes of them.
+    const double unit = 1e-4 * deepest;
+    const auto   key  = [unit](const Overlap &o) {
+      return std::make_tuple(o.body,
+                             o.other,
+                             -std::round(o.depth / unit),
+                             std::round(o.x[0] / unit),
+                             std::round(o.x[1] / unit),
+                             std::round(o.x[2] / unit));
+    };
+    std::sort(all.begin(), all.end(), [&](const Overlap &a, const Overlap &b) {
+      return key(a) < key(b);
+    });
+    std::vector<std::string> result;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (k == 0 || all[k].body != all[k - 1].body || all[k].other != all[k - 1].other)
+        result.push_back(text(all[k], solid.bodies));
+    return result;
+  }
+} // namespace Touchstone

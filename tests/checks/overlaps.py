@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Bodies that reach into each other or into themselves are told of, implicit and explicit, on any
+number of ranks; bodies that touch, and those whose overlap is adjusted, are not."""
+# ctest: label = quick
+
+from touchstone_test import check, checks, finish, folder, run
+
+CELLS = [(0, 0), (1, 0), (2, 0), (0, 1), (2, 1), (0, 2), (2, 2)]  # of the clamp: x and z of their lower corners
+
+
+def write_clamp(path):
+    """A base of three cubes with a leg of two on each end, away from the other bodies."""
+    numbers = {}
+
+    def node(x, y, z):
+        return numbers.setdefault((x, y, z), len(numbers) + 1)
+
+    def square(tag, corners):
+        return f"3 2 {tag} {tag} " + " ".join(str(node(*corner)) for corner in corners)
+
+    def cube(x, z):
+        corners = [(x + a, b, z + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+        return "5 2 1 1 " + " ".join(str(node(*corner)) for corner in corners)
+
+    def side(tag, x):
+        return square(tag, [(x, 0, 2), (x, 1, 2), (x, 1, 3), (x, 0, 3)])
+
+    elements = [side(1, 0), side(2, 3)]
+    elements += [square(3, [(x, 0, 0), (x + 1, 0, 0), (x + 1, 1, 0), (x, 1, 0)]) for x in range(3)]
+    elements += [cube(*lower) for lower in CELLS]
+    names = ['2 1 "left"', '2 2 "right"', '2 3 "base"', '3 1 "clamp"']
+    nodes = [f"{n} {x + 10} {y} {z}" for (x, y, z), n in numbers.items()]
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
+        for title, lines in (("PhysicalNames", names), ("Nodes", nodes),
+                             ("Elements", [f"{k + 1} {line}" for k, line in enumerate(elements)])):
+            file.write("\n".join([f"${title}", str(len(lines)), *lines, f"$End{title}"]) + "\n")
+
+
+def overlaps(result):
+    """The warnings of a run that tell of overlaps."""
+    return [text for text in result.summary["warnings"] if "reaches into" in text]
+
+
+write_clamp(folder / "clamp.msh")
+(folder / "overlap.prm").write_text((checks / "warning_overlap.prm").read_text(encoding="utf-8"),
+                                    encoding="utf-8")
+one = run("one", "overlap.prm")
+found = overlaps(one)
+for expected in "body 'block' reaches into body 'base'", "body 'clamp' reaches into itself":
+    check(any(text.startswith(expected) for text in found), f"no warning: {expected}; {found}")
+one.says("body 'clamp' reaches into itself")
+two = run("two", "overlap.prm", ranks=2)
+check(overlaps(two) == found, f"two ranks tell something else: {overlaps(two)}")
+dynamic = run("explicit", "overlap.prm", {"Time integration/Scheme": "central_differences"})
+check(len(overlaps(dynamic)) == len(found), f"explicit: {overlaps(dynamic)}")
+
+# A tenth of a cell deep: within what coarse surfaces that touch may overlap.
+near = run("near", "overlap.prm", {"Load stepping/End time": 0.2})
+check(not overlaps(near), f"a shallow overlap is told of: {overlaps(near)}")
+finish()
