@@ -58,14 +58,16 @@ namespace Touchstone
       Point<dim> x;
     };
 
-    std::vector<BodyCell>
-    own_cells(const Solid &solid, const Vector &u)
+    /** Call @p use with each cell of this rank: cells are made one at a time, as there may be many.
+     */
+    template <class Use>
+    void
+    for_each_cell(const Solid &solid, const Vector &u, const Use &use)
     {
-      std::vector<BodyCell> result;
+      BodyCell one;
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
           {
-            BodyCell one;
             one.body = cell->material_id();
             for (unsigned int v = 0; v < n_corners; ++v)
               {
@@ -76,9 +78,8 @@ namespace Touchstone
               }
             for (unsigned int f = 0; f < n_faces; ++f)
               one.outer[f] = cell->at_boundary(f);
-            result.push_back(one);
+            use(one);
           }
-      return result;
     }
 
 
@@ -91,13 +92,22 @@ namespace Touchstone
 
 
 
-    /** Of this rank's cells. */
-    std::vector<SurfacePoint>
-    surface_points(const std::vector<BodyCell> &cells)
+    /** What this rank's cells have of the surfaces, and the box around all of them. */
+    std::pair<std::vector<SurfacePoint>, Box>
+    own_surfaces(const Solid &solid, const Vector &u)
     {
-      std::vector<SurfacePoint> result;
+      std::vector<SurfacePoint> points;
       std::set<Index>           done;
-      for (const BodyCell &cell : cells)
+      std::vector<Point<dim>>   extremes;
+      for_each_cell(solid, u, [&](const BodyCell &cell) {
+        const Box box = box_of(cell);
+        if (extremes.empty())
+          extremes = {box.get_boundary_points().first, box.get_boundary_points().second};
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            extremes[0][d] = std::min(extremes[0][d], box.get_boundary_points().first[d]);
+            extremes[1][d] = std::max(extremes[1][d], box.get_boundary_points().second[d]);
+          }
         for (unsigned int f = 0; f < n_faces; ++f)
           if (cell.outer[f])
             {
@@ -107,11 +117,13 @@ namespace Touchstone
                   const unsigned int v = GeometryInfo<dim>::face_to_cell_vertices(f, k);
                   centre += 0.25 * cell.corners[v];
                   if (done.insert(cell.nodes[v]).second)
-                    result.push_back({cell.body, cell.nodes[v], cell.corners[v]});
+                    points.push_back({cell.body, cell.nodes[v], cell.corners[v]});
                 }
-              result.push_back({cell.body, invalid_index, centre});
+              points.push_back({cell.body, invalid_index, centre});
             }
-      return result;
+      });
+      // Of a rank without cells: a box without extent.
+      return {points, extremes.empty() ? Box() : Box(extremes)};
     }
 
 
@@ -167,26 +179,28 @@ namespace Touchstone
 
     /** Points within cells of this rank. */
     std::vector<Overlap>
-    own_overlaps(const std::vector<BodyCell>                           &cells,
+    own_overlaps(const Solid                                           &solid,
+                 const Vector                                          &u,
                  const std::vector<SurfacePoint>                       &points,
                  const std::set<std::pair<unsigned int, unsigned int>> &left_out)
     {
-      std::vector<std::pair<Box, std::size_t>> boxes;
-      for (std::size_t c = 0; c < cells.size(); ++c)
-        boxes.emplace_back(box_of(cells[c]), c);
-      const auto           tree = pack_rtree(boxes);
+      std::vector<std::pair<Point<dim>, std::size_t>> places;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        places.emplace_back(points[k].x, k);
+      const auto           tree = pack_rtree(places);
       std::vector<Overlap> result;
-      for (const SurfacePoint &point : points)
+      for_each_cell(solid, u, [&](const BodyCell &cell) {
         for (const auto &entry : tree | boost::geometry::index::adaptors::queried(
-                                          boost::geometry::index::intersects(point.x)))
+                                          boost::geometry::index::intersects(box_of(cell))))
           {
-            const BodyCell &cell = cells[entry.second];
+            const SurfacePoint &point = points[entry.second];
             if (std::find(cell.nodes.begin(), cell.nodes.end(), point.node) != cell.nodes.end() ||
                 left_out.count(std::minmax(point.body, cell.body)) > 0)
               continue;
             if (const double depth = depth_in(cell, point.x); depth > 0.)
               result.push_back({point.body, cell.body, depth, point.x});
           }
+      });
       return result;
     }
 
@@ -224,19 +238,14 @@ namespace Touchstone
           pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
         left_out.insert(std::minmax(pair.slave_body(), pair.master_body()));
 
-    const std::vector<BodyCell> cells = own_cells(solid, u);
-    std::vector<Point<dim>>     corners;
-    for (const BodyCell &cell : cells)
-      corners.insert(corners.end(), cell.corners.begin(), cell.corners.end());
-    // A rank without cells has a box that contains no point.
-    const Box                       box = corners.empty() ? Box() : Box(corners);
+    const auto                      surfaces = own_surfaces(solid, u);
     const std::vector<SurfacePoint> points =
-      points_around(surface_points(cells), box, solid.communicator);
+      points_around(surfaces.first, surfaces.second, solid.communicator);
 
     // Of each two bodies, in an order that does not depend on the partition.
     std::vector<Overlap> all;
     for (const auto &part :
-         gather_records(own_overlaps(cells, points, left_out), solid.communicator))
+         gather_records(own_overlaps(solid, u, points, left_out), solid.communicator))
       all.insert(all.end(), part.begin(), part.end());
     double deepest = 0.;
     for (const Overlap &overlap : all)
