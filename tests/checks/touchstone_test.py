@@ -165,10 +165,12 @@ class Run:
         """Number of times that a step was cut."""
         return sum(self.column("cuts"))
 
-    def contact_nodes(self):
-        """Slave nodes of the last contact surface that was written (fuzzing/vtu.py)."""
+    def contact_nodes(self, step=None):
+        """Slave nodes of the contact surface of a step, or the last that was written
+        (fuzzing/vtu.py)."""
         from fuzzing import vtu  # pylint: disable=import-outside-toplevel,import-error
-        return vtu.read(sorted(self.folder.glob("contact_*.vtu"))[-1])
+        name = "contact_*.vtu" if step is None else f"contact_{step:04d}.vtu"
+        return vtu.read(sorted(self.folder.glob(name))[-1])
 
     def figures(self):
         """Results, errors and iterations as {path: (kind, value)}. Of results and iterations the
