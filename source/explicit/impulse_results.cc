@@ -59,6 +59,7 @@ namespace Touchstone
   void
   ImpulseContact::keep_results(const double step)
   {
+    ExactSum given;
     for (std::size_t k = 0; k < kept.size(); ++k)
       {
         const ImpulseRow &row = solver.rows[k];
@@ -68,7 +69,10 @@ namespace Touchstone
         h.energy.ahead        = 0.;
         if (row.impulse.norm_square() == 0.)
           continue;
+        const double before = h.energy.normal;
         add_energy(row, h);
+        given.add(h.energy.normal);
+        given.add(-before);
         if (!row.friction || rule.springs())
           continue;
         const Tensor<1, dim> p_t  = row.impulse - (row.impulse * row.normal) * row.normal;
@@ -78,6 +82,8 @@ namespace Touchstone
         h.friction_work -= p_t * slip / step;
         h.slipped = h.slipped || row.sliding;
       }
+    if (!rule.springs())
+      counted.most_given = std::max(counted.most_given, given.value(nodes.communicator()));
   }
 
 
