@@ -74,6 +74,16 @@ namespace Touchstone
             double           step,
             double           acting = 0.);
 
+    /** @brief Before the first cycle: change the velocities @p v half a cycle before @p time to such
+     * that do not come from within a row that is closed and stays so with the initial velocities
+     * @p start. Collective. Arguments as of project(). */
+    void
+    project_before(const NodeField &u,
+                   const NodeField &start,
+                   NodeField       &v,
+                   double           time,
+                   double           step);
+
     /** @brief An upper bound of the squared largest frequency of the springs of all rows by
      * themselves with the displacement @p u, which adds to that of the cells (doc/explicit.md,
      * section 9.3); zero where the enforcement does not touch the stable step. Collective.
@@ -223,6 +233,8 @@ namespace Touchstone
     void
     add_energy(const ImpulseRow &row, RowHistory &h) const;
     /** The cycle with impulses by projection, and with springs. */
+    ImpulseControl
+    control(double time, double step) const;
     ImpulseCounts
     solve(double time, double step);
     ImpulseCounts
