@@ -238,6 +238,14 @@ def golden(name, ranks=1):
     return Run(label, path / "results", (path / "output").read_text(encoding="utf-8"))
 
 
+def contact_gives(result, allowed):
+    """Contact of explicit dynamics gives no more than this part of the energy in any cycle."""
+    energies = result.summary.get("motion", {}).get("energies", {})
+    total = max(energies.get("initial", math.nan), energies.get("external", math.nan))
+    below(f"{result}, energy that contact gives in a cycle",
+          result.value("contact_work", "most_energy_given_in_a_cycle") / total, allowed)
+
+
 # Figures that are round-off or chance, and iterations of solvers.
 _NOT_COMPARED = {"max_penetration", "contact", "damped", "linear_total", "linear_mean"}
 
