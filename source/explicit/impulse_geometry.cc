@@ -118,9 +118,9 @@ namespace Touchstone
                               const double      size,
                               const double      step) const
   {
-    if (gap >= 0.)
-      return 0.;
     const double closing = -step * (solver.relative_velocity(row, v_before) * row.normal);
+    if (gap >= 0.)
+      return std::min(0., gap + std::min(0., closing));
     const double pressed = std::min(undone * size, -undone_of_overlap * gap);
     return std::min(0., gap + std::max(pressed, closing));
   }
