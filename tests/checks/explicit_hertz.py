@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Impact of aluminium balls (R = 8 mm) on graded meshes: Hertz's approach, time of contact and force,
 on a rigid plane at 5 m/s and of two that close at 5 m/s (doc/explicit.md, section 9.7). Half a
-minute to a minute of processor time each."""
+minute, three quarters of one and two and a half minutes of processor time."""
 # ctest: label = nightly
 
 import math
@@ -103,11 +103,11 @@ GradedBall(8, 0.09, 15, 14, 13).write(folder / "lower.msh", (0, 0, -8), -1)
     ball("upper", -2500, 8) + ball("lower", 2500, -8) + PAIR + END, encoding="utf-8")
 
 # A ball is stiffer than the half space of Hertz's theory, by a part that is proportional to a/R: its
-# force is 3.7 % larger at 5 m/s whatever the mesh, and 1.9 % at 1 m/s (doc/explicit.md, section 9.7).
+# force is 3.7 % larger at 5 m/s whatever the mesh, and 2.2 % at 1 m/s (doc/explicit.md, section 9.7).
 judge(run("plane", folder / "plane.prm"), 5000, (0.051804, 30.495e-6, 3493), (0.04, 0.03, 0.04))
 judge(run("slow", folder / "plane.prm", {"Body upper/Initial velocity z": -1000,
                                          "Load stepping/End time": 56e-6, STEPS: 140}),
       1000, (0.014295, 42.074e-6, 506.34), (0.025, 0.02, 0.025))
 judge(run("two", folder / "two.prm", {"Load stepping/End time": 44e-6}), 2500,
-      (0.059508 / 2, 35.029e-6, 1520), (0.03, 0.03, 0.03))
+      (0.059508 / 2, 35.029e-6, 1520), (0.03, 0.03, 0.035))
 finish()
