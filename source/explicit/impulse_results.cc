@@ -42,14 +42,14 @@ namespace Touchstone
   {
     const double         p_n     = row.impulse * row.normal;
     const Tensor<1, dim> p_t     = row.tied ? Tensor<1, dim>() : row.impulse - p_n * row.normal;
-    const Tensor<1, dim> mean    = 0.5 * (solver.relative_velocity(row, v_before) + row.velocity);
+    const Tensor<1, dim> mean    = 0.5 * (velocity_before(row, h) + row.velocity);
     const double         by_slip = p_t * mean, by_normal = row.impulse * mean - by_slip;
     const double         supplied =
       !row.tied && !rule.springs() && row.allowed * row.normal < 0. ? std::max(0., by_normal) : 0.;
     h.total += row.impulse;
     h.energy.normal += by_normal - supplied;
     h.energy.friction += by_slip;
-    h.energy.obstacles += row.impulse * row.drive + supplied;
+    h.energy.obstacles += row.impulse * (0.5 * (h.drive_before + row.drive)) + supplied;
     h.energy.ahead = 0.5 * (row.impulse * row.drive);
     h.pressed      = true;
   }

@@ -150,6 +150,9 @@ namespace Touchstone
       /** Of the last cycle. */
       dealii::Tensor<1, dim> impulse;
       bool                   sliding = false;
+      /** Velocity of the obstacle in this cycle, and in the one before if it was of the interval. */
+      dealii::Tensor<1, dim> drive, drive_before;
+      bool                   driven = false;
       /** Since the interval began: impulse, slip (length), its path, work against friction, and
        * energies. */
       dealii::Tensor<1, dim> total, slip;
@@ -218,8 +221,11 @@ namespace Touchstone
     import(const NodeField &u, const NodeField &before, const NodeField &v);
     void
     set_geometry(double time, double step);
+    /** Relative velocity of the cycle before. */
+    dealii::Tensor<1, dim>
+    velocity_before(const ImpulseRow &row, const RowHistory &h) const;
     double
-    gap_allowed(const ImpulseRow &row, double gap, double size, double step) const;
+    gap_allowed(const ImpulseRow &row, const ContactRow &of, double gap, double step) const;
     void
     set_pair_geometry(ImpulseRow &row, KeptRow &from, double time, double step);
     void
