@@ -157,10 +157,11 @@ namespace Touchstone
 
 
 
-  // Loads and stresses at the start that press closed sides together are balanced by contact then as
-  // later: without it the velocity half a cycle before would part the sides, and the first cycle
-  // would give the energy that brings them back. This is the projection of a cycle with time reversed:
-  // gaps half a cycle before were not negative, but for sides that part with the initial velocities.
+  // Loads and stresses at the start that press closed sides together are balanced by contact then
+  // as later: without it the velocity half a cycle before would part the sides, and the first cycle
+  // would give the energy that brings them back. This is the projection of a cycle with time
+  // reversed: gaps half a cycle before were not negative, but for sides that part with the initial
+  // velocities.
   void
   ImpulseContact::project_before(const NodeField &u,
                                  const NodeField &start,
@@ -180,9 +181,9 @@ namespace Touchstone
         row.friction             = nullptr; // made anew with the first cycle
         row.drive *= -1.;
         row.allowed =
-          row.tied ?
-            w :
-            (std::max(0., kept[k].at_start) / step + std::max(0., w * row.normal)) * row.normal;
+          row.tied
+            ? w
+            : (std::max(0., kept[k].at_start) / step + std::max(0., w * row.normal)) * row.normal;
       }
     for (Tensor<1, dim> &velocity : solver.velocity)
       velocity *= -1.;

@@ -121,8 +121,8 @@ namespace Touchstone
   // overlap. As far as the sides were closing, along the present normal, undoing it takes no work:
   // an impulse does work on the mean of the velocities before and after. So a node that slides in a
   // hollow comes back to its surface for nothing.
-  // Where sides move apart by more than the gap has grown, as its normal has turned, the gap may end as far
-  // within as takes no work, and comes back in this way.
+  // Where sides move apart by more than the gap has grown, as its normal has turned, the gap may
+  // end as far within as takes no work, and comes back in this way.
   double
   ImpulseContact::gap_allowed(const ImpulseRow &row,
                               const ContactRow &of,

@@ -74,8 +74,9 @@ namespace Touchstone
             double           step,
             double           acting = 0.);
 
-    /** @brief Before the first cycle: change the velocities @p v half a cycle before @p time to such
-     * that do not come from within a row that is closed and stays so with the initial velocities
+    /** @brief Before the first cycle: change the velocities @p v half a cycle before @p time to
+     * such that do not come from within a row that is closed and stays so with the initial
+     * velocities
      * @p start. Collective. Arguments as of project(). */
     void
     project_before(const NodeField &u,
@@ -150,7 +151,8 @@ namespace Touchstone
       /** Of the last cycle. */
       dealii::Tensor<1, dim> impulse;
       bool                   sliding = false;
-      /** Velocity of the obstacle in this cycle, and in the one before if it was of the interval. */
+      /** Velocity of the obstacle in this cycle, and in the one before if it was of the interval.
+       */
       dealii::Tensor<1, dim> drive, drive_before;
       bool                   driven = false;
       /** Since the interval began: impulse, slip (length), its path, work against friction, and
