@@ -2,7 +2,7 @@
 """Hard cases of contact in explicit dynamics: each ends right, or with the reason (table in
 doc/explicit.md, section 9.9)."""
 
-from touchstone_test import below, check, contact_gives, finish, folder, run
+from touchstone_test import below, check, checks, contact_gives, finish, folder, launch, run
 
 
 def vector(values):
@@ -215,4 +215,27 @@ rubbed = hard("rubbed", [block("block", (0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 0, 
                          pair("pair", "block", "bottom", obstacle="ground", friction=0.3)], 2)
 work = rubbed.column("energy: friction")
 check(all(b >= a - 1e-15 for a, b in zip(work, work[1:])), "rubbed: friction gives energy")
+
+# Bad inputs that no scene of tests/refused has: section, key and remedy, before anything is computed.
+SCENE = checks / "explicit_rolling.prm"
+for setting in ("Body ball/Material/Density=0", "Body ball/Material/Density=-1", "Load stepping/Steps=0",
+                "Load stepping/End time=0", "Time integration/Courant factor=0",
+                "Time integration/Courant factor=nan", "Time integration/Step check interval=0",
+                "Time integration/Linear bulk viscosity=-0.1",
+                "Time integration/Quadratic bulk viscosity=inf",
+                "Time integration/Mass scaling step=-1", "Time integration/Largest added mass=-1",
+                "Contact/Contact tolerance=2", "Contact/Contact iterations=0",
+                "Contact/Enforcement=elimination", "Body ball/Hourglass control=maybe",
+                "Body ball/Hourglass coefficient=2", "Time integration/Stable step=fast",
+                "Discretisation/Degree=2", "Body ball/Initial velocity x=sqrt(-1)",
+                "Body ball/Body force z=1/(t-t)", "Contact pair contact/Friction/Coefficient=-1",
+                "Time integration/Scheme=central differences", "Obstacle ground/Motion z=log(-1)",
+                "Obstacle ground/Direction=0, 0, 0", "Time integration/Mass scaling step=1"):
+    refused = launch("--results-only", "--output", "refused", "--set", setting, SCENE, timeout=60)
+    section, key = setting.split("=")[0].rsplit("/", 1)
+    if setting.startswith("Discretisation"):
+        section, key = "Body ball", "Element"  # one point
+    check(refused.returncode != 0 and all(text in refused.stdout for text in (
+        f"Input error in section '{section}', key '{key}'", "Remedy: ")),
+          f"{setting}: not refused, or without section, key and remedy:\n{refused.stdout[-400:]}")
 finish()
