@@ -149,9 +149,15 @@ namespace Touchstone
       }
     boundary_conditions.all_formulas().check(solid.communicator);
     // The velocity half a cycle before time 0, so that all cycles are alike.
+    const NodeField at_start = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       now.v[i] -= supports.free_part(i, 0.5 * now.length / cells.masses()[i] * now.force(i));
     map.update_ghosts(now.v);
+    if (impulses)
+      {
+        impulses->project_before(now.u, at_start, now.v, 0., now.length);
+        map.update_ghosts(now.v);
+      }
     kept = now;
     cells.commit();
     committed         = energies();

@@ -157,19 +157,64 @@ namespace Touchstone
 
 
 
+  // Loads and stresses at the start that press closed sides together are balanced by contact then
+  // as later: without it the velocity half a cycle before would part the sides, and the first cycle
+  // would give the energy that brings them back. This is the projection of a cycle with time
+  // reversed: gaps half a cycle before were not negative, but for sides that part with the initial
+  // velocities.
+  void
+  ImpulseContact::project_before(const NodeField &u,
+                                 const NodeField &start,
+                                 NodeField       &v,
+                                 const double     time,
+                                 const double     step)
+  {
+    if (rule.springs())
+      return;
+    renew(u, time);
+    import(u, start, v);
+    set_geometry(time, step);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      {
+        ImpulseRow          &row = solver.rows[k];
+        const Tensor<1, dim> w   = solver.relative_velocity(row, v_before);
+        row.friction             = nullptr; // made anew with the first cycle
+        row.drive *= -1.;
+        row.allowed =
+          row.tied
+            ? w
+            : (std::max(0., kept[k].at_start) / step + std::max(0., w * row.normal)) * row.normal;
+      }
+    for (Tensor<1, dim> &velocity : solver.velocity)
+      velocity *= -1.;
+    solver.solve(control(time, step));
+    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+      v[local[node]] = -solver.velocity[node];
+  }
+
+
+
+  ImpulseControl
+  ImpulseContact::control(const double time, const double step) const
+  {
+    ImpulseControl result;
+    result.tolerance  = parameters.impulse_tolerance;
+    result.one_sweep  = rule.method == ImpulseRule::Method::one_sweep;
+    result.sweeps     = result.one_sweep ? 1 : parameters.most_sweeps;
+    result.accelerate = rule.method == ImpulseRule::Method::projection;
+    result.relaxation = result.accelerate ? 1. : rule.factor;
+    result.step       = step;
+    result.time       = time + step;
+    return result;
+  }
+
+
+
   ImpulseCounts
   ImpulseContact::solve(const double time, const double step)
   {
-    const bool     one_sweep = rule.method == ImpulseRule::Method::one_sweep;
-    ImpulseControl control;
-    control.tolerance          = parameters.impulse_tolerance;
-    control.sweeps             = one_sweep ? 1 : parameters.most_sweeps;
-    control.one_sweep          = one_sweep;
-    control.accelerate         = rule.method == ImpulseRule::Method::projection;
-    control.relaxation         = control.accelerate ? 1. : rule.factor;
-    control.step               = step;
-    control.time               = time + step;
-    const ImpulseCounts counts = solver.solve(control);
+    const bool          one_sweep = rule.method == ImpulseRule::Method::one_sweep;
+    const ImpulseCounts counts    = solver.solve(control(time, step));
     counted.unconverged += !counts.converged && !one_sweep;
     if (counts.rounds > 0)
       check_feasible(step, counts.converged || one_sweep);

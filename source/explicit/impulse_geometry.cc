@@ -108,20 +108,31 @@ namespace Touchstone
 
 
 
+  Tensor<1, dim>
+  ImpulseContact::velocity_before(const ImpulseRow &row, const RowHistory &h) const
+  {
+    // Of an obstacle the velocity that it had then.
+    return solver.relative_velocity(row, v_before) + (row.drive - h.drive_before);
+  }
+
+
+
   // The gap that the end of the cycle may have, from that at its start: zero, or what is left of an
   // overlap. As far as the sides were closing, along the present normal, undoing it takes no work:
   // an impulse does work on the mean of the velocities before and after. So a node that slides in a
   // hollow comes back to its surface for nothing.
+  // Where sides move apart by more than the gap has grown, as its normal has turned, the gap may
+  // end as far within as takes no work, and comes back in this way.
   double
   ImpulseContact::gap_allowed(const ImpulseRow &row,
+                              const ContactRow &of,
                               const double      gap,
-                              const double      size,
                               const double      step) const
   {
+    const double closing = -step * (velocity_before(row, history[of.index]) * row.normal);
     if (gap >= 0.)
-      return 0.;
-    const double closing = -step * (solver.relative_velocity(row, v_before) * row.normal);
-    const double pressed = std::min(undone * size, -undone_of_overlap * gap);
+      return std::min(0., gap + std::min(0., closing));
+    const double pressed = std::min(undone * of.size, -undone_of_overlap * gap);
     return std::min(0., gap + std::max(pressed, closing));
   }
 
@@ -154,7 +165,7 @@ namespace Touchstone
         const double grows =
           (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
         from.at_start = gap;
-        row.allowed   = ((gap - gap_allowed(row, gap, of.size, step) + grows) / step) * row.normal;
+        row.allowed   = ((gap - gap_allowed(row, of, gap, step) + grows) / step) * row.normal;
       }
   }
 
@@ -175,6 +186,10 @@ namespace Touchstone
     const double         overlap = pair.overlap(of.index - pair.rows().front().index);
     const Tensor<1, dim> motion  = pair.pairing().shift(time + step) - pair.pairing().shift(time);
     row.drive                    = motion / step;
+    RowHistory &h                = history[of.index];
+    h.drive_before               = h.driven ? h.drive : row.drive;
+    h.drive                      = row.drive;
+    h.driven                     = true;
     row.normal                   = here->normal;
     if (row.tied)
       {
@@ -185,7 +200,7 @@ namespace Touchstone
     const double gap   = here->gap_vector * here->normal - pair.part_of_overlap(time) * overlap;
     const double grows = (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
     from.at_start      = gap;
-    row.allowed        = ((gap - gap_allowed(row, gap, of.size, step) + grows) / step) * row.normal;
+    row.allowed        = ((gap - gap_allowed(row, of, gap, step) + grows) / step) * row.normal;
   }
 
 

@@ -42,14 +42,14 @@ namespace Touchstone
   {
     const double         p_n     = row.impulse * row.normal;
     const Tensor<1, dim> p_t     = row.tied ? Tensor<1, dim>() : row.impulse - p_n * row.normal;
-    const Tensor<1, dim> mean    = 0.5 * (solver.relative_velocity(row, v_before) + row.velocity);
+    const Tensor<1, dim> mean    = 0.5 * (velocity_before(row, h) + row.velocity);
     const double         by_slip = p_t * mean, by_normal = row.impulse * mean - by_slip;
     const double         supplied =
       !row.tied && !rule.springs() && row.allowed * row.normal < 0. ? std::max(0., by_normal) : 0.;
     h.total += row.impulse;
     h.energy.normal += by_normal - supplied;
     h.energy.friction += by_slip;
-    h.energy.obstacles += row.impulse * row.drive + supplied;
+    h.energy.obstacles += row.impulse * (0.5 * (h.drive_before + row.drive)) + supplied;
     h.energy.ahead = 0.5 * (row.impulse * row.drive);
     h.pressed      = true;
   }
@@ -59,6 +59,7 @@ namespace Touchstone
   void
   ImpulseContact::keep_results(const double step)
   {
+    ExactSum given;
     for (std::size_t k = 0; k < kept.size(); ++k)
       {
         const ImpulseRow &row = solver.rows[k];
@@ -68,7 +69,10 @@ namespace Touchstone
         h.energy.ahead        = 0.;
         if (row.impulse.norm_square() == 0.)
           continue;
+        const double before = h.energy.normal;
         add_energy(row, h);
+        given.add(h.energy.normal);
+        given.add(-before);
         if (!row.friction || rule.springs())
           continue;
         const Tensor<1, dim> p_t  = row.impulse - (row.impulse * row.normal) * row.normal;
@@ -78,6 +82,8 @@ namespace Touchstone
         h.friction_work -= p_t * slip / step;
         h.slipped = h.slipped || row.sliding;
       }
+    if (!rule.springs())
+      counted.most_given = std::max(counted.most_given, given.value(nodes.communicator()));
   }
 
 

@@ -24,8 +24,9 @@ namespace Touchstone
   void
   Statistics::add(const std::string &column, const double value)
   {
+    // All digits: files that are the same hold the same bits, and conservation shows to round-off.
     table.add_value(column, value);
-    table.set_precision(column, 8);
+    table.set_precision(column, 16);
     table.set_scientific(column, true);
   }
 

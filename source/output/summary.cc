@@ -186,7 +186,8 @@ namespace Touchstone
                    .set("most_sweeps", contact_work.most_sweeps)
                    .set("rounds", contact_work.rounds)
                    .set("renewals", contact_work.renewals)
-                   .set("unconverged_cycles", contact_work.unconverged));
+                   .set("unconverged_cycles", contact_work.unconverged)
+                   .set("most_energy_given_in_a_cycle", contact_work.most_given));
     return result
       .set("iterations",
            Json::object()

@@ -165,10 +165,12 @@ class Run:
         """Number of times that a step was cut."""
         return sum(self.column("cuts"))
 
-    def contact_nodes(self):
-        """Slave nodes of the last contact surface that was written (fuzzing/vtu.py)."""
+    def contact_nodes(self, step=None):
+        """Slave nodes of the contact surface of a step, or the last that was written
+        (fuzzing/vtu.py)."""
         from fuzzing import vtu  # pylint: disable=import-outside-toplevel,import-error
-        return vtu.read(sorted(self.folder.glob("contact_*.vtu"))[-1])
+        name = "contact_*.vtu" if step is None else f"contact_{step:04d}.vtu"
+        return vtu.read(sorted(self.folder.glob(name))[-1])
 
     def figures(self):
         """Results, errors and iterations as {path: (kind, value)}. Of results and iterations the
@@ -234,6 +236,14 @@ def golden(name, ranks=1):
         return run(label, tests / f"{name}.prm", None, ranks, vtu=None)
     path = pathlib.Path(sys.argv[4]) / label
     return Run(label, path / "results", (path / "output").read_text(encoding="utf-8"))
+
+
+def contact_gives(result, allowed):
+    """Contact of explicit dynamics gives no more than this part of the energy in any cycle."""
+    energies = result.summary.get("motion", {}).get("energies", {})
+    total = max(energies.get("initial", math.nan), energies.get("external", math.nan))
+    below(f"{result}, energy that contact gives in a cycle",
+          result.value("contact_work", "most_energy_given_in_a_cycle") / total, allowed)
 
 
 # Figures that are round-off or chance, and iterations of solvers.

@@ -74,6 +74,17 @@ namespace Touchstone
             double           step,
             double           acting = 0.);
 
+    /** @brief Before the first cycle: change the velocities @p v half a cycle before @p time to
+     * such that do not come from within a row that is closed and stays so with the initial
+     * velocities
+     * @p start. Collective. Arguments as of project(). */
+    void
+    project_before(const NodeField &u,
+                   const NodeField &start,
+                   NodeField       &v,
+                   double           time,
+                   double           step);
+
     /** @brief An upper bound of the squared largest frequency of the springs of all rows by
      * themselves with the displacement @p u, which adds to that of the cells (doc/explicit.md,
      * section 9.3); zero where the enforcement does not touch the stable step. Collective.
@@ -140,6 +151,10 @@ namespace Touchstone
       /** Of the last cycle. */
       dealii::Tensor<1, dim> impulse;
       bool                   sliding = false;
+      /** Velocity of the obstacle in this cycle, and in the one before if it was of the interval.
+       */
+      dealii::Tensor<1, dim> drive, drive_before;
+      bool                   driven = false;
       /** Since the interval began: impulse, slip (length), its path, work against friction, and
        * energies. */
       dealii::Tensor<1, dim> total, slip;
@@ -208,8 +223,11 @@ namespace Touchstone
     import(const NodeField &u, const NodeField &before, const NodeField &v);
     void
     set_geometry(double time, double step);
+    /** Relative velocity of the cycle before. */
+    dealii::Tensor<1, dim>
+    velocity_before(const ImpulseRow &row, const RowHistory &h) const;
     double
-    gap_allowed(const ImpulseRow &row, double gap, double size, double step) const;
+    gap_allowed(const ImpulseRow &row, const ContactRow &of, double gap, double step) const;
     void
     set_pair_geometry(ImpulseRow &row, KeptRow &from, double time, double step);
     void
@@ -223,6 +241,8 @@ namespace Touchstone
     void
     add_energy(const ImpulseRow &row, RowHistory &h) const;
     /** The cycle with impulses by projection, and with springs. */
+    ImpulseControl
+    control(double time, double step) const;
     ImpulseCounts
     solve(double time, double step);
     ImpulseCounts

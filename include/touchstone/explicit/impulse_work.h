@@ -17,6 +17,9 @@ namespace Touchstone
      */
     std::uint64_t cycles = 0, sweeps = 0, most_sweeps = 0, rounds = 0, renewals = 0,
                   unconverged = 0;
+    /** Largest energy that contact has given in a cycle, without what overlaps and obstacles supply
+     * and what springs give back. */
+    double most_given = 0.;
 
     /** @brief Add those of another time. */
     void
@@ -28,6 +31,7 @@ namespace Touchstone
       rounds += other.rounds;
       renewals += other.renewals;
       unconverged += other.unconverged;
+      most_given = std::max(most_given, other.most_given);
     }
 
     double
@@ -41,8 +45,8 @@ namespace Touchstone
     void
     serialize(Archive &archive, const unsigned int)
     {
-      auto &[n, all, most, of_rounds, made, ended] = *this;
-      archive &n &all &most &of_rounds &made &ended;
+      auto &[n, all, most, of_rounds, made, ended, given] = *this;
+      archive &n &all &most &of_rounds &made &ended &given;
     }
   };
 } // namespace Touchstone
