@@ -111,6 +111,100 @@ namespace Touchstone
         }
       return pairs;
     }
+
+
+    /** Members of an object from a map of names. */
+    template <class Map>
+    Json
+    object_of(const Map &members)
+    {
+      Json result = Json::object();
+      for (const auto &[name, value] : members)
+        result.set(name, value);
+      return result;
+    }
+
+
+
+    Json
+    reactions_of(const RunSummary &summary)
+    {
+      Json bodies = Json::object();
+      for (const auto &[body, boundaries] : summary.reactions)
+        bodies.set(body, object_of(boundaries));
+      return bodies;
+    }
+
+
+
+    /** Mean and maximum over the ranks: an imbalance of 1 is even, of the number of ranks the
+     * worst. */
+    Json
+    balance_of(const RunSummary &summary)
+    {
+      Json spread = Json::object();
+      for (const auto &[phase, counts] : summary.balance)
+        spread.set(phase,
+                   Json::object()
+                     .set("mean", counts.mean)
+                     .set("max", counts.max)
+                     .set("imbalance", counts.imbalance()));
+      return spread;
+    }
+
+
+
+    /** Of adaptive runs: cells, unknowns and estimated error of each mesh, from which the rate of
+     * convergence follows. */
+    Json
+    meshes_of(const RunSummary &summary)
+    {
+      Json result = Json::array();
+      for (const RunSummary::Mesh &mesh : summary.meshes)
+        result.append(Json::object()
+                        .set("step", mesh.step)
+                        .set("cells", mesh.cells)
+                        .set("unknowns", mesh.unknowns)
+                        .set("estimated_error", mesh.estimated_error));
+      return result;
+    }
+
+
+
+    /** Quantities of contact pairs stand with their pair, those of the whole scene beside them. */
+    Json
+    results_of(const RunSummary &summary)
+    {
+      Json result = Json::object()
+                      .set("contact", contact_results(summary))
+                      .set("reactions", reactions_of(summary));
+      if (!summary.plastic_strain.empty())
+        result.set("plastic_strain", object_of(summary.plastic_strain));
+      for (const StepValue &value : summary.quantities)
+        if (value.pair.empty())
+          result.set(member_name(value.name), to_json(value));
+      return result;
+    }
+
+
+
+    /** Of explicit runs. */
+    void
+    add_cycles(const RunSummary &summary, Json &result)
+    {
+      if (summary.cycles > 0)
+        result.set("cycles", summary.cycles);
+      const auto &work = summary.contact_work;
+      if (work.cycles > 0)
+        result.set("contact_work",
+                   Json::object()
+                     .set("mean_sweeps", work.mean_sweeps())
+                     .set("most_sweeps", work.most_sweeps)
+                     .set("rounds", work.rounds)
+                     .set("renewals", work.renewals)
+                     .set("unconverged_cycles", work.unconverged)
+                     .set("most_energy_given_in_a_cycle", work.most_given));
+    }
   } // namespace
 
 
@@ -118,42 +212,6 @@ namespace Touchstone
   Json
   RunSummary::to_json() const
   {
-    Json bodies = Json::object();
-    for (const auto &[body, boundaries] : reactions)
-      {
-        Json forces = Json::object();
-        for (const auto &[boundary, force] : boundaries)
-          forces.set(boundary, force);
-        bodies.set(body, forces);
-      }
-
-    Json plastic = Json::object();
-    for (const auto &[body, strain] : plastic_strain)
-      plastic.set(body, strain);
-
-    Json relative_errors = Json::object();
-    for (const auto &[name, error] : errors)
-      relative_errors.set(name, error);
-
-    // Mean and maximum over the ranks: an imbalance of 1 is even, of the number of ranks the worst.
-    Json spread = Json::object();
-    for (const auto &[phase, counts] : balance)
-      spread.set(phase,
-                 Json::object()
-                   .set("mean", counts.mean)
-                   .set("max", counts.max)
-                   .set("imbalance", counts.imbalance()));
-
-    // Adaptive runs: cells, unknowns and estimated error of each mesh, from which the rate of
-    // convergence follows.
-    Json all_meshes = Json::array();
-    for (const Mesh &mesh : meshes)
-      all_meshes.append(Json::object()
-                          .set("step", mesh.step)
-                          .set("cells", mesh.cells)
-                          .set("unknowns", mesh.unknowns)
-                          .set("estimated_error", mesh.estimated_error));
-
     Json all_warnings = Json::array();
     for (const std::string &text : warnings)
       all_warnings.append(text);
@@ -166,28 +224,11 @@ namespace Touchstone
                     .set("cells", cells)
                     .set("unknowns", unknowns);
     if (!meshes.empty())
-      result.set("meshes", all_meshes);
+      result.set("meshes", meshes_of(*this));
     if (motion)
       result.set("motion", motion->to_json());
-    Json results = Json::object().set("contact", contact_results(*this)).set("reactions", bodies);
-    if (!plastic_strain.empty())
-      results.set("plastic_strain", plastic);
-    // Quantities of contact pairs stand with their pair; those of the whole scene here.
-    for (const StepValue &value : quantities)
-      if (value.pair.empty())
-        results.set(member_name(value.name), Touchstone::to_json(value));
     result.set("steps", steps);
-    if (cycles > 0)
-      result.set("cycles", cycles);
-    if (contact_work.cycles > 0)
-      result.set("contact_work",
-                 Json::object()
-                   .set("mean_sweeps", contact_work.mean_sweeps())
-                   .set("most_sweeps", contact_work.most_sweeps)
-                   .set("rounds", contact_work.rounds)
-                   .set("renewals", contact_work.renewals)
-                   .set("unconverged_cycles", contact_work.unconverged)
-                   .set("most_energy_given_in_a_cycle", contact_work.most_given));
+    add_cycles(*this, result);
     return result
       .set("iterations",
            Json::object()
@@ -210,10 +251,10 @@ namespace Touchstone
              .set("linear_solver", seconds.linear_solver)
              .set("search", seconds.search)
              .set("output", seconds.output))
-      .set("balance", spread)
+      .set("balance", balance_of(*this))
       .set("peak_memory_mb", peak_memory_mb)
-      .set("results", results)
-      .set("errors", relative_errors)
+      .set("results", results_of(*this))
+      .set("errors", object_of(errors))
       .set("warnings", all_warnings)
       .set("failure", failure);
   }
