@@ -46,6 +46,56 @@ namespace Touchstone
   {
     add_positions<n>(k, face);
     add_normals<n>(k, face);
+    if (const FaceShare *deciding = row.deciding_face();
+        deciding && deciding->key == face.slave.face().key)
+      add_deciding<n>(k, face);
+  }
+
+
+
+  template <unsigned int n>
+  void
+  AveragedRowDerivative::add_deciding(const unsigned int k, const SlaveFaceDerivative<n> &face)
+  {
+    typename SlaveFaceDerivative<n>::Change change;
+    for (unsigned int i = 0; i < face.n_nodes(); ++i)
+      for (unsigned int e = 0; e < dim; ++e)
+        {
+          face.differentiate(k, i, e, change);
+          for (const auto &[node, weight] : face.carriers(i))
+            {
+              FaceShareDerivative &sum = sums[index(node)].face;
+              sum.area[e] += weight * change.integrals[OverlapColumns::area];
+              sum.shape_area[e] += weight * change.area;
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  sum.gap[c][e] += weight * change.integrals[OverlapColumns::gap + c];
+                  sum.shape_gap[c][e] += weight * change.shape_gap[c];
+                }
+            }
+        }
+    for (const OverlapDerivative<n> &part : face.parts)
+      {
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              // As in add_normals, with the shape function besides.
+              const double w = face.dual.weight(k, j), c = face.dual.shape(k, j);
+              if (part.master_smooth)
+                {
+                  auto &by_master = face_by_master[part.master];
+                  by_master[0][m] += w * part.gap_normal[j][m];
+                  by_master[1][m] += c * part.gap_normal[j][m];
+                }
+              if (face.slave.smooth())
+                {
+                  face_gap_by_slave[m] += w * part.gap_slave_normal[j][m];
+                  face_shape_gap_by_slave[m] += c * part.gap_slave_normal[j][m];
+                }
+            }
+        offer<n>(face_own, part.own[k], part.own_by_normals[k], face, *part.master);
+        offer<n>(face_beside, part.beside[k], {}, face, *part.master);
+      }
   }
 
 
@@ -130,8 +180,13 @@ namespace Touchstone
         // search for the closest point is spared.
         if (row.needs_least())
           offer<n>(least, part.least, part.least_by_normals, face, *part.master);
+        if (face.own[k] != face.slave.face().nodes[k])
+          continue;
         if (row.needs_own())
           offer<n>(own, part.own[k], part.own_by_normals[k], face, *part.master);
+        // Shape functions of facets do not depend on normals.
+        if (row.needs_beside())
+          offer<n>(beside, part.beside[k], {}, face, *part.master);
       }
   }
 
@@ -178,15 +233,16 @@ namespace Touchstone
 
 
   void
-  AveragedRowDerivative::continue_closest(const ClosestPoint &point,
-                                          Tensor<1, dim> CoverSumsDerivative::*of_point,
-                                          const OfMaster                      &of_master,
-                                          const OfSlave                       &of_slave)
+  AveragedRowDerivative::continue_closest(
+    const ClosestPoint                                           &point,
+    const std::function<Tensor<1, dim> &(CoverSumsDerivative &)> &of_point,
+    const OfMaster                                               &of_master,
+    const OfSlave                                                &of_slave)
   {
     const auto add = [&](const Index node, const Tensor<1, dim> &value) {
       const std::size_t to = index(node);
-      // The member that is differentiated, CoverSumsDerivative::least or own, is a parameter.
-      sums[to].*of_point += value;
+      // The member that is differentiated, CoverSumsDerivative::least or another, is a parameter.
+      of_point(sums[to]) += value;
     };
     for (const auto &[node, value] : point.by_nodes)
       add(node, value);
@@ -197,6 +253,41 @@ namespace Touchstone
     if (by_slave_normals.count(point.slave) > 0)
       for (const NormalDerivative &d : *of_slave(point.slave))
         add(d.node, point.by_slave_normals[d.m] * d.value);
+  }
+
+
+
+  void
+  AveragedRowDerivative::finish_deciding(const OfMaster &of_master, const OfSlave &of_slave)
+  {
+    using Sums = CoverSumsDerivative;
+    if (face_own)
+      continue_closest(
+        *face_own,
+        [](Sums &of_node) -> Tensor<1, dim> & { return of_node.face.own; },
+        of_master,
+        of_slave);
+    if (face_beside)
+      continue_closest(
+        *face_beside,
+        [](Sums &of_node) -> Tensor<1, dim> & { return of_node.face.beside; },
+        of_master,
+        of_slave);
+    for (const auto &[face, by_normals] : face_by_master)
+      if (const auto *derivatives = of_master(face))
+        for (const NormalDerivative &d : *derivatives)
+          {
+            FaceShareDerivative &sum = sums[index(d.node)].face;
+            sum.gap += by_normals[0][d.m] * d.value;
+            sum.shape_gap += by_normals[1][d.m] * d.value;
+          }
+    if (const FaceShare *face = row.deciding_face(); face && by_slave_normals.count(face->key) > 0)
+      for (const NormalDerivative &d : *of_slave(face->key))
+        {
+          FaceShareDerivative &sum = sums[index(d.node)].face;
+          sum.gap += face_gap_by_slave[d.m] * d.value;
+          sum.shape_gap += face_shape_gap_by_slave[d.m] * d.value;
+        }
   }
 
 
@@ -222,9 +313,12 @@ namespace Touchstone
               sums[to].gap += by_normals.gap[d.m] * d.value;
           }
     if (least)
-      continue_closest(*least, &CoverSumsDerivative::least, of_master, of_slave);
+      continue_closest(*least, std::mem_fn(&CoverSumsDerivative::least), of_master, of_slave);
     if (own)
-      continue_closest(*own, &CoverSumsDerivative::own, of_master, of_slave);
+      continue_closest(*own, std::mem_fn(&CoverSumsDerivative::own), of_master, of_slave);
+    if (beside)
+      continue_closest(*beside, std::mem_fn(&CoverSumsDerivative::beside), of_master, of_slave);
+    finish_deciding(of_master, of_slave);
 
     // The sums are complete: now the row.
     RowDerivative &result = *builder.result;

@@ -32,8 +32,9 @@ namespace Touchstone
     };
     ByNormals least_by_normals, own_by_normals[n];
 
-    OverlapDerivative(const Face &slave, const FaceGeometry &master)
-      : OverlapIntegrals<n, PositionFad<n>>(face_length(slave))
+    /** @param length Of the OverlapIntegrals. */
+    OverlapDerivative(const double length, const FaceGeometry &master)
+      : OverlapIntegrals<n, PositionFad<n>>(length)
       , master(&master.face())
       , master_smooth(master.smooth())
     {

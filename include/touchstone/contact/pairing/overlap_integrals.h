@@ -40,19 +40,24 @@ namespace Touchstone
     std::array<std::array<Number, n>, n> mass{};
     /** Q: area, area times length for the gap. */
     std::array<std::array<Number, n_columns>, n> q{};
-    /** The smallest gap along the normal at any point or corner of the overlap, and that at each
-     * slave node; length. Where a node is not covered, the closest corner stands for it, with a gap
-     * that is larger by the distance h (1 - N_j) from the node: a node that comes to lie on the
-     * other side of the edge of the cover, as it does by round-off beside a plane of symmetry, must
-     * not change its gap by a jump (doc/theory.md 3.1, equation (7)). */
-    Number                least = std::numeric_limits<double>::max();
-    std::array<Number, n> own;
+    /** The smallest gap along the normal at any point or corner of the overlap; length. */
+    Number least = std::numeric_limits<double>::max();
+    /** For each slave node the smallest of g + l (1 - N_j) and of 1 - N_j over the corners, from
+     * which the gap at the node follows (doc/theory.md 3.1, equation (7)). Where the node is not
+     * covered, the closest corner stands for it: a node that comes to lie on the other side of the
+     * edge of the cover, as it does by round-off beside a plane of symmetry, must not change its
+     * gap by a jump. */
+    std::array<Number, n> own, beside;
+    /** The length l, the same for all faces of the surface: otherwise the closest corner could
+     * change by a jump where faces of different sizes meet. */
+    double length;
 
-    /** @param length Size h of the slave face, reference state. */
+    /** @param length Longest diagonal of the faces of the slave surface. */
     explicit OverlapIntegrals(const double length)
       : length(length)
     {
       own.fill(Number(std::numeric_limits<double>::max()));
+      beside.fill(Number(1.));
     }
 
     /** @brief Add a quadrature point; one without weight counts only for the smallest gaps. */
@@ -66,7 +71,10 @@ namespace Touchstone
         {
           for (unsigned int j = 0; j < n; ++j)
             {
-              const Number from_node = distance + length * (1. - sample.slave_shape[j]);
+              const Number away = 1. - sample.slave_shape[j];
+              if (away < beside[j])
+                beside[j] = away;
+              const Number from_node = distance + length * away;
               if (from_node < own[j])
                 own[j] = from_node;
             }
@@ -87,19 +95,7 @@ namespace Touchstone
             q[j][OverlapColumns::master + m] += weight * sample.master_shape[m];
         }
     }
-
-  private:
-    double length;
   };
-
-  /** @brief The length h by which distances on a slave face are measured: the mean of its
-   * diagonals, which does not depend on the order of its nodes. */
-  inline double
-  face_length(const Face &slave)
-  {
-    return 0.5 * (slave.reference[0].distance(slave.reference[3]) +
-                  slave.reference[1].distance(slave.reference[2]));
-  }
 
   /** @brief The mass matrix of what several master faces cover of a slave face.
    * @param parts Their OverlapIntegrals. */

@@ -70,6 +70,8 @@ namespace Touchstone
       double            area, reference;
       /** Of the integrals with psi'_k, by columns. */
       std::vector<double> integrals;
+      /** Of the integral of the gap with N~_k. */
+      dealii::Tensor<1, dim> shape_gap;
     };
 
     /** @brief Evaluate it for component @p e of node @p i. */
