@@ -103,7 +103,7 @@ namespace Touchstone
     // On plane faces all gaps are the mean up to round-off, and the quotients below would be noise.
     const double noise = Tolerances::equal_gaps * size;
     if (const Number above = variable(Of::own, sums.own) - sums.length * from_node - at_mean;
-        at_node > 0. && above > noise)
+        at_node > 0. && above > Tolerances::hardly_curved * size)
       {
         Number most = 0.;
         for (const FaceShare &share : sums.faces)
@@ -114,7 +114,11 @@ namespace Touchstone
               most = flat;
               face = &share;
             }
-        result += at_node * (1. - most) * above;
+        // What strain has made of the difference, and not the curvature of the surfaces, is less
+        // than the smallest that counts.
+        const Number curved =
+          smooth_step(Number(above / size), Tolerances::hardly_curved, Tolerances::well_curved);
+        result += at_node * curved * (1. - most) * above;
       }
     if (const Number above = at_least - at_mean - result; above > noise)
       result +=
