@@ -134,13 +134,14 @@ namespace Touchstone
      * no force. */
     constexpr double odd_curvature = 0.05;
 
-    /** How far the mean gap is below that of the node, by the size of a face: from the first to the
-     * second the gap of the node comes to count. Undeformed faces of size h and radius R have
-     * h/12R. The strain of bodies that are pressed together makes such differences, too, of both
-     * signs and about a tenth of the strain between meshes that do not match: 1e-5 in
-     * prm/two_tubes.prm. These tell nothing of where bodies touch, and if the gap followed them
-     * each row would depend on its neighbours all over the contact. */
-    constexpr double hardly_curved = 1e-4, well_curved = 1e-3;
+    /** How far the mean gap is below that of the node because of the shape of both surfaces, by how
+     * far the slave surface is from its facets: from the first to the second the gap of the node
+     * comes to count. Between surfaces that nearly fit this is about their strain, which cannot be
+     * told from a curvature: 1e-3 in prm/two_tubes.prm. Beside a plane it is one. */
+    constexpr double hardly_curved = 0.02, well_curved = 0.05;
+
+    /** Added to that distance by the size of a face, for slave surfaces that are flat. */
+    constexpr double flat_arch = 1e-4;
 
     /** One less the shape function of a node at the closest covered point, from which on the node
      * does not count as covered. */

@@ -103,7 +103,7 @@ namespace Touchstone
     // On plane faces all gaps are the mean up to round-off, and the quotients below would be noise.
     const double noise = Tolerances::equal_gaps * size;
     if (const Number above = variable(Of::own, sums.own) - sums.length * from_node - at_mean;
-        at_node > 0. && above > Tolerances::hardly_curved * size)
+        at_node > 0. && above > noise)
       {
         Number most = 0.;
         for (const FaceShare &share : sums.faces)
@@ -114,10 +114,15 @@ namespace Touchstone
               most = flat;
               face = &share;
             }
-        // What strain has made of the difference, and not the curvature of the surfaces, is less
-        // than the smallest that counts.
-        const Number curved =
-          smooth_step(Number(above / size), Tolerances::hardly_curved, Tolerances::well_curved);
+        // How much of the difference is due to the shape of the surfaces: displacements, which
+        // meshes that do not match interpolate differently, make such differences all over a
+        // contact, and rows that followed them would depend on their neighbours there. The part has
+        // no derivative, since nodes that move do not change it but by sliding on.
+        const double shape = above.val() - normal * (sums.own_moved - sums.moved / sums.area);
+        const double arch =
+          (sums.shape_area > 0. ? sums.arch / sums.shape_area : 0.) + Tolerances::flat_arch * size;
+        const double curved =
+          smooth_step(shape / arch, Tolerances::hardly_curved, Tolerances::well_curved);
         result += at_node * curved * (1. - most) * above;
       }
     if (const Number above = at_least - at_mean - result; above > noise)

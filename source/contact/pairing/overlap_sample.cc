@@ -38,11 +38,17 @@ namespace Touchstone
     // (doc/theory.md 1).
     const Tensor<1, dim> gap = x - on_master.x;
     sample.weight            = part * point.weight;
+    sample.moved             = Tensor<1, dim>();
+    Tensor<1, dim> arch      = x;
     for (unsigned int m = 0; m < n; ++m)
       {
         sample.slave_shape[m]  = shapes.value[m];
         sample.master_shape[m] = master_shapes.value[m];
+        sample.moved += shapes.value[m] * slave.face().displacement[m] -
+                        master_shapes.value[m] * master.face().displacement[m];
+        arch -= shapes.value[m] * slave.face().position(m);
       }
+    sample.arch = arch.norm();
     for (unsigned int d = 0; d < dim; ++d)
       {
         sample.gap[d]    = gap[d];

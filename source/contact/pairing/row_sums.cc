@@ -53,9 +53,19 @@ namespace Touchstone
     for (unsigned int m = 0; m < n; ++m)
       add(stencil, master.nodes[m], r[OverlapColumns::master + m]);
     least = std::min(least, part.least);
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        moved += dual.weight(k, j) * part.moved[j];
+        arch += dual.shape(k, j) * part.arch[j];
+        shape_area += dual.shape(k, j) * part.q[j][OverlapColumns::area];
+      }
     if (!face)
       return;
-    own    = std::min(own, part.own[k]);
+    if (part.own[k] < own)
+      {
+        own       = part.own[k];
+        own_moved = part.own_moved[k];
+      }
     beside = std::min(beside, part.beside[k]);
     length = part.length;
     // The same of this face alone; and integrals of 1 and gap with the shape function itself.

@@ -46,6 +46,12 @@ namespace Touchstone
     double reference = 0.;
     /** Integrals of gap and normal with psi'_k. */
     dealii::Tensor<1, dim> gap, normal;
+    /** The integral of the displacement of the slave relative to the master with psi'_k, area times
+     * length, and this displacement at the node, length. */
+    dealii::Tensor<1, dim> moved, own_moved;
+    /** Integrals of the distance of the slave surface from its facets with N~_k, and of N~_k; area
+     * times length, area. */
+    double arch = 0., shape_area = 0.;
     /** The smallest gap at any quadrature point or corner of what is covered, along the normal
      * there, length. */
     double least = 0.;

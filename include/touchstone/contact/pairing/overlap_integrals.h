@@ -48,6 +48,11 @@ namespace Touchstone
      * edge of the cover, as it does by round-off beside a plane of symmetry, must not change its
      * gap by a jump. */
     std::array<Number, n> own, beside;
+    /** Integrals of N_j times OverlapSample::moved, area times length, and its value where own is
+     * smallest, length. */
+    std::array<dealii::Tensor<1, dim>, n> moved{}, own_moved{};
+    /** Integrals of N_j times OverlapSample::arch, area times length. */
+    std::array<double, n> arch{};
     /** The length l, the same for all faces of the surface: otherwise the closest corner could
      * change by a jump where faces of different sizes meet. */
     double length;
@@ -76,7 +81,10 @@ namespace Touchstone
                 beside[j] = away;
               const Number from_node = distance + length * away;
               if (from_node < own[j])
-                own[j] = from_node;
+                {
+                  own[j]       = from_node;
+                  own_moved[j] = sample.moved;
+                }
             }
           return;
         }
@@ -85,6 +93,8 @@ namespace Touchstone
           const Number weight = sample.weight * sample.slave_shape[j];
           for (unsigned int k = 0; k <= j; ++k)
             mass[j][k] += weight * sample.slave_shape[k];
+          moved[j] += value_of(weight) * sample.moved;
+          arch[j] += value_of(weight) * sample.arch;
           q[j][OverlapColumns::area] += weight;
           for (unsigned int d = 0; d < dim; ++d)
             {
