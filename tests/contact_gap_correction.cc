@@ -161,6 +161,17 @@ main()
   print("the mean where the surfaces are pressed together", std::abs(flat.row()) < round_off);
   print("the mean at the edge of a contact", std::abs(edge.row()) < round_off);
 
+  // The same difference between node and mean, but made by displacements, or of surfaces that
+  // nearly fit: their arches are a hundred times as high.
+  CoverSums strained = line.sums(), fitting = line.sums();
+  strained.own_moved = below * normal;
+  fitting.shape_area = 1.;
+  fitting.arch       = 100. * below;
+  print("the mean where strain makes the difference",
+        GapCorrection(strained, normal, line.mean(), size).value == 0.);
+  print("the mean between surfaces that nearly fit",
+        GapCorrection(fitting, normal, line.mean(), size).value == 0.);
+
   const Gaps hardly{0.05, {0.8, 0.9}}, half{0.05, {0.6, 0.4}}, open{0.05, {1.3, 1.2}};
   print("derivatives, hardly flattened", derivatives(hardly.sums(), hardly.mean(), 0));
   print("derivatives, half flattened", derivatives(half.sums(), half.mean(), 1));
