@@ -37,36 +37,65 @@ namespace Touchstone
 
 
 
-    /** Description of the first finding in a pair, empty without one. Obstacles have no edges
-     * that could cross those of a body, so that only points within slave faces are looked for. */
-    std::string
-    unresolved_in_pair(const Contact &contact, const ContactPair &pair, const Solid &solid)
+    UnresolvedContact
+    check_of(const ContactPair &pair, const Contact &contact, const Vector &forces)
     {
-      const Vector forces = normal_forces(contact, pair, solid);
+      return {contact.solid_model(),
+              pair.parameters(),
+              pair.slave(),
+              *pair.master(),
+              pair.slave_body(),
+              pair.master_body(),
+              contact.ghosted_displacement(),
+              forces};
+    }
+
+
+
+    /** The deepest overlap of a pair, empty without one. Obstacles have no edges that could cross
+     * those of a body, so that only points within slave faces are looked for. */
+    std::string
+    overlap_of_pair(const Contact &contact, const ContactPair &pair, const Vector &forces)
+    {
       // An initial overlap that is adjusted or grows with time is no sign of unresolved contact:
       // overlaps are looked for only where they count from the start.
-      const bool overlaps =
-        pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference;
+      if (pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
+        return "";
       if (!pair.master())
-        return overlaps ? obstacle_within_face(solid,
-                                               pair.parameters(),
-                                               pair.slave(),
-                                               forces,
-                                               [&](const Point<dim> &x) {
-                                                 return pair.pairing().distance(x, contact.time());
-                                               })
-                        : "";
-      const UnresolvedContact check(solid,
-                                    pair.parameters(),
-                                    pair.slave(),
-                                    *pair.master(),
-                                    pair.slave_body(),
-                                    pair.master_body(),
-                                    contact.ghosted_displacement(),
-                                    forces);
+        return obstacle_within_face(
+          contact.solid_model(), pair.parameters(), pair.slave(), forces, [&](const Point<dim> &x) {
+            return pair.pairing().distance(x, contact.time());
+          });
       // With small sliding the surfaces are not moved, so that their overlap means nothing.
-      const std::string text = overlaps && !pair.small_sliding() ? check.overlap() : "";
-      return text.empty() ? check.oblique_force() : text;
+      return pair.small_sliding() ? "" : check_of(pair, contact, forces).overlap();
+    }
+
+
+
+    /** An oblique force in a pair, empty without one. */
+    std::string
+    oblique_force_of_pair(const Contact &contact, const ContactPair &pair, const Vector &forces)
+    {
+      return pair.master() ? check_of(pair, contact, forces).oblique_force() : "";
+    }
+
+
+
+    /** What is found first in any pair, with the pair and the remedy. */
+    template <class Find>
+    std::string
+    first_finding(const Contact &contact, const Find &find)
+    {
+      // Tied pairs may be in tension and along any direction, so forces prove nothing there.
+      for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+        if (const ContactPair &pair = contact.pair(p); !pair.tied())
+          if (const std::string text =
+                find(pair, normal_forces(contact, pair, contact.solid_model()));
+              !text.empty())
+            return "contact pair '" + pair.parameters().name + "': " + text +
+                   ". Rows of slave nodes cannot describe this contact: refine the slave surface" +
+                   (pair.master() ? ", exchange slave and master, or round the edges" : "");
+      return "";
     }
   } // namespace
 
@@ -75,18 +104,35 @@ namespace Touchstone
   std::string
   unresolved_contact(const Contact &contact)
   {
-    // Tied pairs may be in tension and along any direction, so forces prove nothing there.
+    return first_finding(contact, [&](const ContactPair &pair, const Vector &forces) {
+      const std::string text = overlap_of_pair(contact, pair, forces);
+      return text.empty() ? oblique_force_of_pair(contact, pair, forces) : text;
+    });
+  }
+
+
+
+  std::string
+  unresolved_overlap(const Contact &contact)
+  {
+    return first_finding(contact, [&](const ContactPair &pair, const Vector &forces) {
+      return overlap_of_pair(contact, pair, forces);
+    });
+  }
+
+
+
+  std::vector<std::string>
+  pairs_with_oblique_forces(const Contact &contact)
+  {
+    std::vector<std::string> names;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      {
-        const ContactPair &pair = contact.pair(p);
-        const std::string  text =
-          pair.tied() ? "" : unresolved_in_pair(contact, pair, contact.solid_model());
-        if (!text.empty())
-          return "contact pair '" + pair.parameters().name + "': " + text +
-                 ". Rows of slave nodes cannot describe this contact: refine the slave surface" +
-                 (pair.master() ? ", exchange slave and master, or round the edges" : "");
-      }
-    return "";
+      if (const ContactPair &pair = contact.pair(p);
+          !pair.tied() &&
+          !oblique_force_of_pair(contact, pair, normal_forces(contact, pair, contact.solid_model()))
+             .empty())
+        names.push_back(pair.parameters().name);
+    return names;
   }
 
 

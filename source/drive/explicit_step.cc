@@ -238,11 +238,21 @@ namespace Touchstone
   StepFindings
   ExplicitStep::findings() const
   {
-    // As in implicit steps: rows of nodes and faces would give it a force in a wrong direction.
-    if (impulses)
-      if (const std::string text = unresolved_contact(contact); !text.empty())
-        throw UnresolvedContactFailure(text);
-    return found;
+    StepFindings result = found;
+    if (!impulses)
+      return result;
+    if (const std::string text = unresolved_overlap(contact); !text.empty())
+      throw UnresolvedContactFailure(text);
+    // A corner that hits a face between its nodes gets a force in a wrong direction, but momentum
+    // and energy are right, and a tumbling body goes on: other than in statics this is no reason to
+    // end.
+    for (const std::string &pair : pairs_with_oblique_forces(contact))
+      result.warnings.push_back("contact pair '" + pair +
+                                "' has had forces far from normal to the slave surface, as an edge "
+                                "or a vertex touches another edge or the inside of a slave face: "
+                                "their direction is not right; refine the slave surface, exchange "
+                                "slave and master, or round the edges");
+    return result;
   }
 
 

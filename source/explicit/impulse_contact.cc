@@ -133,19 +133,21 @@ namespace Touchstone
     ++counted.cycles;
     counted.sweeps += counts.sweeps;
     counted.rounds += counts.rounds;
-    counted.most_sweeps = std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps);
-    acted               = counts.rounds > 0;
+    counted.most_sweeps     = std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps);
+    const bool acted_before = acted;
+    acted                   = counts.rounds > 0;
     for (KeptRow &row : kept)
       row.fresh = false;
     if (!acted)
       {
-        for (RowHistory &row : history)
-          {
-            row.impulse       = Tensor<1, dim>();
-            row.sliding       = false;
-            row.energy.ahead  = 0.;
-            row.energy.stored = 0.;
-          }
+        if (acted_before)
+          for (RowHistory &row : history)
+            {
+              row.impulse       = Tensor<1, dim>();
+              row.sliding       = false;
+              row.energy.ahead  = 0.;
+              row.energy.stored = 0.;
+            }
         return;
       }
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 // Where the kept rows stand at the start of a cycle: gaps, the velocity that they leave free, what
@@ -26,6 +27,11 @@ namespace Touchstone
     /** And no more than this part of it: what a change of weights or normals makes of a gap that
      * was closed is undone over many cycles, so that the work is no matter of one of them. */
     constexpr double undone_of_overlap = 0.05;
+
+    /** Sides that are farther apart than they come with so many times the highest velocity of their
+     * nodes do not meet in the cycle: twice that velocity they come from both sides, and an impact
+     * on other rows in the same cycle can double it. */
+    constexpr double beyond_reach = 4.;
 
     /** A lever shorter than this, relative to the size of the faces, is round-off. */
     constexpr double no_lever = 1e-13;
@@ -84,9 +90,31 @@ namespace Touchstone
 
 
 
+  double
+  ImpulseContact::reach(const double time, const double step) const
+  {
+    // Springs need the mobility of all rows.
+    if (rule.springs())
+      return std::numeric_limits<double>::max();
+    double square = 0.;
+    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+      square =
+        std::max({square, solver.velocity[node].norm_square(), v_before[node].norm_square()});
+    double way = step * std::sqrt(Utilities::MPI::max(square, nodes.communicator()));
+    // An obstacle may drive a node that has rows with other bodies, too.
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const ContactPair &pair = contact.pair(p); !pair.master())
+        way =
+          std::max(way, (pair.pairing().shift(time + step) - pair.pairing().shift(time)).norm());
+    return beyond_reach * way;
+  }
+
+
+
   void
   ImpulseContact::set_geometry(const double time, const double step)
   {
+    const double far = reach(time, step);
     for (std::size_t k = 0; k < kept.size(); ++k)
       {
         ImpulseRow       &row  = solver.rows[k];
@@ -97,8 +125,8 @@ namespace Touchstone
         if (from.stencil.empty())
           set_obstacle_geometry(row, kept[k], time, step);
         else
-          set_pair_geometry(row, kept[k], time, step);
-        if (row.friction)
+          set_pair_geometry(row, kept[k], time, step, far);
+        if (row.friction && !row.distant)
           {
             row.tangential  = directions_of_friction(*row.friction, row.normal);
             row.slip_length = row.friction->history.slip_length + h.path;
@@ -142,11 +170,12 @@ namespace Touchstone
   ImpulseContact::set_pair_geometry(ImpulseRow  &row,
                                     KeptRow     &from,
                                     const double time,
-                                    const double step)
+                                    const double step,
+                                    const double reach)
   {
     const ContactRow &of = contact.rows()[from.index];
     row.normal           = of.normal;
-    set_lever(row, of);
+    row.distant          = false;
     Tensor<1, dim> by_motion;
     for (unsigned int i = 0; i < row.n_nodes; ++i)
       {
@@ -154,7 +183,10 @@ namespace Touchstone
         by_motion += solver.weights[s] * u_nodes[solver.nodes.node(s)];
       }
     if (row.tied)
-      row.allowed = (from.gap_vector + by_motion) / step;
+      {
+        set_lever(row, of);
+        row.allowed = (from.gap_vector + by_motion) / step;
+      }
     else
       {
         const ContactPair &pair    = contact.pair(of);
@@ -164,8 +196,16 @@ namespace Touchstone
           from.gap + by_motion * row.normal + (from.part - pair.part_of_overlap(time)) * overlap;
         const double grows =
           (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
-        from.at_start = gap;
-        row.allowed   = ((gap - gap_allowed(row, of, gap, step) + grows) / step) * row.normal;
+        from.at_start  = gap;
+        row.distant    = std::min(gap, gap + grows) > reach && row.impulse.norm_square() == 0.;
+        row.levered    = false;
+        double allowed = 0.; // gap at the end of the cycle
+        if (!row.distant)
+          {
+            set_lever(row, of);
+            allowed = gap_allowed(row, of, gap, step);
+          }
+        row.allowed = ((gap - allowed + grows) / step) * row.normal;
       }
   }
 

@@ -252,7 +252,7 @@ namespace Touchstone
   {
     int more = 0;
     for (std::size_t k = 0; k < rows.size(); ++k)
-      if (!active[k] && violation(rows[k], rows[k].velocity) > tolerance)
+      if (!active[k] && !rows[k].distant && violation(rows[k], rows[k].velocity) > tolerance)
         {
           active[k] = true;
           more      = 1;
@@ -384,11 +384,10 @@ namespace Touchstone
   {
     ImpulseCounts counts;
     free = velocity;
-    std::fill(at_slots.begin(), at_slots.end(), Tensor<1, dim>());
     for (std::size_t k = 0; k < rows.size(); ++k)
       {
         ImpulseRow &row   = rows[k];
-        row.free_velocity = row.velocity = relative_velocity(row);
+        row.free_velocity = row.velocity = row.distant ? Tensor<1, dim>() : relative_velocity(row);
         row.blocked                      = false;
         if (control.one_sweep)
           row.impulse = Tensor<1, dim>();
@@ -397,6 +396,8 @@ namespace Touchstone
     const int warm = std::find(active.begin(), active.end(), true) != active.end();
     bool      more = activate(0.);
     more           = Utilities::MPI::max(warm, nodes.communicator()) > 0 || more;
+    if (more)
+      std::fill(at_slots.begin(), at_slots.end(), Tensor<1, dim>());
     while (more)
       {
         ++counts.rounds;

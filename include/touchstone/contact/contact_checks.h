@@ -18,6 +18,16 @@ namespace Touchstone
    * cannot describe, in words; empty if there is none. Collective. */
   std::string
   unresolved_contact(const Contact &contact);
+
+  /** @brief The part of unresolved_contact() that overlaps show: edges that have passed through
+   * each other, vertices and obstacles within slave faces. Collective. */
+  std::string
+  unresolved_overlap(const Contact &contact);
+
+  /** @brief Pairs with a contact force that is far from normal to the slave surface, the other part
+   * of unresolved_contact(). Collective. */
+  std::vector<std::string>
+  pairs_with_oblique_forces(const Contact &contact);
 } // namespace Touchstone
 
 #endif

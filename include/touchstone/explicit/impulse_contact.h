@@ -228,8 +228,11 @@ namespace Touchstone
     velocity_before(const ImpulseRow &row, const RowHistory &h) const;
     double
     gap_allowed(const ImpulseRow &row, const ContactRow &of, double gap, double step) const;
+    /** The gap from which on sides cannot meet within a cycle, length. Collective. */
+    double
+    reach(double time, double step) const;
     void
-    set_pair_geometry(ImpulseRow &row, KeptRow &from, double time, double step);
+    set_pair_geometry(ImpulseRow &row, KeptRow &from, double time, double step, double reach);
     void
     set_obstacle_geometry(ImpulseRow &row, KeptRow &from, double time, double step);
     void

@@ -45,6 +45,8 @@ namespace Touchstone
     dealii::Tensor<1, dim> drive;
     /** The lever entries act. */
     bool levered = false;
+    /** The sides are so far apart that they cannot meet in this cycle: the row takes no part. */
+    bool distant = false;
     /** Slips since the cycle before. */
     bool sliding = false;
     /** Slip path before the cycle, length. */
