@@ -2,6 +2,7 @@
 
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/overlapping_bodies.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -68,14 +69,10 @@ namespace Touchstone
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
           {
-            one.body = cell->material_id();
+            one.body    = cell->material_id();
+            one.corners = deformed_vertices(cell, u);
             for (unsigned int v = 0; v < n_corners; ++v)
-              {
-                one.corners[v] = cell->vertex(v);
-                one.nodes[v]   = cell->vertex_dof_index(v, 0);
-                for (unsigned int d = 0; d < dim; ++d)
-                  one.corners[v][d] += u(cell->vertex_dof_index(v, d));
-              }
+              one.nodes[v] = cell->vertex_dof_index(v, 0);
             for (unsigned int f = 0; f < n_faces; ++f)
               one.outer[f] = cell->at_boundary(f);
             use(one);

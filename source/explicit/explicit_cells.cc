@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
-#include <touchstone/base/input_error.h>
 #include <touchstone/explicit/explicit_cells.h>
 #include <touchstone/explicit/stable_step.h>
 

@@ -36,6 +36,15 @@ namespace Touchstone
     /** A lever shorter than this, relative to the size of the faces, is round-off. */
     constexpr double no_lever = 1e-13;
 
+    /** How far the obstacle of a pair moves in a cycle. */
+    Tensor<1, dim>
+    motion_of_obstacle(const ContactPair &pair, const double time, const double step)
+    {
+      return pair.pairing().shift(time + step) - pair.pairing().shift(time);
+    }
+
+
+
     /** The directions that friction acts along: tangential, and in planes of symmetry
      * (doc/theory.md 6). */
     Tensor<2, dim>
@@ -59,8 +68,7 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const ContactPair &pair = contact.pair(p); !pair.master())
         {
-          const Tensor<1, dim> move =
-            pair.pairing().shift(time + step) - pair.pairing().shift(time);
+          const Tensor<1, dim> move = motion_of_obstacle(pair, time, step);
           if (move.norm() <= smallest_face[p])
             continue;
           unsigned int axis = 0;
@@ -93,8 +101,11 @@ namespace Touchstone
   double
   ImpulseContact::reach(const double time, const double step) const
   {
-    // Springs need the mobility of all rows.
-    if (rule.springs())
+    // Springs need the mobility of all rows, and rows with obstacles always take part.
+    bool bodies = false;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      bodies = bodies || contact.pair(p).master();
+    if (rule.springs() || !bodies)
       return std::numeric_limits<double>::max();
     double square = 0.;
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
@@ -104,8 +115,7 @@ namespace Touchstone
     // An obstacle may drive a node that has rows with other bodies, too.
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const ContactPair &pair = contact.pair(p); !pair.master())
-        way =
-          std::max(way, (pair.pairing().shift(time + step) - pair.pairing().shift(time)).norm());
+        way = std::max(way, motion_of_obstacle(pair, time, step).norm());
     return beyond_reach * way;
   }
 
@@ -218,19 +228,18 @@ namespace Touchstone
                                         const double time,
                                         const double step)
   {
-    const ContactRow    &of   = contact.rows()[from.index];
-    const ContactPair   &pair = contact.pair(of);
-    const unsigned int   node = solver.nodes.node(row.first);
-    const Point<dim>     x(reference[node] + u_nodes[node]);
-    const auto           here    = pair.pairing().at(x, time);
-    const double         overlap = pair.overlap(of.index - pair.rows().front().index);
-    const Tensor<1, dim> motion  = pair.pairing().shift(time + step) - pair.pairing().shift(time);
-    row.drive                    = motion / step;
-    RowHistory &h                = history[of.index];
-    h.drive_before               = h.driven ? h.drive : row.drive;
-    h.drive                      = row.drive;
-    h.driven                     = true;
-    row.normal                   = here->normal;
+    const ContactRow  &of   = contact.rows()[from.index];
+    const ContactPair &pair = contact.pair(of);
+    const unsigned int node = solver.nodes.node(row.first);
+    const Point<dim>   x(reference[node] + u_nodes[node]);
+    const auto         here    = pair.pairing().at(x, time);
+    const double       overlap = pair.overlap(of.index - pair.rows().front().index);
+    row.drive                  = motion_of_obstacle(pair, time, step) / step;
+    RowHistory &h              = history[of.index];
+    h.drive_before             = h.driven ? h.drive : row.drive;
+    h.drive                    = row.drive;
+    h.driven                   = true;
+    row.normal                 = here->normal;
     if (row.tied)
       {
         row.allowed =

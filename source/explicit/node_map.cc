@@ -203,7 +203,11 @@ namespace Touchstone
       }
     for (const auto &[rank, dofs] : exchange_records(wanted, comm))
       for (const Index dof : dofs)
-        all[rank].sent.push_back(local(dof));
+        {
+          const unsigned int node = local(dof);
+          AssertThrow(node != dealii::numbers::invalid_unsigned_int, ExcInternalError());
+          all[rank].sent.push_back(node);
+        }
     for (auto &[rank, neighbour] : all)
       {
         neighbour.rank = rank;

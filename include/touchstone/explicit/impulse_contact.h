@@ -76,8 +76,7 @@ namespace Touchstone
 
     /** @brief Before the first cycle: change the velocities @p v half a cycle before @p time to
      * such that do not come from within a row that is closed and stays so with the initial
-     * velocities
-     * @p start. Collective. Arguments as of project(). */
+     * velocities @p start. Collective. Arguments as of project(). */
     void
     project_before(const NodeField &u,
                    const NodeField &start,

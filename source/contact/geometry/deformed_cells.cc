@@ -43,19 +43,28 @@ namespace Touchstone
 
 
 
+  std::array<Point<dim>, 8>
+  deformed_vertices(const DoFHandler<dim>::active_cell_iterator &cell, const Vector &u)
+  {
+    std::array<Point<dim>, 8> result;
+    for (unsigned int v = 0; v < 8; ++v)
+      {
+        result[v] = cell->vertex(v);
+        for (unsigned int d = 0; d < dim; ++d)
+          result[v][d] += u(cell->vertex_dof_index(v, d));
+      }
+    return result;
+  }
+
+
+
   DeformedCells::DeformedCells(const Solid &solid, const unsigned int body, const Vector &u)
   {
     std::vector<std::pair<Box, std::size_t>> boxes;
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned() && cell->material_id() == body)
         {
-          std::array<Point<dim>, 8> corners;
-          for (unsigned int v = 0; v < 8; ++v)
-            {
-              corners[v] = cell->vertex(v);
-              for (unsigned int d = 0; d < dim; ++d)
-                corners[v][d] += u(cell->vertex_dof_index(v, d));
-            }
+          const std::array<Point<dim>, 8> corners = deformed_vertices(cell, u);
           boxes.emplace_back(Box(std::vector<Point<dim>>(corners.begin(), corners.end())),
                              cells.size());
           cells.push_back(corners);

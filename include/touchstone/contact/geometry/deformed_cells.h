@@ -13,6 +13,10 @@
 
 namespace Touchstone
 {
+  /** @brief The vertices of a cell with the displacement @p u, with ghosts. */
+  std::array<dealii::Point<dim>, 8>
+  deformed_vertices(const dealii::DoFHandler<dim>::active_cell_iterator &cell, const Vector &u);
+
   /** @brief The cells of one body on this rank, with straight edges, to ask whether points
    * lie in the body. */
   class DeformedCells
