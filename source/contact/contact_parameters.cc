@@ -25,10 +25,8 @@ namespace Touchstone
 
 
 
-  // Order matters: the choice of pairing and friction law is read early (`values`), because their
-  // own keys have to be declared before the file is parsed.
   void
-  ContactPairParameters::declare(ParameterHandler &prm, const EarlyValues &values)
+  ContactPairParameters::declare_surfaces(ParameterHandler &prm)
   {
     prm.add_parameter("Slave body",
                       slave_body,
@@ -51,6 +49,16 @@ namespace Touchstone
                       "Name of the rigid obstacle that must not be penetrated; "
                       "empty if it is a body.",
                       Patterns::Anything());
+  }
+
+
+
+  // Order matters: the choice of pairing and friction law is read early (`values`), because their
+  // own keys have to be declared before the file is parsed.
+  void
+  ContactPairParameters::declare(ParameterHandler &prm, const EarlyValues &values)
+  {
+    declare_surfaces(prm);
     pairing.declare_key(prm,
                         values,
                         "Pairing",

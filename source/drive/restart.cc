@@ -132,13 +132,9 @@ namespace Touchstone
 
 
 
-  std::vector<std::string>
-  Simulation::resume()
+  bool
+  Simulation::restore_mesh(ArchiveReader &archive)
   {
-    const Checkpoint &checkpoint = *origin.checkpoint;
-    ArchiveReader     archive([&checkpoint](const unsigned int i) { return checkpoint.piece(i); },
-                          checkpoint.n_pieces);
-    check_mesh_files(archive);
     // Adapted meshes are stored as the set of refined cells and made again from the initial mesh.
     const auto refined = archive.refined_cells(forest.first_level());
     if (!refined.empty())
@@ -160,27 +156,22 @@ namespace Touchstone
       {
         throw InputError("command line",
                          "--resume",
-                         checkpoint.name,
+                         origin.checkpoint->name,
                          std::string("this checkpoint does not belong to the scene: ") +
                            error.what() + ", the scene has one of " +
                            std::to_string(forest.triangulation.n_global_active_cells()),
                          "restore mesh files that have changed, or run the scene from its "
                          "beginning without --resume");
       }
-    problem->start();
-    problem->load(archive);
+    return !refined.empty();
+  }
 
-    start = archive.get<Position>("position");
-    // The size of the next step is that of the checkpoint, cut as it was. If the user has changed
-    // the step size or the end time, the number of cuts is applied to the new nominal size.
-    const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
-    if (nominal != archive.get<double>("nominal step size") ||
-        scene.load_stepping.end_time != archive.get<double>("end time"))
-      start.size = std::ldexp(nominal, -static_cast<int>(start.cuts));
-    committed_time = start.time;
-    progress.start_at(start.time);
 
-    // Results of the run so far; counts of the mesh come from the present one.
+
+  void
+  Simulation::restore_results(ArchiveReader &archive)
+  {
+    // Counts of the mesh come from the present one.
     const RunSummary before = archive.get<RunSummary>("summary");
     summary.steps           = before.steps;
     summary.meshes          = before.meshes;
@@ -212,13 +203,39 @@ namespace Touchstone
       summary.cycles = archive.get<std::uint64_t>("cycles");
     if (archive.has("contact work"))
       summary.contact_work = archive.get<ImpulseWork>("contact work");
+  }
+
+
+
+  std::vector<std::string>
+  Simulation::resume()
+  {
+    const Checkpoint &checkpoint = *origin.checkpoint;
+    ArchiveReader     archive([&checkpoint](const unsigned int i) { return checkpoint.piece(i); },
+                          checkpoint.n_pieces);
+    check_mesh_files(archive);
+    const bool refined = restore_mesh(archive);
+    problem->start();
+    problem->load(archive);
+
+    start = archive.get<Position>("position");
+    // The size of the next step is that of the checkpoint, cut as it was. If the user has changed
+    // the step size or the end time, the number of cuts is applied to the new nominal size.
+    const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
+    if (nominal != archive.get<double>("nominal step size") ||
+        scene.load_stepping.end_time != archive.get<double>("end time"))
+      start.size = std::ldexp(nominal, -static_cast<int>(start.cuts));
+    committed_time = start.time;
+    progress.start_at(start.time);
+
+    restore_results(archive);
     last_checkpoint = start.step;
 
     std::vector<std::string> lines = origin.skipped;
     lines.push_back("goes on from " + checkpoint.name + ": step " + std::to_string(start.step - 1) +
                     " at time " + Utilities::to_string(start.time) + ", written on " +
                     std::to_string(checkpoint.n_pieces) + " rank(s)" +
-                    (refined.empty() ? "" : "; " + std::to_string(summary.cells) + " cells"));
+                    (refined ? "; " + std::to_string(summary.cells) + " cells" : ""));
     lines.insert(lines.end(), changed_parameters.begin(), changed_parameters.end());
     return lines;
   }

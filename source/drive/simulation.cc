@@ -195,6 +195,59 @@ namespace Touchstone
 
 
   void
+  Simulation::record_energies(const std::vector<PairResult> &results, ConvergedStep &record)
+  {
+    const Energies &energies  = problem->state().time_integration.committed_energies();
+    record.energies["strain"] = energies.strain;
+    if (solid.has_history())
+      record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
+    if (problem->state().time_integration.dynamic())
+      {
+        // The ledger of doc/time_integration.md, "The energy ledger".
+        record.energies["kinetic"]       = energies.kinetic;
+        record.energies["contact"]       = energies.contact;
+        record.energies["friction"]      = energies.friction;
+        record.energies["damping"]       = energies.damping;
+        record.energies["external"]      = energies.external;
+        record.energies["balance error"] = energies.balance_error();
+        if (const CycleCounts *cycles = problem->cycle_counts())
+          {
+            record.energies["hourglass"] = energies.hourglass;
+            record.energies["viscous"]   = energies.viscous;
+            record.cycles.emplace(cycles->cycles, cycles->smallest_step);
+            summary.cycles += cycles->cycles;
+            if (!scene.pairs.empty())
+              {
+                record.contact_work = cycles->contact;
+                summary.contact_work.add(cycles->contact);
+              }
+          }
+        for (unsigned int p = 0; p < results.size(); ++p)
+          summary.motion->add_step(scene.pairs[p].name,
+                                   record.time - record.step_size,
+                                   record.time,
+                                   results[p]);
+        const auto momenta = problem->state().time_integration.momenta();
+        record.momentum.emplace();
+        record.angular_momentum.emplace();
+        for (unsigned int b = 0; b < momenta.size(); ++b)
+          {
+            *record.momentum += momenta[b].linear;
+            *record.angular_momentum += momenta[b].angular;
+            // Velocity of the centre of mass.
+            summary.motion->velocities[scene.bodies[b].name] = momenta[b].linear / momenta[b].mass;
+          }
+        summary.motion->energies = energies;
+      }
+    else
+      for (const ContactPairParameters &pair : scene.pairs)
+        if (pair.friction)
+          record.energies["friction"] += summary.contact[pair.name].friction_work;
+  }
+
+
+
+  void
   Simulation::record_step(const unsigned int step,
                           const double       time,
                           const double       size,
@@ -230,49 +283,7 @@ namespace Touchstone
         record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
         summary.reactions[reaction.body][reaction.boundary]       = reaction.force;
       }
-    const Energies &energies  = problem->state().time_integration.committed_energies();
-    record.energies["strain"] = energies.strain;
-    if (solid.has_history())
-      record.energies[solid.plastic() ? "plastic" : "material dissipation"] = energies.plastic;
-    if (problem->state().time_integration.dynamic())
-      {
-        // The ledger of doc/time_integration.md, "The energy ledger".
-        record.energies["kinetic"]       = energies.kinetic;
-        record.energies["contact"]       = energies.contact;
-        record.energies["friction"]      = energies.friction;
-        record.energies["damping"]       = energies.damping;
-        record.energies["external"]      = energies.external;
-        record.energies["balance error"] = energies.balance_error();
-        if (const CycleCounts *cycles = problem->cycle_counts())
-          {
-            record.energies["hourglass"] = energies.hourglass;
-            record.energies["viscous"]   = energies.viscous;
-            record.cycles.emplace(cycles->cycles, cycles->smallest_step);
-            summary.cycles += cycles->cycles;
-            if (!scene.pairs.empty())
-              {
-                record.contact_work = cycles->contact;
-                summary.contact_work.add(cycles->contact);
-              }
-          }
-        for (unsigned int p = 0; p < results.size(); ++p)
-          summary.motion->add_step(scene.pairs[p].name, time - size, time, results[p]);
-        const auto momenta = problem->state().time_integration.momenta();
-        record.momentum.emplace();
-        record.angular_momentum.emplace();
-        for (unsigned int b = 0; b < momenta.size(); ++b)
-          {
-            *record.momentum += momenta[b].linear;
-            *record.angular_momentum += momenta[b].angular;
-            // Velocity of the centre of mass.
-            summary.motion->velocities[scene.bodies[b].name] = momenta[b].linear / momenta[b].mass;
-          }
-        summary.motion->energies = energies;
-      }
-    else
-      for (const ContactPairParameters &pair : scene.pairs)
-        if (pair.friction)
-          record.energies["friction"] += summary.contact[pair.name].friction_work;
+    record_energies(results, record);
     {
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);

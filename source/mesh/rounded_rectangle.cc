@@ -120,69 +120,75 @@ namespace Touchstone
   {
     // A cell of the rows is as high as one of the rounding is long, so cells at the rounding are
     // about square.
-    const double                       arc    = numbers::PI / 4. * radius;
-    const double                       height = arc / fillet_half;
-    std::array<std::vector<double>, 2> along, block;
-    std::array<unsigned int, 2>        n;
+    Lattice lattice;
+    lattice.arc    = numbers::PI / 4. * radius;
+    lattice.half   = fillet_half;
+    lattice.rows   = rows;
+    lattice.height = lattice.arc / fillet_half;
     for (unsigned int d = 0; d < 2; ++d)
       {
-        n[d]     = straight[d] + fillet_half;
-        along[d] = path(arc, fillet_half, lengths[d] - radius, straight[d], grading);
+        lattice.n[d] = straight[d] + fillet_half;
+        lattice.along[d] =
+          path(lattice.arc, fillet_half, lengths[d] - radius, straight[d], grading);
         // On the opposite side the block begins after the rows.
-        for (const double s : along[d])
-          block[d].push_back(rows * height + (lengths[d] - rows * height) * s / along[d].back());
+        const double begin = rows * lattice.height;
+        for (const double s : lattice.along[d])
+          lattice.block[d].push_back(begin + (lengths[d] - begin) * s / lattice.along[d].back());
       }
+    points.resize(lattice.n_points());
+    const std::vector<bool> prescribed = place_outline(lattice, lengths, radius);
+    smooth(points, prescribed, cells, add_cells(lattice));
+  }
 
-    // Points of the block, then of the rows from the boundary inwards. In a row they
-    // count from -n[1], the end of the second side, over 0, the middle of the
-    // rounding, to n[0].
-    const unsigned int row_points = n[0] + n[1] + 1;
-    const auto         in_block   = [&](const unsigned int i, const unsigned int j) {
-      return i + (n[0] + 1) * j;
-    };
-    const auto in_row = [&](const int p, const unsigned int row) {
-      return row == rows ? (p >= 0 ? in_block(p, 0) : in_block(0, -p))
-                         : (n[0] + 1) * (n[1] + 1) + row * row_points + p + n[1];
-    };
-    const int first = -static_cast<int>(n[1]), last = n[0], f = fillet_half;
 
-    points.resize((n[0] + 1) * (n[1] + 1) + rows * row_points);
+
+  std::vector<bool>
+  RoundedRectangle::place_outline(const Lattice               &l,
+                                  const std::array<double, 2> &lengths,
+                                  const double                 radius)
+  {
+    const int         half = l.half;
     std::vector<bool> prescribed(points.size(), false);
     const auto place = [&](const unsigned int v, const Point<2> &x, std::set<unsigned int> &part) {
       points[v]     = x;
       prescribed[v] = true;
       part.insert(v);
     };
-
-    for (int p = first; p <= last; ++p)
+    for (int p = l.first(); p <= l.last(); ++p)
       {
-        const unsigned int v = in_row(p, 0);
+        const unsigned int v = l.in_row(p, 0);
         // Ends of the rounding are placed as points of the sides.
-        if (std::abs(p) <= f)
+        if (std::abs(p) <= half)
           {
-            const double angle = numbers::PI / 4. * (5. + static_cast<double>(p) / f);
+            const double angle = numbers::PI / 4. * (5. + static_cast<double>(p) / half);
             place(v,
                   Point<2>(radius + radius * std::cos(angle), radius + radius * std::sin(angle)),
                   fillet);
           }
-        if (p >= f)
-          place(v, Point<2>(radius - arc + along[0][p], 0.), first_side);
-        if (p <= -f)
-          place(v, Point<2>(0., radius - arc + along[1][-p]), second_side);
+        if (p >= half)
+          place(v, Point<2>(radius - l.arc + l.along[0][p], 0.), first_side);
+        if (p <= -half)
+          place(v, Point<2>(0., radius - l.arc + l.along[1][-p]), second_side);
       }
     // Where the rows end on the far sides they have their full height, and the block takes the
     // rest of the side.
-    for (unsigned int row = 0; row < rows; ++row)
+    for (unsigned int row = 0; row < l.rows; ++row)
       {
-        place(in_row(last, row), Point<2>(lengths[0], row * height), far_second_side);
-        place(in_row(first, row), Point<2>(row * height, lengths[1]), far_first_side);
+        place(l.in_row(l.last(), row), Point<2>(lengths[0], row * l.height), far_second_side);
+        place(l.in_row(l.first(), row), Point<2>(row * l.height, lengths[1]), far_first_side);
       }
-    for (unsigned int j = 0; j <= n[1]; ++j)
-      place(in_block(n[0], j), Point<2>(lengths[0], block[1][j]), far_second_side);
-    for (unsigned int i = 0; i <= n[0]; ++i)
-      place(in_block(i, n[1]), Point<2>(block[0][i], lengths[1]), far_first_side);
+    for (unsigned int j = 0; j <= l.n[1]; ++j)
+      place(l.in_block(l.n[0], j), Point<2>(lengths[0], l.block[1][j]), far_second_side);
+    for (unsigned int i = 0; i <= l.n[0]; ++i)
+      place(l.in_block(i, l.n[1]), Point<2>(l.block[0][i], lengths[1]), far_first_side);
+    return prescribed;
+  }
 
-    // Sizes of the cells in the undistorted lattice, from which smooth() takes its weights.
+
+
+  std::vector<std::array<double, 2>>
+  RoundedRectangle::add_cells(const Lattice &l)
+  {
     std::vector<std::array<double, 2>> sizes;
     const auto                         add =
       [&](const std::array<unsigned int, 4> &v, const double width, const double high) {
@@ -191,17 +197,22 @@ namespace Touchstone
         cells.push_back(cell);
         sizes.push_back({{width, high}});
       };
-    for (unsigned int j = 0; j < n[1]; ++j)
-      for (unsigned int i = 0; i < n[0]; ++i)
-        add({{in_block(i, j), in_block(i + 1, j), in_block(i, j + 1), in_block(i + 1, j + 1)}},
-            block[0][i + 1] - block[0][i],
-            block[1][j + 1] - block[1][j]);
-    for (unsigned int row = 0; row < rows; ++row)
-      for (int p = first; p < last; ++p)
-        add({{in_row(p, row), in_row(p + 1, row), in_row(p, row + 1), in_row(p + 1, row + 1)}},
-            p >= 0 ? along[0][p + 1] - along[0][p] : along[1][-p] - along[1][-p - 1],
-            height);
-
-    smooth(points, prescribed, cells, sizes);
+    for (unsigned int j = 0; j < l.n[1]; ++j)
+      for (unsigned int i = 0; i < l.n[0]; ++i)
+        add({{l.in_block(i, j),
+              l.in_block(i + 1, j),
+              l.in_block(i, j + 1),
+              l.in_block(i + 1, j + 1)}},
+            l.block[0][i + 1] - l.block[0][i],
+            l.block[1][j + 1] - l.block[1][j]);
+    for (unsigned int row = 0; row < l.rows; ++row)
+      for (int p = l.first(); p < l.last(); ++p)
+        add({{l.in_row(p, row),
+              l.in_row(p + 1, row),
+              l.in_row(p, row + 1),
+              l.in_row(p + 1, row + 1)}},
+            p >= 0 ? l.along[0][p + 1] - l.along[0][p] : l.along[1][-p] - l.along[1][-p - 1],
+            l.height);
+    return sizes;
   }
 } // namespace Touchstone

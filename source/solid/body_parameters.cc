@@ -58,6 +58,65 @@ namespace Touchstone
 
 
   void
+  BodyParameters::declare_formulas(ParameterHandler &prm)
+  {
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::string letter(1, "xyz"[d]);
+        const auto        formula =
+          [&](const std::string &key, std::string &value, const std::string &what) {
+            prm.add_parameter(key + " " + letter, value, what, Patterns::Anything());
+          };
+        formula("Initial velocity",
+                initial_velocity[d],
+                letter + " component of the velocity at time 0, a formula in x, y, z; empty: "
+                         "zero. [length per time]");
+        formula("Initial displacement",
+                initial_displacement[d],
+                letter + " component of the displacement that the body starts from, a formula in "
+                         "x, y, z; empty: zero. [length]");
+        formula("Body force",
+                body_force[d],
+                letter + " component of the force on the body, gravity for example, a formula in "
+                         "x, y, z, t; empty: none. [force per reference volume]");
+        formula("Reference displacement",
+                reference_displacement[d],
+                letter + " component of the displacement that the result is compared with if "
+                         "'Reference solution/Type' is 'formula', a formula in x, y, z, t; empty: "
+                         "not compared. [length]");
+      }
+  }
+
+
+
+  void
+  BodyParameters::declare_geometry(ParameterHandler &prm, const EarlyValues &values)
+  {
+    prm.enter_subsection("Geometry");
+    {
+      // The keys of a geometry are known only once its type is: the type is read first from the
+      // early values, then the object is made and declares keys of its own, so that a key of
+      // another geometry is an error.
+      geometry_type.declare_key(prm,
+                                values.in("Geometry"),
+                                "Type",
+                                "The shape of the body, which decides on the other keys here.");
+      if (!GeometryRegistry::knows(geometry_type.chosen()))
+        throw InputError(section() + "/Geometry",
+                         "Type",
+                         geometry_type.chosen(),
+                         "there is no such geometry" +
+                           did_you_mean(geometry_type.chosen(), GeometryRegistry::names()),
+                         "take one of " + quoted_list(GeometryRegistry::names()));
+      geometry_type.declare_own_keys(prm);
+      geometry = geometry_type.make();
+    }
+    prm.leave_subsection();
+  }
+
+
+
+  void
   BodyParameters::declare(ParameterHandler &prm, const EarlyValues &values)
   {
     element_type.declare(
@@ -89,56 +148,13 @@ namespace Touchstone
                       "Plane boundaries that keep their place in the normal "
                       "direction, by name or number.");
     prm.add_parameter("Fixed", fixed, "Boundaries that cannot move at all, by name or number.");
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        const std::string letter(1, "xyz"[d]);
-        const auto        formula =
-          [&](const std::string &key, std::string &value, const std::string &what) {
-            prm.add_parameter(key + " " + letter, value, what, Patterns::Anything());
-          };
-        formula("Initial velocity",
-                initial_velocity[d],
-                letter + " component of the velocity at time 0, a formula in x, y, z; empty: "
-                         "zero. [length per time]");
-        formula("Initial displacement",
-                initial_displacement[d],
-                letter + " component of the displacement that the body starts from, a formula in "
-                         "x, y, z; empty: zero. [length]");
-        formula("Body force",
-                body_force[d],
-                letter + " component of the force on the body, gravity for example, a formula in "
-                         "x, y, z, t; empty: none. [force per reference volume]");
-        formula("Reference displacement",
-                reference_displacement[d],
-                letter + " component of the displacement that the result is compared with if "
-                         "'Reference solution/Type' is 'formula', a formula in x, y, z, t; empty: "
-                         "not compared. [length]");
-      }
+    declare_formulas(prm);
     prm.add_parameter("Boundary conditions",
                       conditions,
                       "Boundaries, by name or number, that each have a subsection "
                       "'Boundary NAME' with displacements or loads.");
 
-    prm.enter_subsection("Geometry");
-    {
-      // The keys of a geometry are known only once its type is: the type is read first from the
-      // early values, then the object is made and declares keys of its own, so that a key of
-      // another geometry is an error.
-      geometry_type.declare_key(prm,
-                                values.in("Geometry"),
-                                "Type",
-                                "The shape of the body, which decides on the other keys here.");
-      if (!GeometryRegistry::knows(geometry_type.chosen()))
-        throw InputError(section() + "/Geometry",
-                         "Type",
-                         geometry_type.chosen(),
-                         "there is no such geometry" +
-                           did_you_mean(geometry_type.chosen(), GeometryRegistry::names()),
-                         "take one of " + quoted_list(GeometryRegistry::names()));
-      geometry_type.declare_own_keys(prm);
-      geometry = geometry_type.make();
-    }
-    prm.leave_subsection();
+    declare_geometry(prm, values);
 
     prm.enter_subsection("Material");
     material.declare(prm, values.in("Material"));

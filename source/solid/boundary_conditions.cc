@@ -76,74 +76,20 @@ namespace Touchstone
         const BodyParameters &body    = solid.bodies[b];
         const std::string     section = "Body " + body.name;
         // Each list once, under whatever name: a name and a number can mean the same.
-        const auto fixed    = forest.boundaries(b, body.fixed, section, "Fixed"),
-                   symmetry = forest.boundaries(b, body.symmetry, section, "Symmetry"),
-                   condition_ids =
-                     forest.boundaries(b, body.conditions, section, "Boundary conditions");
-        for (std::size_t k = 0; k < fixed.size(); ++k)
+        Supported  supported{forest.boundaries(b, body.fixed, section, "Fixed"), {}};
+        const auto symmetry = forest.boundaries(b, body.symmetry, section, "Symmetry");
+        const auto conditions =
+          forest.boundaries(b, body.conditions, section, "Boundary conditions");
+        for (std::size_t k = 0; k < supported.fixed.size(); ++k)
           {
-            const std::string &name = body.fixed[k];
-            const BoundaryIds &id   = fixed[k];
-            supports.push_back({body.name, name, Tensor<1, dim>()});
+            supports.push_back({body.name, body.fixed[k], Tensor<1, dim>()});
             for (unsigned int d = 0; d < dim; ++d)
-              prescribe_on(id, axis(d), nullptr, b, supports.size() - 1);
+              prescribe_on(supported.fixed[k], axis(d), nullptr, b, supports.size() - 1);
           }
-        std::map<BoundaryIds, Tensor<1, dim>> planes;
         for (std::size_t k = 0; k < symmetry.size(); ++k)
-          {
-            const std::string &name = body.symmetry[k];
-            const BoundaryIds &id   = symmetry[k];
-            if (std::count(fixed.begin(), fixed.end(), id) > 0)
-              throw InputError(section,
-                               "Symmetry",
-                               name,
-                               "this boundary is also in the list 'Fixed'",
-                               "name it once: a fixed boundary needs no symmetry");
-            supports.push_back({body.name, name, Tensor<1, dim>()});
-            // Pairing mirrors the normals of a contact surface at nodes on symmetry planes, so
-            // the planes of each node are kept.
-            const std::size_t before = prescribed.size();
-            planes[id]               = plane_normal(id, section, name);
-            prescribe_on(id, planes[id], nullptr, b, supports.size() - 1);
-            for (std::size_t i = before; i < prescribed.size(); ++i)
-              mirror_normals[prescribed[i].node].push_back(prescribed[i].direction);
-          }
-        for (std::size_t k = 0; k < condition_ids.size(); ++k)
-          {
-            const std::string &name = body.conditions[k];
-            const BoundaryIds &id   = condition_ids[k];
-            check_not_held(section + "/Boundary " + name,
-                           body.boundaries.at(name),
-                           std::count(fixed.begin(), fixed.end(), id) > 0,
-                           planes.count(id) > 0 ? planes.at(id) : Tensor<1, dim>());
-            const BoundaryParameters &condition = body.boundaries.at(name);
-            const auto parse = [&, where = section + "/Boundary " + name](const std::string &key,
-                                                                          const std::string &text) {
-              return formulas.add(where, key, text);
-            };
-            const std::array<Function, dim> displacement = {
-              {parse("Displacement x", condition.displacement_x),
-               parse("Displacement y", condition.displacement_y),
-               parse("Displacement z", condition.displacement_z)}};
-            if (displacement[0] || displacement[1] || displacement[2])
-              supports.push_back({body.name, name, Tensor<1, dim>()});
-            for (unsigned int d = 0; d < dim; ++d)
-              if (displacement[d])
-                prescribe_on(id, axis(d), displacement[d], b, supports.size() - 1);
-            const auto pressure = parse("Pressure", condition.pressure);
-            const bool follows  = pressure && condition.follows(body.material);
-            // A pressure on the deformed surface depends on the displacement and has a stiffness
-            // (doc/theory.md 2.3); one on the reference surface is a dead load.
-            if (follows)
-              following.add(id, pressure);
-            const Load load{id,
-                            {{parse("Traction x", condition.traction_x),
-                              parse("Traction y", condition.traction_y),
-                              parse("Traction z", condition.traction_z)}},
-                            follows ? nullptr : pressure};
-            if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
-              loads.push_back(load);
-          }
+          add_symmetry(b, symmetry[k], body.symmetry[k], supported);
+        for (std::size_t k = 0; k < conditions.size(); ++k)
+          add_condition(b, conditions[k], body.conditions[k], supported);
         body_forces.push_back({{formulas.add(section, "Body force x", body.body_force[0]),
                                 formulas.add(section, "Body force y", body.body_force[1]),
                                 formulas.add(section, "Body force z", body.body_force[2])}});
@@ -153,6 +99,75 @@ namespace Touchstone
           return force[0] || force[1] || force[2];
         }))
       body_forces.clear();
+  }
+
+
+
+  void
+  BoundaryConditions::add_symmetry(const unsigned int b,
+                                   const BoundaryIds &id,
+                                   const std::string &name,
+                                   Supported         &supported)
+  {
+    const BodyParameters &body    = solid.bodies[b];
+    const std::string     section = "Body " + body.name;
+    if (supported.is_fixed(id))
+      throw InputError(section,
+                       "Symmetry",
+                       name,
+                       "this boundary is also in the list 'Fixed'",
+                       "name it once: a fixed boundary needs no symmetry");
+    supports.push_back({body.name, name, Tensor<1, dim>()});
+    // Pairing mirrors the normals of a contact surface at nodes on symmetry planes, so
+    // the planes of each node are kept.
+    const std::size_t before = prescribed.size();
+    supported.planes[id]     = plane_normal(id, section, name);
+    prescribe_on(id, supported.planes[id], nullptr, b, supports.size() - 1);
+    for (std::size_t i = before; i < prescribed.size(); ++i)
+      mirror_normals[prescribed[i].node].push_back(prescribed[i].direction);
+  }
+
+
+
+  void
+  BoundaryConditions::add_condition(const unsigned int b,
+                                    const BoundaryIds &id,
+                                    const std::string &name,
+                                    const Supported   &supported)
+  {
+    const BodyParameters     &body      = solid.bodies[b];
+    const BoundaryParameters &condition = body.boundaries.at(name);
+    const std::string         section   = "Body " + body.name + "/Boundary " + name;
+    const auto                plane     = supported.planes.find(id);
+    check_not_held(section,
+                   condition,
+                   supported.is_fixed(id),
+                   plane != supported.planes.end() ? plane->second : Tensor<1, dim>());
+    const auto parse = [&](const std::string &key, const std::string &text) {
+      return formulas.add(section, key, text);
+    };
+    const std::array<Function, dim> displacement = {
+      {parse("Displacement x", condition.displacement_x),
+       parse("Displacement y", condition.displacement_y),
+       parse("Displacement z", condition.displacement_z)}};
+    if (displacement[0] || displacement[1] || displacement[2])
+      supports.push_back({body.name, name, Tensor<1, dim>()});
+    for (unsigned int d = 0; d < dim; ++d)
+      if (displacement[d])
+        prescribe_on(id, axis(d), displacement[d], b, supports.size() - 1);
+    const auto pressure = parse("Pressure", condition.pressure);
+    const bool follows  = pressure && condition.follows(body.material);
+    // A pressure on the deformed surface depends on the displacement and has a stiffness
+    // (doc/theory.md 2.3); one on the reference surface is a dead load.
+    if (follows)
+      following.add(id, pressure);
+    const Load load{id,
+                    {{parse("Traction x", condition.traction_x),
+                      parse("Traction y", condition.traction_y),
+                      parse("Traction z", condition.traction_z)}},
+                    follows ? nullptr : pressure};
+    if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
+      loads.push_back(load);
   }
 
 

@@ -52,6 +52,22 @@ namespace Touchstone
     {
       return size_squared > 0. ? std::sqrt(error_squared / size_squared) : std::nan("");
     }
+
+
+
+    /** A line of the log. */
+    std::string
+    forces_per_length(const double normal, const double tangential, const double friction)
+    {
+      char text[128];
+      std::snprintf(text,
+                    sizeof(text),
+                    "forces per length: P %.6g, Q %.6g, Q/(mu P) %.6g",
+                    normal,
+                    tangential,
+                    tangential / (friction * normal));
+      return text;
+    }
   } // namespace
 
 
@@ -196,14 +212,7 @@ namespace Touchstone
       *sum = dealii::Utilities::MPI::sum(*sum, input.communicator);
 
     ReferenceComparison result;
-    char                text[128];
-    std::snprintf(text,
-                  sizeof(text),
-                  "forces per length: P %.6g, Q %.6g, Q/(mu P) %.6g",
-                  normal,
-                  tangential,
-                  tangential / (friction * normal));
-    result.lines.push_back(text);
+    result.lines.push_back(forces_per_length(normal, tangential, friction));
     result.add("contact_half_width",
                "contact half-width",
                contact_edge.edge(input.communicator, active / (2. * depth)),

@@ -97,6 +97,11 @@ namespace Touchstone
     declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
+
+  private:
+    /** Which surfaces meet. */
+    void
+    declare_surfaces(dealii::ParameterHandler &prm);
   };
 
   /** @brief Section "Contact": how all pairs of the scene are enforced. */

@@ -126,6 +126,14 @@ namespace Touchstone
     /** @throws InputError if they have changed since the checkpoint was written. */
     void
     check_mesh_files(const ArchiveReader &archive) const;
+    /** Refine the mesh as it was, and find the nodes of the checkpoint in it.
+     * @return whether it has been refined.
+     * @throws InputError if the nodes are others. */
+    bool
+    restore_mesh(ArchiveReader &archive);
+    /** Summary, statistics, warnings and lists of output files of the run so far. */
+    void
+    restore_results(ArchiveReader &archive);
     /** Restore all that the checkpoint has. @return lines for the log. */
     std::vector<std::string>
     resume();
@@ -142,6 +150,9 @@ namespace Touchstone
      * @return Newton iterations. */
     unsigned int
     adapt(unsigned int step, double time);
+    /** Energies, momenta and cycles of a converged step. */
+    void
+    record_energies(const std::vector<PairResult> &results, ConvergedStep &record);
     void
     record_step(unsigned int step,
                 double       time,

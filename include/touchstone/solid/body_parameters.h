@@ -109,6 +109,13 @@ namespace Touchstone
     declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check() const;
+
+  private:
+    /** Initial state, body force and reference displacement. */
+    void
+    declare_formulas(dealii::ParameterHandler &prm);
+    void
+    declare_geometry(dealii::ParameterHandler &prm, const EarlyValues &values);
   };
 } // namespace Touchstone
 

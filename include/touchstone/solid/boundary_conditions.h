@@ -7,6 +7,7 @@
 #include <touchstone/base/formula.h>
 #include <touchstone/solid/follower_pressure.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -159,6 +160,32 @@ namespace Touchstone
     FollowerPressure                       following;
     std::vector<Reaction>                  supports;
 
+    /** Boundaries of a body that are fixed, and those of symmetry with their normals. */
+    struct Supported
+    {
+      std::vector<BoundaryIds>                      fixed;
+      std::map<BoundaryIds, dealii::Tensor<1, dim>> planes;
+
+      bool
+      is_fixed(const BoundaryIds &boundary) const
+      {
+        return std::count(fixed.begin(), fixed.end(), boundary) > 0;
+      }
+    };
+
+    /** @throws InputError if the boundary is fixed or not plane. */
+    void
+    add_symmetry(unsigned int       body,
+                 const BoundaryIds &boundary,
+                 const std::string &name,
+                 Supported         &supported);
+    /** Displacements and loads of a boundary.
+     * @throws InputError if it cannot move in the direction of a condition. */
+    void
+    add_condition(unsigned int       body,
+                  const BoundaryIds &boundary,
+                  const std::string &name,
+                  const Supported   &supported);
     void
     add_body_forces(double t, Vector &force) const;
     void

@@ -176,6 +176,9 @@ namespace Touchstone
     /** In ascending order of the nodes. */
     std::vector<NodeOfFaces> surface_nodes;
 
+    /** Faces around a node, each with the local index of the node there. */
+    using CornersOfFaces = std::vector<std::pair<const Face *, unsigned int>>;
+
     /** Of all nodes of all faces in the reference state. */
     std::vector<std::array<dealii::Tensor<1, dim>, 2>> reference_tangents;
 
@@ -183,6 +186,8 @@ namespace Touchstone
      * two halves. */
     using SplitEdge = std::pair<Edge, std::array<Edge, 2>>;
 
+    std::array<Stencil, 2>
+    material_tangents_at(const CornersOfFaces &around) const;
     /** @throws ExcInternalError if no face of this rank has the node. */
     const NodeOfFaces &
     node_of_faces(Index node) const;
