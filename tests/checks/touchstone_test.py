@@ -37,7 +37,8 @@ FACTOR, DEGREE = "Discretisation/Refinement factor", "Discretisation/Degree"
 MULTIPLIERS = {ENFORCEMENT: "lagrange multipliers"}
 AUGMENTED = {ENFORCEMENT: "augmented lagrange"}
 PENALTY = {ENFORCEMENT: "penalty"}
-CG, GMRES, MUMPS = ({SOLVER: name} for name in ("Belos CG", "Belos GMRES", "MUMPS"))
+CG, GMRES, MUMPS, PETSC = ({SOLVER: name} for name in
+                           ("Belos CG", "Belos GMRES", "MUMPS", "PETSc"))
 EXACT_ENFORCEMENTS = "elimination", "lagrange multipliers", "augmented lagrange"
 ENFORCEMENTS = (*EXACT_ENFORCEMENTS, "penalty")
 

@@ -4,8 +4,8 @@ same to 1e-6 with every exact enforcement, solver and number of ranks, to 1e-4 w
 1 % in 1, 4 and 16 steps; the two planes of symmetry bear the same force to 1e-8. A row that comes
 into contact within a step shows in each of these."""
 
-from touchstone_test import (AUGMENTED, CG, GMRES, MULTIPLIERS, MUMPS, PENALTY, STEPS, below, finish,
-                             prm, relative, run)
+from touchstone_test import (AUGMENTED, CG, GMRES, MULTIPLIERS, MUMPS, PENALTY, PETSC, STEPS, below,
+                             finish, prm, relative, run)
 
 
 def insert(name, settings, ranks=1, coefficient=0.2):
@@ -40,6 +40,8 @@ below("stiff_penalty, Newton iterations in 4 steps", stiff.iterations(), 24)
 below("stiff_penalty, iterations of GMRES in the mean", stiff.iterations("linear_mean"), 20)
 push("one_step", answer, 1e-2, {**GMRES, STEPS: 1})
 push("sixteen_steps", answer, 1e-2, {**GMRES, STEPS: 16})
+push("petsc_2", answer, 1e-6, {**PETSC, STEPS: 1}, 2)
+push("petsc_multipliers_2", answer, 1e-6, {**PETSC, **MULTIPLIERS, STEPS: 1}, 2)
 
 # No harder with more friction.
 for coefficient in 0.5, 1:
