@@ -3,7 +3,6 @@
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/surface.h>
-#include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,13 +67,6 @@ namespace Touchstone
               }
         }
       return result;
-    }
-
-    /** Whether two faces at a node are averaged: they do not meet in a sharp edge. */
-    bool
-    averaged_with(const Tensor<1, dim> &unit_normal, const Tensor<1, dim> &own)
-    {
-      return unit_normal * own > Tolerances::sharp_edge_cosine;
     }
   } // namespace
 

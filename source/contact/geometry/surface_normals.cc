@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/geometry/surface.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <cmath>
 
@@ -9,6 +10,18 @@
 namespace Touchstone
 {
   using namespace dealii;
+
+  namespace
+  {
+    /** Whether two faces at a node are averaged: they do not meet in a sharp edge. */
+    bool
+    averaged_with(const Tensor<1, dim> &unit_normal, const Tensor<1, dim> &own)
+    {
+      return unit_normal * own > Tolerances::sharp_edge_cosine;
+    }
+  } // namespace
+
+
 
   void
   Surface::move(const Vector &u)
