@@ -10,6 +10,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include "mesh_common.h"
+#include <numeric>
 #include <random>
 
 using namespace Touchstone;
@@ -38,25 +39,88 @@ namespace
 
 
 
-  void
-  check(const std::string               &what,
-        const AffineConstraints<double> &constraints,
-        const std::vector<RankOneTerm>  &terms,
-        const bool                       shifted,
-        const std::vector<unsigned int> &extra_of_rank,
-        const bool                       break_it = false,
-        const bool                       springs  = false,
-        const bool                       half     = true)
+  /** What a condensed system is made of. */
+  struct Case
   {
-    const MPI_Comm     communicator = MPI_COMM_WORLD;
-    const unsigned int rank         = Utilities::MPI::this_mpi_process(communicator);
-    const unsigned int n_ranks      = Utilities::MPI::n_mpi_processes(communicator);
-    const unsigned int begin = n * rank / n_ranks, end = n * (rank + 1) / n_ranks;
-    IndexSet           owned(n);
-    owned.add_range(begin, end);
+    AffineConstraints<double> constraints;
+    std::vector<RankOneTerm>  terms;
+    /** A shift of the diagonal. */
+    bool shifted = false;
+    /** Extra unknowns of each rank. */
+    std::vector<unsigned int> extra_of_rank;
+    /** The matrices must differ. */
+    bool break_it = false;
+    /** The stretch of springs for unknowns. */
+    bool springs = false;
+    /** Of two transposed blocks one is stored. */
+    bool half = true;
 
-    // Nodes are coupled that are up to two apart.
-    IndexSet nodes(n / dim);
+    Case(const AffineConstraints<double> &constraints,
+         const std::vector<RankOneTerm>  &terms,
+         const bool                       shifted,
+         const std::vector<unsigned int> &extra_of_rank,
+         const bool                       break_it = false,
+         const bool                       springs  = false,
+         const bool                       half     = true)
+      : terms(terms)
+      , shifted(shifted)
+      , extra_of_rank(extra_of_rank)
+      , break_it(break_it)
+      , springs(springs)
+      , half(half)
+    {
+      this->constraints.copy_from(constraints);
+    }
+
+    unsigned int
+    n_extra() const
+    {
+      return std::accumulate(extra_of_rank.begin(), extra_of_rank.end(), 0u);
+    }
+
+    bool
+    constrained(const unsigned int i) const
+    {
+      return i < n && constraints.is_constrained(i);
+    }
+
+    AffineConstraints<double>
+    change() const
+    {
+      AffineConstraints<double> result(complete_index_set(n));
+      if (springs)
+        {
+          result.add_line(12);
+          result.add_entries(12, {{13, 0.5}, {22, 0.5}});
+          result.add_line(21);
+          result.add_entries(21, {{1, -2.}});
+        }
+      result.close();
+      return result;
+    }
+  };
+
+
+
+  /** The rows of this rank. */
+  IndexSet
+  owned_rows()
+  {
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    IndexSet           owned(n);
+    owned.add_range(n * rank / n_ranks, n * (rank + 1) / n_ranks);
+    return owned;
+  }
+
+
+
+  /** The stiffness, in which nodes are coupled that are up to two apart. */
+  void
+  fill(Matrix &stiffness, const IndexSet &owned, const bool half)
+  {
+    const unsigned int begin = owned.nth_index_in_set(0), end = begin + owned.n_elements();
+    IndexSet           nodes(n / dim);
     nodes.add_range(begin / dim, end / dim);
     DynamicSparsityPattern pattern(n / dim, n / dim, nodes);
     const auto             for_neighbours = [](const unsigned int node, const auto &visit) {
@@ -66,8 +130,7 @@ namespace
     };
     for (unsigned int node = begin / dim; node < end / dim; ++node)
       for_neighbours(node, [&](const unsigned int other) { pattern.add(node, other); });
-    Matrix stiffness;
-    stiffness.reinit(owned, pattern, communicator, half);
+    stiffness.reinit(owned, pattern, MPI_COMM_WORLD, half);
     for (unsigned int node = begin / dim; node < end / dim; ++node)
       for_neighbours(node, [&](const unsigned int other) {
         const int          rows[]  = {stiffness.row(dim * node), -1};
@@ -77,81 +140,127 @@ namespace
           return (j < dim) == (other == node) ? entry(dim * node + i, dim * other + j % dim) : 0.;
         });
       });
+  }
 
-    LinearSystem system;
-    system.stiffness = &stiffness;
-    system.rhs.reinit(owned, communicator);
-    for (unsigned int i = begin; i < end; ++i)
+
+
+  /** The system of this rank, with the stiffness @p stiffness. */
+  void
+  make_system(const Case &c, const IndexSet &owned, const Matrix &stiffness, LinearSystem &system)
+  {
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    system.stiffness           = &stiffness;
+    system.rhs.reinit(owned, MPI_COMM_WORLD);
+    for (const auto i : owned)
       system.rhs[i] = number(i, 77);
     system.rhs.compress(VectorOperation::insert);
-    if (shifted)
+    if (c.shifted)
       {
-        system.diagonal_shift.reinit(owned, communicator);
-        for (unsigned int i = begin; i < end; ++i)
+        system.diagonal_shift.reinit(owned, MPI_COMM_WORLD);
+        for (const auto i : owned)
           system.diagonal_shift[i] = 1. + i;
         system.diagonal_shift.compress(VectorOperation::insert);
       }
-    system.constraints.copy_from(constraints);
-    // The stretch of springs for unknowns.
-    AffineConstraints<double> change(complete_index_set(n));
-    if (springs)
-      {
-        change.add_line(12);
-        change.add_entries(12, {{13, 0.5}, {22, 0.5}});
-        change.add_line(21);
-        change.add_entries(21, {{1, -2.}});
-      }
-    change.close();
-    system.basis_change.copy_from(change);
-
+    system.constraints.copy_from(c.constraints);
+    system.basis_change.copy_from(c.change());
     // Extra unknowns: on one rank there are those of all.
-    unsigned int n_extra = 0;
-    for (unsigned int r = 0; r < extra_of_rank.size(); ++r)
+    for (unsigned int r = 0; r < c.extra_of_rank.size(); ++r)
       {
         const unsigned int owner = std::min<unsigned int>(r, n_ranks - 1);
         if (owner < rank)
-          system.first_extra += extra_of_rank[r];
+          system.first_extra += c.extra_of_rank[r];
         if (owner == rank)
-          system.n_extra += extra_of_rank[r];
-        n_extra += extra_of_rank[r];
+          system.n_extra += c.extra_of_rank[r];
       }
     system.first_extra += n;
     for (unsigned int k = 0; k < system.n_extra; ++k)
       system.extra_rhs.push_back(number(system.first_extra + k, 78));
     // Each term comes from some rank, not always from that of its row.
-    for (unsigned int k = 0; k < terms.size(); ++k)
+    for (unsigned int k = 0; k < c.terms.size(); ++k)
       if (k % n_ranks == rank)
-        system.terms.push_back(terms[k]);
-    system.definite = (n_extra == 0);
+        system.terms.push_back(c.terms[k]);
+    system.definite = (c.n_extra() == 0);
+  }
 
-    const CondensedSystem condensed(system);
 
-    // The same with dense matrices.
-    const unsigned int     m = n + n_extra;
-    FullMatrix<double>     a(m, m), t(m, m), at(m, m), reference(m, m), tc(m, m), tb(m, m);
-    dealii::Vector<double> b(m), g(m), tmp(m), rhs(m);
+
+  /** The same with dense matrices: T^T A T and T^T (b - A g). */
+  struct Dense
+  {
+    FullMatrix<double>     matrix;
+    dealii::Vector<double> rhs;
+  };
+
+
+
+  /** Matrix and right-hand side before condensation. */
+  Dense
+  dense_system(const Case &c)
+  {
+    const unsigned int m = n + c.n_extra();
+    Dense              result{FullMatrix<double>(m, m), dealii::Vector<double>(m)};
     for (unsigned int i = 0; i < n; ++i)
       {
         for (unsigned int j = 0; j < n; ++j)
-          a(i, j) = entry(i, j);
-        if (shifted)
-          a(i, i) += 1. + i;
-        b[i] = number(i, 77);
+          result.matrix(i, j) = entry(i, j);
+        if (c.shifted)
+          result.matrix(i, i) += 1. + i;
+        result.rhs[i] = number(i, 77);
       }
     for (unsigned int k = n; k < m; ++k)
-      b[k] = number(k, 78);
-    for (const RankOneTerm &term : terms)
+      result.rhs[k] = number(k, 78);
+    for (const RankOneTerm &term : c.terms)
       for (const auto &[i, left] : term.left)
         for (const auto &[j, right] : term.right)
-          a(i, j) += left * right;
-    if (break_it)
-      a(3, 4) += 1e-3;
-    for (unsigned int i = 0; i < m; ++i)
-      if (i < n && constraints.is_constrained(i))
+          result.matrix(i, j) += left * right;
+    if (c.break_it)
+      result.matrix(3, 4) += 1e-3;
+    return result;
+  }
+
+
+
+  /** Scale the unknowns of springs, stretches, as the condensed system does. */
+  void
+  scale_springs(const Case &c, Dense &dense)
+  {
+    const AffineConstraints<double> change = c.change();
+    for (unsigned int i = 0; i < n; ++i)
+      if (change.is_constrained(i))
         {
-          for (const auto &pair : *constraints.get_constraint_entries(i))
+          double spring = c.shifted ? 1. + i : 0.;
+          for (const RankOneTerm &term : c.terms)
+            for (const auto &[k, left] : term.left)
+              for (const auto &[l, right] : term.right)
+                if (k == i && l == i)
+                  spring += left * right;
+          const double scale = spring > 0. ? entry(i, i) / (entry(i, i) + spring) : 1.;
+          dense.rhs[i] *= scale;
+          for (unsigned int j = 0; j < dense.rhs.size(); ++j)
+            {
+              dense.matrix(i, j) *= scale;
+              dense.matrix(j, i) *= scale;
+            }
+        }
+  }
+
+
+
+  Dense
+  dense_condensation(const Case &c)
+  {
+    const Dense                     plain  = dense_system(c);
+    const AffineConstraints<double> change = c.change();
+    const unsigned int              m      = plain.rhs.size();
+    FullMatrix<double>              t(m, m), at(m, m), tc(m, m), tb(m, m);
+    dealii::Vector<double>          g(m), tmp(m);
+    for (unsigned int i = 0; i < m; ++i)
+      if (c.constrained(i))
+        {
+          for (const auto &pair : *c.constraints.get_constraint_entries(i))
             tc(i, pair.first) = pair.second;
-          g[i] = constraints.get_inhomogeneity(i);
+          g[i] = c.constraints.get_inhomogeneity(i);
         }
       else
         tc(i, i) = 1.;
@@ -162,92 +271,115 @@ namespace
           for (const auto &pair : *change.get_constraint_entries(i))
             tb(i, pair.first) = pair.second;
       }
+    Dense result{FullMatrix<double>(m, m), dealii::Vector<double>(m)};
     tc.mmult(t, tb);
-    a.mmult(at, t);
-    t.Tmmult(reference, at);
-    a.vmult(tmp, g);
-    tmp.sadd(-1., b);
-    t.Tvmult(rhs, tmp);
-    for (unsigned int i = 0; i < n; ++i)
-      if (change.is_constrained(i))
-        {
-          double spring = shifted ? 1. + i : 0.;
-          for (const RankOneTerm &term : terms)
-            for (const auto &[k, left] : term.left)
-              for (const auto &[l, right] : term.right)
-                if (k == i && l == i)
-                  spring += left * right;
-          const double scale = spring > 0. ? entry(i, i) / (entry(i, i) + spring) : 1.;
-          rhs[i] *= scale;
-          for (unsigned int j = 0; j < m; ++j)
-            {
-              reference(i, j) *= scale;
-              reference(j, i) *= scale;
-            }
-        }
+    plain.matrix.mmult(at, t);
+    t.Tmmult(result.matrix, at);
+    plain.matrix.vmult(tmp, g);
+    tmp.sadd(-1., plain.rhs);
+    t.Tvmult(result.rhs, tmp);
+    scale_springs(c, result);
+    return result;
+  }
 
-    double                  worst = 0., worst_rhs = 0., worst_constrained = 0.;
-    bool                    diagonal = true, marks = true;
-    const auto              assembled = condensed.matrix();
-    const Epetra_CrsMatrix &matrix    = *assembled;
+
+
+  /** The largest errors on this rank. */
+  struct Errors
+  {
+    double matrix = 0., rhs = 0., constrained = 0., applied = 0.;
+    /** The diagonal of constrained rows is positive, and they are marked. */
+    bool good = true;
+  };
+
+
+
+  /** A row of the matrix, with entries for all unknowns. */
+  std::vector<double>
+  row_of(const Epetra_CrsMatrix &matrix, const int row)
+  {
+    std::vector<double> values(matrix.NumGlobalCols(), 0.);
+    int                 length;
+    double             *value;
+    int                *column;
+    matrix.ExtractMyRowView(row, length, value, column);
+    for (int k = 0; k < length; ++k)
+      values[matrix.GCID(column[k])] += value[k];
+    return values;
+  }
+
+
+
+  /** The rows of the condensed system are those of the dense one. */
+  void
+  check_rows(const Case             &c,
+             const CondensedSystem  &condensed,
+             const Epetra_CrsMatrix &matrix,
+             const Dense            &dense,
+             Errors                 &errors)
+  {
     for (int row = 0; row < matrix.NumMyRows(); ++row)
       {
-        const unsigned int  i = matrix.GRID(row);
-        std::vector<double> values(m, 0.);
-        int                 length;
-        double             *value;
-        int                *column;
-        matrix.ExtractMyRowView(row, length, value, column);
-        for (int k = 0; k < length; ++k)
-          values[matrix.GCID(column[k])] += value[k];
-        const bool constrained = i < n && constraints.is_constrained(i);
-        marks                  = marks && (row >= static_cast<int>(condensed.constrained.size())
-                                             ? !constrained
-                                             : static_cast<bool>(condensed.constrained[row]) == constrained);
-        for (unsigned int j = 0; j < m; ++j)
-          if (constrained || (j < n && constraints.is_constrained(j)))
+        const unsigned int        i           = matrix.GRID(row);
+        const std::vector<double> values      = row_of(matrix, row);
+        const bool                constrained = c.constrained(i);
+        const bool                marked =
+          row < static_cast<int>(condensed.constrained.size()) && condensed.constrained[row];
+        errors.good = errors.good && marked == constrained;
+        for (unsigned int j = 0; j < values.size(); ++j)
+          if (constrained || c.constrained(j))
             {
               if (i == j)
-                diagonal = diagonal && values[j] > 0.;
+                errors.good = errors.good && values[j] > 0.;
               else
-                worst_constrained = std::max(worst_constrained, std::abs(values[j]));
+                errors.constrained = std::max(errors.constrained, std::abs(values[j]));
             }
           else
-            worst = std::max(worst, std::abs(values[j] - reference(i, j)));
-        worst_rhs =
-          std::max(worst_rhs, std::abs((*condensed.rhs)[row] - (constrained ? 0. : rhs[i])));
+            errors.matrix = std::max(errors.matrix, std::abs(values[j] - dense.matrix(i, j)));
+        errors.rhs =
+          std::max(errors.rhs, std::abs((*condensed.rhs)[row] - (constrained ? 0. : dense.rhs[i])));
       }
-    // The same system applied factor by factor, to each unit vector, and read node by node.
-    const CondensedSystem applied(system, true);
-    double                worst_block = 0.;
-    if (n_extra == 0)
+  }
+
+
+
+  /** The same system read node by node. */
+  void
+  check_blocks(const CondensedSystem &applied, const Epetra_CrsMatrix &matrix, Errors &errors)
+  {
+    const auto         rows = applied.block_rows();
+    const unsigned int m    = matrix.NumGlobalCols();
+    for (unsigned int node = 0; node < rows->n_nodes(); ++node)
       {
-        const auto rows = applied.block_rows();
-        for (unsigned int node = 0; node < rows->n_nodes(); ++node)
+        const auto        &row = rows->read(node);
+        FullMatrix<double> of_node(dim, m);
+        for (std::size_t k = 0; k < row.columns.size(); ++k)
+          for (unsigned int r = 0; r < dim; ++r)
+            for (unsigned int c = 0; c < dim; ++c)
+              of_node(r, rows->numbers()->local_to_global(dim * row.columns[k] + c)) +=
+                row.blocks[k][dim * r + c];
+        for (unsigned int r = 0; r < dim; ++r)
           {
-            const auto        &row = rows->read(node);
-            FullMatrix<double> of_node(dim, m), of_matrix(dim, m);
-            for (std::size_t k = 0; k < row.columns.size(); ++k)
-              for (unsigned int r = 0; r < dim; ++r)
-                for (unsigned int c = 0; c < dim; ++c)
-                  of_node(r, rows->numbers()->local_to_global(dim * row.columns[k] + c)) +=
-                    row.blocks[k][dim * r + c];
-            for (unsigned int r = 0; r < dim; ++r)
-              {
-                int     length;
-                double *value;
-                int    *column;
-                matrix.ExtractMyRowView(dim * node + r, length, value, column);
-                for (int k = 0; k < length; ++k)
-                  of_matrix(r, matrix.GCID(column[k])) += value[k];
-              }
-            of_node.add(-1., of_matrix);
-            worst_block = std::max(worst_block, of_node.linfty_norm());
+            const std::vector<double> of_matrix = row_of(matrix, dim * node + r);
+            for (unsigned int j = 0; j < m; ++j)
+              of_node(r, j) -= of_matrix[j];
           }
+        errors.applied = std::max(errors.applied, of_node.linfty_norm());
       }
+  }
+
+
+
+  /** The same system applied factor by factor, to each unit vector. */
+  void
+  check_products(const Case            &c,
+                 const CondensedSystem &applied,
+                 const CondensedSystem &condensed,
+                 const Dense           &dense,
+                 Errors                &errors)
+  {
     Epetra_Vector unit(applied.rows()), column(applied.rows());
-    double        worst_product = 0.;
-    for (unsigned int j = 0; j < m; ++j)
+    for (unsigned int j = 0; j < dense.rhs.size(); ++j)
       {
         unit.PutScalar(0.);
         if (const int local = applied.rows().LID(static_cast<int>(j)); local >= 0)
@@ -255,46 +387,78 @@ namespace
         applied.product().Apply(unit, column);
         for (int row = 0; row < column.MyLength(); ++row)
           {
-            const unsigned int i = applied.rows().GID(row);
-            const bool         held =
-              (i < n && constraints.is_constrained(i)) || (j < n && constraints.is_constrained(j));
+            const unsigned int i    = applied.rows().GID(row);
+            const bool         held = c.constrained(i) || c.constrained(j);
             if (held && i == j)
-              diagonal = diagonal && column[row] > 0.;
+              errors.good = errors.good && column[row] > 0.;
             else
-              worst_product =
-                std::max(worst_product, std::abs(column[row] - (held ? 0. : reference(i, j))));
+              errors.applied =
+                std::max(errors.applied, std::abs(column[row] - (held ? 0. : dense.matrix(i, j))));
           }
       }
     for (int row = 0; row < column.MyLength(); ++row)
-      worst_product =
-        std::max(worst_product, std::abs((*applied.rhs)[row] - (*condensed.rhs)[row]));
-    // And what both make of a solution, of the unknowns that are not determined by others.
-    for (int row = 0; row < unit.MyLength(); ++row)
+      errors.applied =
+        std::max(errors.applied, std::abs((*applied.rhs)[row] - (*condensed.rhs)[row]));
+  }
+
+
+
+  /** What both make of a solution, of the unknowns that are not determined by others. */
+  void
+  check_solution(const Case            &c,
+                 const CondensedSystem &applied,
+                 const CondensedSystem &condensed,
+                 const IndexSet        &owned,
+                 Errors                &errors)
+  {
+    Epetra_Vector solution(applied.rows());
+    for (int row = 0; row < solution.MyLength(); ++row)
       {
         const unsigned int i = applied.rows().GID(row);
-        unit[row]            = i < n && constraints.is_constrained(i) ? 0. : number(i, 79);
+        solution[row]        = c.constrained(i) ? 0. : number(i, 79);
       }
-    Touchstone::Vector x(owned, communicator), y(owned, communicator);
-    condensed.expand(unit, x);
-    applied.expand(unit, y);
+    Touchstone::Vector x(owned, MPI_COMM_WORLD), y(owned, MPI_COMM_WORLD);
+    condensed.expand(solution, x);
+    applied.expand(solution, y);
     x -= y;
-    worst_product     = std::max({worst_product, x.linfty_norm(), worst_block});
-    const auto all    = [&](const double x) { return Utilities::MPI::max(x, communicator); };
-    worst             = all(worst);
-    worst_rhs         = all(worst_rhs);
-    worst_constrained = all(worst_constrained);
-    worst_product     = all(worst_product);
-    const bool good   = all(diagonal && marks ? 0. : 1.) == 0.;
-    const int  rows   = Utilities::MPI::sum(matrix.NumMyRows(), communicator);
-    if (rank == 0)
+    errors.applied = std::max(errors.applied, x.linfty_norm());
+  }
+
+
+
+  void
+  check(const std::string &what, const Case &c)
+  {
+    const IndexSet owned = owned_rows();
+    Matrix         stiffness;
+    fill(stiffness, owned, c.half);
+    LinearSystem system;
+    make_system(c, owned, stiffness, system);
+    const CondensedSystem condensed(system), applied(system, true);
+    const auto            matrix = condensed.matrix();
+    const Dense           dense  = dense_condensation(c);
+
+    Errors errors;
+    check_rows(c, condensed, *matrix, dense, errors);
+    if (c.n_extra() == 0)
+      check_blocks(applied, *matrix, errors);
+    check_products(c, applied, condensed, dense, errors);
+    check_solution(c, applied, condensed, owned, errors);
+
+    const auto   all   = [](const double x) { return Utilities::MPI::max(x, MPI_COMM_WORLD); };
+    const double worst = all(errors.matrix), constrained = all(errors.constrained),
+                 rhs = all(errors.rhs), product = all(errors.applied);
+    const bool good = all(errors.good ? 0. : 1.) == 0.;
+    const int  rows = Utilities::MPI::sum(matrix->NumMyRows(), MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         std::cout << what << ": " << rows << " rows, matrix ";
-        if (break_it)
+        if (c.break_it)
           std::cout << (worst > 1e-4 ? "differs, as it must" : "does not notice FAILED")
                     << std::endl;
         else
-          std::cout << small(worst) << ", constrained " << small(worst_constrained) << ", rhs "
-                    << small(worst_rhs) << ", applied " << small(worst_product)
+          std::cout << small(worst) << ", constrained " << small(constrained) << ", rhs "
+                    << small(rhs) << ", applied " << small(product)
                     << (good ? "" : ", diagonal or marks FAILED") << std::endl;
       }
   }
@@ -349,16 +513,16 @@ main(int argc, char **argv)
     {
       const auto        constraints = make_constraints(kind);
       const std::string name        = "constraints " + std::to_string(kind);
-      check(name, constraints, {}, false, {});
-      check(name + ", shift", constraints, {}, true, {});
-      check(name + ", contact terms", constraints, contact, false, {});
-      check(name + ", multipliers", constraints, multipliers, true, {2, 1});
-      check(name + ", another matrix", constraints, contact, false, {}, true);
+      check(name, Case(constraints, {}, false, {}));
+      check(name + ", shift", Case(constraints, {}, true, {}));
+      check(name + ", contact terms", Case(constraints, contact, false, {}));
+      check(name + ", multipliers", Case(constraints, multipliers, true, {2, 1}));
+      check(name + ", another matrix", Case(constraints, contact, false, {}, true));
       // Stiff springs: their stretch is the only unknown that they act on.
       const LinearForm               stretch = {{12, 1.}, {13, -0.5}, {22, -0.5}};
       const std::vector<RankOneTerm> stiff   = {{{{12, 4e4}, {13, -2e4}, {22, -2e4}}, stretch}};
-      check(name + ", stiff spring", constraints, stiff, false, {}, false, true);
-      check(name + ", all blocks stored", constraints, stiff, false, {}, false, true, false);
+      check(name + ", stiff spring", Case(constraints, stiff, false, {}, false, true));
+      check(name + ", all blocks stored", Case(constraints, stiff, false, {}, false, true, false));
     }
   return 0;
 }

@@ -34,6 +34,8 @@ namespace
     return direction / direction.norm();
   }
 
+  const Tensor<1, dim> x({1., 0., 0.}), y({0., 1., 0.}), z({0., 0., 1.});
+
   Condition
   make(const Index node, Tensor<1, dim> direction, const double value = 0.)
   {
@@ -79,16 +81,14 @@ namespace
       }
     return largest;
   }
-} // namespace
 
-int
-main(int argc, char **argv)
-{
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const Tensor<1, dim>             x({1., 0., 0.}), y({0., 1., 0.}), z({0., 0., 1.});
 
-  std::cout << "one node\n";
+
+  /** A condition that earlier ones of its node determine is refused. */
+  void
+  one_node()
   {
+    std::cout << "one node\n";
     ConstraintGraph graph;
     offer(graph, "z", z);
     offer(graph, "z again", z);
@@ -105,8 +105,13 @@ main(int argc, char **argv)
     offer(graph, "z", z);
   }
 
-  std::cout << "with multipliers\n";
+
+
+  /** It does not matter how the earlier ones are met. */
+  void
+  with_multipliers()
   {
+    std::cout << "with multipliers\n";
     ConstraintGraph graph;
     offer(graph, "z", z);
     offer(graph, "z as multiplier", z, Treatment::multiplier);
@@ -115,8 +120,13 @@ main(int argc, char **argv)
     offer(graph, "y", y);
   }
 
-  std::cout << "free part\n";
+
+
+  /** What is left of a vector is perpendicular to all accepted conditions. */
+  void
+  free_part()
   {
+    std::cout << "free part\n";
     ConstraintGraph      graph;
     const Tensor<1, dim> force({1., 2., 3.});
     std::cout << "  " << graph.free_part(0, force) << '\n';
@@ -131,40 +141,59 @@ main(int argc, char **argv)
     std::cout << "  " << graph.free_part(0, force) << '\n';
   }
 
-  // Nodes 0, 1, 2 are slaves of 3, 4, 5, and node 1 also of node 0.
-  std::cout << "lines\n";
-  double       worst      = 0.;
-  unsigned int n_accepted = 0, n_offered = 0;
-  for (unsigned int trial = 0; trial < 500; ++trial)
-    {
-      // A line may rely on a multiplier's condition of the same node, so all are
-      // eliminated here.
-      ConstraintGraph graph;
-      for (const Index node : {0, 1, 2})
-        {
-          const unsigned int n_conditions = 1 + trial % 4;
-          for (unsigned int k = 0; k < n_conditions; ++k)
-            {
-              Condition condition = make(node,
-                                         trial % 5 == 0 && k < 3 ? (k == 0   ? z
-                                                                    : k == 1 ? x
-                                                                             : y)
-                                                                 : random_direction(),
-                                         random_number());
-              if (k > 0 || trial % 2 == 0)
-                {
-                  const double w    = 0.5 * (1. + random_number());
-                  condition.stencil = {{3, w}, {4, 0.5 * (1. - w)}, {5, 0.5 * (1. - w)}};
-                  if (node == 1)
-                    condition.stencil.push_back({0, 0.25});
-                }
-              ++n_offered;
-              n_accepted += graph.accept(condition);
-            }
-        }
-      worst = std::max(worst, missed(graph, 6));
-    }
-  std::cout << "  offered " << n_offered << ", accepted " << n_accepted << ", missed by "
-            << small(worst, 1e-9) << '\n';
+
+
+  /** Lines meet all that was accepted. Nodes 0, 1, 2 are slaves of 3, 4, 5, and node 1 also of
+   * node 0. */
+  void
+  lines()
+  {
+    std::cout << "lines\n";
+    double       worst      = 0.;
+    unsigned int n_accepted = 0, n_offered = 0;
+    for (unsigned int trial = 0; trial < 500; ++trial)
+      {
+        // A line may rely on a multiplier's condition of the same node, so all are
+        // eliminated here.
+        ConstraintGraph graph;
+        for (const Index node : {0, 1, 2})
+          {
+            const unsigned int n_conditions = 1 + trial % 4;
+            for (unsigned int k = 0; k < n_conditions; ++k)
+              {
+                Condition condition = make(node,
+                                           trial % 5 == 0 && k < 3 ? (k == 0   ? z
+                                                                      : k == 1 ? x
+                                                                               : y)
+                                                                   : random_direction(),
+                                           random_number());
+                if (k > 0 || trial % 2 == 0)
+                  {
+                    const double w    = 0.5 * (1. + random_number());
+                    condition.stencil = {{3, w}, {4, 0.5 * (1. - w)}, {5, 0.5 * (1. - w)}};
+                    if (node == 1)
+                      condition.stencil.push_back({0, 0.25});
+                  }
+                ++n_offered;
+                n_accepted += graph.accept(condition);
+              }
+          }
+        worst = std::max(worst, missed(graph, 6));
+      }
+    std::cout << "  offered " << n_offered << ", accepted " << n_accepted << ", missed by "
+              << small(worst, 1e-9) << '\n';
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  one_node();
+  with_multipliers();
+  free_part();
+  lines();
   return 0;
 }

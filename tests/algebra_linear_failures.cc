@@ -122,44 +122,56 @@ namespace
     if (root())
       std::cout << "residuals fall by " << factor << ": " << text << std::endl;
   }
-} // namespace
 
-int
-main(int argc, char **argv)
-{
-  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
-  const double nan      = std::numeric_limits<double>::quiet_NaN();
-  const double inf      = std::numeric_limits<double>::infinity();
-  const auto   set_last = [](const double value) {
-    return [value](LinearSystem &system) {
-      if (system.rhs.in_local_range(1665))
-        system.rhs(1665) = value;
-    };
-  };
-  // A spring of an unknown to the ground, on one rank.
-  const auto spring = [](const Index i, const double stiffness) {
+
+  /** A spring of an unknown to the ground, on one rank. */
+  std::function<void(LinearSystem &)>
+  spring(const Index i, const double stiffness)
+  {
     return [=](LinearSystem &system) {
       if (root())
         system.terms.push_back({{{i, stiffness}}, {{i, 1.}}});
     };
-  };
-  {
-    SpringNet net(0., false, 10, set_last(nan));
-    fails("right-hand side NaN", net);
   }
+
+
+
+  /** Values that are not finite, in the right-hand side or in the matrix, are seen. */
+  void
+  not_finite()
   {
-    SpringNet net(0., false, 10, set_last(inf));
-    fails("right-hand side infinite", net);
+    const double nan      = std::numeric_limits<double>::quiet_NaN();
+    const double inf      = std::numeric_limits<double>::infinity();
+    const auto   set_last = [](const double value) {
+      return [value](LinearSystem &system) {
+        if (system.rhs.in_local_range(1665))
+          system.rhs(1665) = value;
+      };
+    };
+    {
+      SpringNet net(0., false, 10, set_last(nan));
+      fails("right-hand side NaN", net);
+    }
+    {
+      SpringNet net(0., false, 10, set_last(inf));
+      fails("right-hand side infinite", net);
+    }
+    {
+      SpringNet net(0., false, 10, spring(1665, nan));
+      fails("matrix NaN", net);
+    }
+    {
+      SpringNet net(0., false, 10, spring(1665, inf));
+      fails("matrix infinite", net);
+    }
   }
-  {
-    SpringNet net(0., false, 10, spring(1665, nan));
-    fails("matrix NaN", net);
-  }
-  {
-    SpringNet net(0., false, 10, spring(1665, inf));
-    fails("matrix infinite", net);
-  }
+
+
+
+  /** Conjugate gradients need a definite matrix. */
+  void
+  indefinite()
   {
     SpringNet              net(0., false, 10, [](LinearSystem &system) {
       for (Index i = 1500; i < 1800 && root(); ++i)
@@ -172,6 +184,12 @@ main(int argc, char **argv)
     if (root())
       std::cout << "indefinite, Belos CG, diagonal: " << text << std::endl;
   }
+
+
+
+  /** MUMPS sees a singular matrix. */
+  void
+  singular()
   {
     // A multiplier of nothing.
     SpringNet              net(0., true, 10, [](LinearSystem &system) { system.terms.clear(); });
@@ -181,6 +199,12 @@ main(int argc, char **argv)
     if (root())
       std::cout << "singular, MUMPS: " << text.substr(0, text.find(':', 10)) << std::endl;
   }
+
+
+
+  /** Smoothers and scaling divide by the diagonal. */
+  void
+  zero_on_the_diagonal()
   {
     // An entry of the diagonal that is zero: not what smoothers can divide by.
     SpringNet              net(0., false, 10, spring(1665, -10.), 0.);
@@ -197,29 +221,58 @@ main(int argc, char **argv)
                       << std::endl;
         }
   }
-  for (const std::string type : {"of memory", "of Epetra", "of a library"})
-    {
-      SpringNet              net(0., false, 4);
-      LinearSolverParameters parameters;
-      parameters.type        = type;
-      const std::string text = failure(net, parameters);
-      if (root())
-        std::cout << text << std::endl;
-    }
-  if (root())
-    for (const int code : {-6, -9, -10, -13, -40, -51, -90, -1000})
-      std::cout << "MUMPS: " << MumpsFactors::reason(code, 3) << std::endl;
 
+
+
+  /** Exceptions of libraries, and the codes of MUMPS, become reasons. */
+  void
+  exceptions_of_libraries()
+  {
+    for (const std::string type : {"of memory", "of Epetra", "of a library"})
+      {
+        SpringNet              net(0., false, 4);
+        LinearSolverParameters parameters;
+        parameters.type        = type;
+        const std::string text = failure(net, parameters);
+        if (root())
+          std::cout << text << std::endl;
+      }
+    if (root())
+      for (const int code : {-6, -9, -10, -13, -40, -51, -90, -1000})
+        std::cout << "MUMPS: " << MumpsFactors::reason(code, 3) << std::endl;
+  }
+
+
+
+  /** The automatic choice of the solver, and what takes over where iterations are too slow. */
+  void
+  automatic_choice()
+  {
+    SpringNet small(0.8, false), large(0., false, 16), friction(0.8, false, 16),
+      multiplier(0., true, 16);
+    automatic("small", small, 2000);
+    automatic("large", large, 2000);
+    automatic("large with friction", friction, 2000);
+    automatic("large with multipliers", multiplier, 2000);
+    automatic("large, too slow", large, 2);
+    automatic("large with friction, too slow", friction, 2);
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+
+  not_finite();
+  indefinite();
+  singular();
+  zero_on_the_diagonal();
+  exceptions_of_libraries();
   for (const double factor : {0.5, 0.85, 0.9, 1.1})
     watch(factor);
-
-  SpringNet small(0.8, false), large(0., false, 16), friction(0.8, false, 16),
-    multiplier(0., true, 16);
-  automatic("small", small, 2000);
-  automatic("large", large, 2000);
-  automatic("large with friction", friction, 2000);
-  automatic("large with multipliers", multiplier, 2000);
-  automatic("large, too slow", large, 2);
-  automatic("large with friction, too slow", friction, 2);
+  automatic_choice();
   return 0;
 }

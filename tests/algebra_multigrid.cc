@@ -275,6 +275,91 @@ namespace
                 << (difference < 1e-6 * largest ? "the same" : "WRONG") << ", diagonal "
                 << (diagonal < 1e-6 ? "the same" : "WRONG") << std::endl;
   }
+
+
+
+  /** The rigid motions of the bodies: translations, and rotations about each axis. */
+  Epetra_MultiVector
+  rigid_motions(const Epetra_Map &map, const std::vector<int> &rows)
+  {
+    Epetra_MultiVector motions(map, 6);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      {
+        if (rows[i] / 3 < layer)
+          continue;
+        const int    node = rows[i] / 3, d = rows[i] % 3;
+        const double place[]        = {double(node % side),
+                                       double(node / side % side),
+                                       double(node / layer)};
+        motions[d][i]               = 1.;
+        motions[3 + (d + 1) % 3][i] = place[(d + 2) % 3] - side / 2.;
+        motions[3 + (d + 2) % 3][i] = side / 2. - place[(d + 1) % 3];
+      }
+    return motions;
+  }
+
+
+
+  /** A cycle is symmetric and reduces the error. */
+  void
+  test_cycle(const Epetra_CrsMatrix          &matrix,
+             const Epetra_MultiVector        &motions,
+             const std::vector<unsigned int> &body,
+             const Epetra_Vector             &x,
+             const Epetra_Vector             &y,
+             const bool                       root)
+  {
+    const Epetra_Map &map = matrix.RowMap();
+    const Multigrid   multigrid(map, std::make_unique<MatrixRows>(matrix), motions, body, true);
+    Epetra_Vector     of_x(map), of_y(map), rest(x), product(map);
+    multigrid.ApplyInverse(x, of_x);
+    multigrid.ApplyInverse(y, of_y);
+    double a, b, before, after;
+    of_x.Dot(y, &a);
+    of_y.Dot(x, &b);
+    // Iterating with it alone, by how much the error falls in each of the last cycles.
+    for (int cycle = 0; cycle < 12; ++cycle)
+      {
+        rest.Norm2(&before);
+        matrix.Multiply(false, rest, product);
+        multigrid.ApplyInverse(product, of_x);
+        rest.Update(-1., of_x, 1.);
+      }
+    rest.Norm2(&after);
+    if (root)
+      std::cout << "cycle: "
+                << (std::abs(a - b) < 1e-5 * std::abs(a) ? "symmetric" : "NOT SYMMETRIC")
+                << ", error falls " << (after < 0.35 * before ? "fast" : "slowly") << std::endl;
+  }
+
+
+
+  /** Nothing is coupled: there is no coarse level to be made. */
+  void
+  test_nothing_coupled(const std::vector<int>          &rows,
+                       const Epetra_MultiVector        &motions,
+                       const std::vector<unsigned int> &body,
+                       const Epetra_Vector             &x,
+                       const bool                       root)
+  {
+    const Epetra_Map map(-1, rows.size(), rows.data(), 0, Epetra_MpiComm(MPI_COMM_WORLD));
+    auto             diagonal_matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 1);
+    for (const int i : rows)
+      {
+        const double two = 2.;
+        diagonal_matrix->InsertGlobalValues(i, 1, &two, &i);
+      }
+    diagonal_matrix->FillComplete();
+    const Multigrid alone(map, std::make_unique<MatrixRows>(*diagonal_matrix), motions, body, true);
+    Epetra_Vector   half(map);
+    alone.ApplyInverse(x, half);
+    double error = 0., norm = 0.;
+    half.Update(-0.5, x, 1.);
+    half.Norm2(&error);
+    x.Norm2(&norm);
+    if (root)
+      std::cout << "nothing coupled: " << (error < 0.3 * norm ? "smoothed" : "WRONG") << std::endl;
+  }
 } // namespace
 
 
@@ -306,23 +391,10 @@ main(int argc, char **argv)
   test_blocks(*make_matrix(map, false), false, x);
   test_blocks(*matrix, true, x);
 
-  Epetra_MultiVector        motions(map, 6);
-  std::vector<unsigned int> body(rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    {
-      body[i] = body_of(rows[i] / 3);
-      if (rows[i] / 3 < layer)
-        continue;
-      // Translations, and rotations about each axis.
-      const int    node = rows[i] / 3, d = rows[i] % 3;
-      const double place[]        = {double(node % side),
-                                     double(node / side % side),
-                                     double(node / layer)};
-      motions[d][i]               = 1.;
-      motions[3 + (d + 1) % 3][i] = place[(d + 2) % 3] - side / 2.;
-      motions[3 + (d + 2) % 3][i] = side / 2. - place[(d + 1) % 3];
-    }
-  std::vector<unsigned int> body_of_nodes;
+  const Epetra_MultiVector  motions = rigid_motions(map, rows);
+  std::vector<unsigned int> body, body_of_nodes;
+  for (const int row : rows)
+    body.push_back(body_of(row / 3));
   for (std::size_t i = 0; i < rows.size(); i += 3)
     body_of_nodes.push_back(body[i]);
   MatrixRows rows_of_matrix(*matrix);
@@ -332,42 +404,7 @@ main(int argc, char **argv)
       test_prolongation(rows_of_matrix, some, n_given, body_of_nodes, 1);
     }
 
-  const Multigrid multigrid(map, std::make_unique<MatrixRows>(*matrix), motions, body, true);
-  Epetra_Vector   of_x(map), of_y(map), rest(x), product(map);
-  multigrid.ApplyInverse(x, of_x);
-  multigrid.ApplyInverse(y, of_y);
-  double a, b, before, after;
-  of_x.Dot(y, &a);
-  of_y.Dot(x, &b);
-  // Iterating with it alone, by how much the error falls in each of the last cycles.
-  for (int cycle = 0; cycle < 12; ++cycle)
-    {
-      rest.Norm2(&before);
-      matrix->Multiply(false, rest, product);
-      multigrid.ApplyInverse(product, of_x);
-      rest.Update(-1., of_x, 1.);
-    }
-  rest.Norm2(&after);
-  if (root)
-    std::cout << "cycle: " << (std::abs(a - b) < 1e-5 * std::abs(a) ? "symmetric" : "NOT SYMMETRIC")
-              << ", error falls " << (after < 0.35 * before ? "fast" : "slowly") << std::endl;
-
-  // Nothing is coupled: there is no coarse level to be made.
-  auto diagonal_matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 1);
-  for (const int i : rows)
-    {
-      const double two = 2.;
-      diagonal_matrix->InsertGlobalValues(i, 1, &two, &i);
-    }
-  diagonal_matrix->FillComplete();
-  const Multigrid alone(map, std::make_unique<MatrixRows>(*diagonal_matrix), motions, body, true);
-  Epetra_Vector   half(map);
-  alone.ApplyInverse(x, half);
-  double error = 0., norm = 0.;
-  half.Update(-0.5, x, 1.);
-  half.Norm2(&error);
-  x.Norm2(&norm);
-  if (root)
-    std::cout << "nothing coupled: " << (error < 0.3 * norm ? "smoothed" : "WRONG") << std::endl;
+  test_cycle(*matrix, motions, body, x, y, root);
+  test_nothing_coupled(rows, motions, body, x, root);
   return 0;
 }

@@ -77,6 +77,79 @@ end
     return Utilities::MPI::max(x, MPI_COMM_WORLD);
   }
 
+  /** Largest errors and sizes of normals, gap vectors and weights of rows. */
+  struct RowErrors
+  {
+    double       errors[3] = {}, sizes[3] = {};
+    unsigned int count = 0, changed = 0;
+  };
+
+
+
+  /** The derivative of an active row in a direction, against the difference of the row
+   * @p h before and behind it. */
+  void
+  compare(const ContactRow         &row,
+          const ContactRow         &plus,
+          const ContactRow         &minus,
+          const double              h,
+          const Touchstone::Vector &direction,
+          RowErrors                &all)
+  {
+    const RowDerivative &d = *row.derivative;
+    ++all.count;
+    Tensor<1, dim>      normal, gap_vector;
+    std::vector<double> weights(row.stencil.size());
+    for (std::size_t a = 0; a < d.nodes.size(); ++a)
+      {
+        Tensor<1, dim> v;
+        for (unsigned int c = 0; c < dim; ++c)
+          v[c] = direction(dim * d.nodes[a] + c);
+        normal += d.normal[a] * v;
+        gap_vector += d.gap_vector[a] * v;
+        for (std::size_t m = 0; m < weights.size(); ++m)
+          weights[m] += d.weights[m][a] * v;
+      }
+    std::map<Index, double> difference;
+    for (const StencilEntry &entry : plus.stencil)
+      difference[entry.node] += entry.weight / (2. * h);
+    for (const StencilEntry &entry : minus.stencil)
+      difference[entry.node] -= entry.weight / (2. * h);
+    for (std::size_t m = 0; m < weights.size(); ++m)
+      {
+        all.sizes[2] = std::max(all.sizes[2], std::abs(weights[m]));
+        difference[row.stencil[m].node] -= weights[m];
+      }
+    for (const auto &[node, error] : difference)
+      all.errors[2] = std::max(all.errors[2], std::abs(error));
+    const auto add = [&](const unsigned int i, const Tensor<1, dim> &a, const Tensor<1, dim> &b) {
+      all.errors[i] = std::max(all.errors[i], (a - b).norm());
+      all.sizes[i]  = std::max(all.sizes[i], a.norm());
+    };
+    add(0, normal, (plus.normal - minus.normal) / (2. * h));
+    add(1, gap_vector, (plus.gap_vector - minus.gap_vector) / (2. * h));
+    all.changed += (plus.stencil.size() != minus.stencil.size());
+  }
+
+
+
+  /** How the contact points lie: the number of active rows with stencils of each size. */
+  std::string
+  stencil_sizes(const std::vector<ContactRow> &rows)
+  {
+    std::map<unsigned int, unsigned int> stencils;
+    for (const ContactRow &row : rows)
+      if (row.was_active)
+        ++stencils[std::min<std::size_t>(row.stencil.size(), 19)];
+    std::ostringstream text;
+    for (unsigned int size = 0; size < 20; ++size)
+      if (const unsigned int n = Utilities::MPI::sum(stencils[size], MPI_COMM_WORLD))
+        text << ' ' << size << ": " << n << ',';
+    return text.str();
+  }
+
+
+
   void
   check(const std::string              &name,
         const std::string              &text,
@@ -104,8 +177,7 @@ end
           needed.add_range(dim * node, dim * node + dim);
     needed.compress();
 
-    double       errors[3] = {}, sizes[3] = {};
-    unsigned int count = 0, changed = 0;
+    RowErrors all;
     for (const unsigned int seed : {1, 2, 3})
       {
         const Touchstone::Vector direction =
@@ -129,67 +201,25 @@ end
                   std::cout << "derivative of a row that is not active FAILED\n";
                 continue;
               }
-            const RowDerivative &d = *rows[k].derivative;
-            ++count;
-            Tensor<1, dim>      normal, gap_vector;
-            std::vector<double> weights(rows[k].stencil.size());
-            for (std::size_t a = 0; a < d.nodes.size(); ++a)
-              {
-                Tensor<1, dim> v;
-                for (unsigned int c = 0; c < dim; ++c)
-                  v[c] = ghosted(dim * d.nodes[a] + c);
-                normal += d.normal[a] * v;
-                gap_vector += d.gap_vector[a] * v;
-                for (std::size_t m = 0; m < weights.size(); ++m)
-                  weights[m] += d.weights[m][a] * v;
-              }
-            std::map<Index, double> difference;
-            for (const StencilEntry &entry : rows_plus[k].stencil)
-              difference[entry.node] += entry.weight / (2. * h);
-            for (const StencilEntry &entry : rows_minus[k].stencil)
-              difference[entry.node] -= entry.weight / (2. * h);
-            for (std::size_t m = 0; m < weights.size(); ++m)
-              {
-                sizes[2] = std::max(sizes[2], std::abs(weights[m]));
-                difference[rows[k].stencil[m].node] -= weights[m];
-              }
-            for (const auto &[node, error] : difference)
-              errors[2] = std::max(errors[2], std::abs(error));
-            const auto compare =
-              [&](const unsigned int i, const Tensor<1, dim> &a, const Tensor<1, dim> &b) {
-                errors[i] = std::max(errors[i], (a - b).norm());
-                sizes[i]  = std::max(sizes[i], a.norm());
-              };
-            compare(0, normal, (rows_plus[k].normal - rows_minus[k].normal) / (2. * h));
-            compare(1, gap_vector, (rows_plus[k].gap_vector - rows_minus[k].gap_vector) / (2. * h));
-            changed += (rows_plus[k].stencil.size() != rows_minus[k].stencil.size());
+            compare(rows[k], rows_plus[k], rows_minus[k], h, ghosted, all);
           }
       }
-    // How the contact points lie: stencils of each size.
-    std::map<unsigned int, unsigned int> stencils;
-    for (const ContactRow &row : rows)
-      if (row.was_active)
-        ++stencils[std::min<std::size_t>(row.stencil.size(), 19)];
-    std::ostringstream text_of_stencils;
-    for (unsigned int size = 0; size < 20; ++size)
-      if (const unsigned int n = Utilities::MPI::sum(stencils[size], MPI_COMM_WORLD))
-        text_of_stencils << ' ' << size << ": " << n << ',';
-
+    const std::string  stencils = stencil_sizes(rows);
     std::ostringstream out;
     const char *const  names[3] = {"normal", "gap vector", "weights"};
     for (unsigned int i = 0; i < 3; ++i)
       {
-        const double size = largest(sizes[i]), error = largest(errors[i]);
+        const double size = largest(all.sizes[i]), error = largest(all.errors[i]);
         out << (i == 0 ? " " : ", ") << names[i] << ' '
             << (size == 0. && error == 0. ? std::string("constant")
                                           : small(error / size, tolerance));
       }
-    count = Utilities::MPI::sum(count, MPI_COMM_WORLD);
-    if (Utilities::MPI::sum(changed, MPI_COMM_WORLD) > 0)
+    const unsigned int count = Utilities::MPI::sum(all.count, MPI_COMM_WORLD);
+    if (Utilities::MPI::sum(all.changed, MPI_COMM_WORLD) > 0)
       out << ", contact points at a kink: another place is needed FAILED";
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cout << name << ": " << count / 3 << " rows (stencils" << text_of_stencils.str()
-                << ")\n " << out.str() << std::endl;
+      std::cout << name << ": " << count / 3 << " rows (stencils" << stencils << ")\n " << out.str()
+                << std::endl;
   }
 } // namespace
 

@@ -551,14 +551,113 @@ end
   const char *const      names[n_errors] =
     {"gap", "slip", "multiplier rows", "force", "stiffness", "column"};
 
-  std::array<Error, n_errors>
+  /** Step of the differences. */
+  constexpr double h = 1e-6;
+
+  using Errors = std::array<Error, n_errors>;
+
+  /** All nodes move: what conditions, rows of multipliers and forces make of it.
+   * @param base The state of the rows in which the system was made. */
+  void
+  add_errors_of_motion(Case                     &c,
+                       const bool                consistent,
+                       const RowArray<RowState> &base,
+                       const std::size_t         n_conditions,
+                       const unsigned int        seed,
+                       Errors                   &errors)
+  {
+    const Touchstone::Vector direction =
+      c.made.displacement([&](const Point<dim> &x, unsigned int) { return scattered(x, seed); });
+    const Touchstone::Vector v = c.ghosted(direction);
+    Touchstone::Vector       plus(c.u), minus(c.u);
+    plus.add(h, direction);
+    minus.add(-h, direction);
+    c.contact.update(plus, Case::step);
+    Touchstone::Vector difference = c.forces();
+    const GapsAndSlips rows_plus(c.contact);
+    c.contact.enforcement().set_states(base);
+    c.contact.update(minus, Case::step);
+    difference -= c.forces();
+    difference /= 2. * h;
+    const GapsAndSlips rows_minus(c.contact);
+    c.contact.update(c.u, Case::step);
+    c.contact.enforcement().set_states(base);
+    if (consistent)
+      c.contact.differentiate();
+    errors[4].add(c.change(v, std::vector<double>(n_conditions, 0.)), difference);
+
+    std::vector<double> rows_of_system(c.system->n_extra, 0.);
+    for (const RankOneTerm &term : c.system->terms)
+      for (const auto &[row, left] : term.left)
+        if (row >= v.size())
+          for (const auto &[column, right] : term.right)
+            rows_of_system[row - c.system->first_extra] += left * right * v(column);
+    c.for_each_condition([&](const unsigned int k,
+                             const ContactRow  &row,
+                             const unsigned int i,
+                             const Condition   &condition) {
+      const std::size_t r     = row.index;
+      double            value = 0.;
+      for (const auto &[node, coefficients] : condition.motion_form())
+        for (unsigned int d = 0; d < dim; ++d)
+          value += coefficients[d] * v(dim * node + d);
+      const double exact =
+        i == 0 ? (rows_plus.gaps[r] - rows_minus.gaps[r]) / (2. * h)
+               : condition.direction * (rows_plus.slips[r] - rows_minus.slips[r]) / (2. * h);
+      errors[i > 0].add(value, exact);
+      if (c.system->n_extra > 0)
+        errors[2].add(rows_of_system[k] / row.stiffness, exact);
+    });
+  }
+
+
+
+  /** Forces of the conditions change, nothing moves. */
+  void
+  add_errors_of_forces(Case                     &c,
+                       const RowArray<RowState> &base,
+                       const unsigned int        seed,
+                       Errors                   &errors)
+  {
+    std::vector<double> force_changes, extra_changes;
+    c.for_each_condition(
+      [&](unsigned int, const ContactRow &row, const unsigned int i, const Condition &) {
+        force_changes.push_back(row.stiffness * scatter(Point<dim>(row.position), seed + i));
+        extra_changes.push_back(c.extra(row, force_changes.back()));
+      });
+    const auto forces_at = [&](const double step) {
+      RowArray<RowState> states = base;
+      c.for_each_condition([&](const unsigned int k,
+                               const ContactRow  &row,
+                               const unsigned int i,
+                               const Condition   &condition) {
+        if (i == 0)
+          states[row].lambda += step * force_changes[k];
+        else
+          states[row].friction.base += step * force_changes[k] * condition.direction;
+      });
+      c.contact.enforcement().set_states(states);
+      const Touchstone::Vector result = c.forces();
+      c.contact.enforcement().set_states(base);
+      return result;
+    };
+    Touchstone::Vector difference = forces_at(h);
+    difference -= forces_at(-h);
+    difference /= 2. * h;
+    const Touchstone::Vector no_motion(c.made.solid.owned, MPI_COMM_WORLD);
+    errors[5].add(c.change(c.ghosted(no_motion), extra_changes), difference);
+  }
+
+
+
+  Errors
   errors_of(Case &c, const bool consistent)
   {
     // Twice, so that exact slip refers to a last iteration.
     c.linearize(consistent);
     c.evaluate();
     c.linearize(consistent);
-    std::array<Error, n_errors> errors;
+    Errors errors;
 
     // The force itself: what the system adds at no increment.
     const RowArray<RowState> base = c.contact.enforcement().states();
@@ -577,81 +676,11 @@ end
       c.contact.enforcement().set_states(base);
     }
 
-    const double h = 1e-6;
     for (const unsigned int seed : {1, 2})
       {
-        const Touchstone::Vector direction = c.made.displacement(
-          [&](const Point<dim> &x, unsigned int) { return scattered(x, seed); });
-        const Touchstone::Vector v = c.ghosted(direction);
-        Touchstone::Vector       plus(c.u), minus(c.u);
-        plus.add(h, direction);
-        minus.add(-h, direction);
-        c.contact.update(plus, Case::step);
-        Touchstone::Vector difference = c.forces();
-        const GapsAndSlips rows_plus(c.contact);
-        c.contact.enforcement().set_states(base);
-        c.contact.update(minus, Case::step);
-        difference -= c.forces();
-        difference /= 2. * h;
-        const GapsAndSlips rows_minus(c.contact);
-        c.contact.update(c.u, Case::step);
-        c.contact.enforcement().set_states(base);
-        if (consistent)
-          c.contact.differentiate();
-        errors[4].add(c.change(v, std::vector<double>(extra.size(), 0.)), difference);
-
-        std::vector<double> rows_of_system(c.system->n_extra, 0.);
-        for (const RankOneTerm &term : c.system->terms)
-          for (const auto &[row, left] : term.left)
-            if (row >= v.size())
-              for (const auto &[column, right] : term.right)
-                rows_of_system[row - c.system->first_extra] += left * right * v(column);
-        c.for_each_condition([&](const unsigned int k,
-                                 const ContactRow  &row,
-                                 const unsigned int i,
-                                 const Condition   &condition) {
-          const std::size_t r     = row.index;
-          double            value = 0.;
-          for (const auto &[node, coefficients] : condition.motion_form())
-            for (unsigned int d = 0; d < dim; ++d)
-              value += coefficients[d] * v(dim * node + d);
-          const double exact =
-            i == 0 ? (rows_plus.gaps[r] - rows_minus.gaps[r]) / (2. * h)
-                   : condition.direction * (rows_plus.slips[r] - rows_minus.slips[r]) / (2. * h);
-          errors[i > 0].add(value, exact);
-          if (c.system->n_extra > 0)
-            errors[2].add(rows_of_system[k] / row.stiffness, exact);
-        });
-
-        if (!c.with_multipliers())
-          continue;
-        // Forces of the conditions change, nothing moves.
-        std::vector<double> force_changes, extra_changes;
-        c.for_each_condition(
-          [&](unsigned int, const ContactRow &row, const unsigned int i, const Condition &) {
-            force_changes.push_back(row.stiffness * scatter(Point<dim>(row.position), seed + i));
-            extra_changes.push_back(c.extra(row, force_changes.back()));
-          });
-        const auto forces_at = [&](const double step) {
-          RowArray<RowState> states = base;
-          c.for_each_condition([&](const unsigned int k,
-                                   const ContactRow  &row,
-                                   const unsigned int i,
-                                   const Condition   &condition) {
-            if (i == 0)
-              states[row].lambda += step * force_changes[k];
-            else
-              states[row].friction.base += step * force_changes[k] * condition.direction;
-          });
-          c.contact.enforcement().set_states(states);
-          const Touchstone::Vector result = c.forces();
-          c.contact.enforcement().set_states(base);
-          return result;
-        };
-        difference = forces_at(h);
-        difference -= forces_at(-h);
-        difference /= 2. * h;
-        errors[5].add(c.change(c.ghosted(no_motion), extra_changes), difference);
+        add_errors_of_motion(c, consistent, base, extra.size(), seed, errors);
+        if (c.with_multipliers())
+          add_errors_of_forces(c, base, seed, errors);
       }
     return errors;
   }

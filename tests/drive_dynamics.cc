@@ -274,11 +274,7 @@ end
 
 
 
-  /** Balance of a step and its stiffness, for a ball under pressure. */
-  void
-  derivative(const std::vector<std::string> &overrides)
-  {
-    const std::string text = R"(
+  const char *const ball_under_pressure = R"(
 set Bodies = ball
 subsection Body ball
   set Boundary conditions = surface
@@ -299,9 +295,16 @@ subsection Body ball
   end
 end
 )";
-    const Scene       scene(text, "scene.prm", overrides);
-    const Forest      forest(scene.forest_input(), "", MPI_COMM_WORLD);
-    Solid             solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
+
+
+
+  /** Balance of a step and its stiffness, for a ball under pressure. */
+  void
+  derivative(const std::vector<std::string> &overrides)
+  {
+    const Scene  scene(ball_under_pressure, "scene.prm", overrides);
+    const Forest forest(scene.forest_input(), "", MPI_COMM_WORLD);
+    Solid        solid(scene.bodies, scene.discretisation.degree, forest, MPI_COMM_WORLD);
     solid.assemble();
     const BoundaryConditions conditions(forest, solid);
     Touchstone::Vector       committed(solid.owned, solid.communicator), position(committed);

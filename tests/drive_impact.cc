@@ -17,6 +17,77 @@ namespace
 {
   using Vec = Touchstone::Vector;
 
+  /** A velocity of each node that has nothing to do with those of others. */
+  Vec
+  scattered_velocity(const Solid &solid)
+  {
+    Vec positions(solid.owned, solid.communicator), v(positions);
+    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
+    for (std::size_t k = 0; k < v.locally_owned_size(); k += dim)
+      {
+        const Point<dim> x(positions.begin()[k],
+                           positions.begin()[k + 1],
+                           positions.begin()[k + 2]);
+        for (unsigned int d = 0; d < dim; ++d)
+          v.begin()[k + d] = scattered(x, 1)[d];
+      }
+    return v;
+  }
+
+
+
+  double
+  kinetic_energy(const Mass &mass, const Vec &velocity)
+  {
+    Vec momentum(velocity);
+    mass.multiply(velocity, momentum);
+    return 0.5 * (momentum * velocity);
+  }
+
+
+
+  Tensor<1, dim>
+  momentum_of(const unsigned int body, const Mass &mass, const Solid &solid, const Vec &velocity)
+  {
+    const std::vector<unsigned int> bodies = bodies_of_unknowns(solid);
+    Vec                             product(velocity);
+    mass.multiply(velocity, product);
+    Tensor<1, dim> sum;
+    for (std::size_t k = 0; k < product.locally_owned_size(); ++k)
+      if (bodies[k] == body)
+        sum[k % dim] += product.begin()[k];
+    return Utilities::MPI::sum(sum, solid.communicator);
+  }
+
+
+
+  /** By how much velocities miss what the conditions ask for. */
+  double
+  missed_velocity(const std::vector<VelocityConstraint> &constraints,
+                  const Solid                           &solid,
+                  const Vec                             &v)
+  {
+    IndexSet needed = solid.relevant;
+    for (const VelocityConstraint &node : constraints)
+      for (const auto &[at, coefficients] : node.condition.motion_form())
+        needed.add_range(dim * at, dim * at + dim);
+    needed.compress();
+    Vec ghosted(solid.owned, needed, solid.communicator);
+    ghosted       = v;
+    double missed = 0.;
+    for (const VelocityConstraint &node : constraints)
+      {
+        double speed = 0.;
+        for (const auto &[at, coefficients] : node.condition.motion_form())
+          for (unsigned int d = 0; d < dim; ++d)
+            speed += coefficients[d] * ghosted(dim * at + d);
+        missed = std::max(missed, std::abs(speed - node.condition.value));
+      }
+    return Utilities::MPI::max(missed, solid.communicator);
+  }
+
+
+
   void
   impact(const std::string &title, const std::vector<std::string> &overrides)
   {
@@ -35,75 +106,38 @@ namespace
         sliding += node.condition.force_direction.norm_square() > 0.;
         across += !node.normal;
       }
-    const Mass mass(run.scene.time_integration.mass, solid, {}, 0.1);
-    Impact     impact(constraints, mass, solid, [](Vec &) {});
-
-    Vec positions(solid.owned, solid.communicator), v(positions);
-    VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
-    for (std::size_t k = 0; k < v.locally_owned_size(); k += dim)
-      {
-        const Point<dim> x(positions.begin()[k],
-                           positions.begin()[k + 1],
-                           positions.begin()[k + 2]);
-        for (unsigned int d = 0; d < dim; ++d)
-          v.begin()[k + d] = scattered(x, 1)[d];
-      }
-    const auto kinetic = [&](const Vec &velocity) {
-      Vec momentum(velocity);
-      mass.multiply(velocity, momentum);
-      return 0.5 * (momentum * velocity);
-    };
-    const std::vector<unsigned int> body     = bodies_of_unknowns(solid);
-    const auto                      momentum = [&](const Vec &velocity, const unsigned int of) {
-      Vec product(velocity);
-      mass.multiply(velocity, product);
-      Tensor<1, dim> sum;
-      for (std::size_t k = 0; k < product.locally_owned_size(); ++k)
-        if (body[k] == of)
-          sum[k % dim] += product.begin()[k];
-      return Utilities::MPI::sum(sum, solid.communicator);
-    };
+    const Mass         mass(run.scene.time_integration.mass, solid, {}, 0.1);
+    Impact             impact(constraints, mass, solid, [](Vec &) {});
+    Vec                v = scattered_velocity(solid);
     const Vec          before(v);
     const Impact::Loss loss = impact.stop(v, true);
     Vec                mean(before);
     mean.sadd(0.5, 0.5, v);
 
     // The velocities that are left are those that the conditions ask for.
-    IndexSet needed = solid.relevant;
-    for (const VelocityConstraint &node : constraints)
-      for (const auto &[at, coefficients] : node.condition.motion_form())
-        needed.add_range(dim * at, dim * at + dim);
-    needed.compress();
-    Vec ghosted(solid.owned, needed, solid.communicator);
-    ghosted                 = v;
-    double         missed   = 0.;
+    const double   missed   = missed_velocity(constraints, solid, v);
     double         impulses = 0.;
     Tensor<1, dim> impulse;
     for (const VelocityConstraint &node : constraints)
       {
-        double speed = 0.;
-        for (const auto &[at, coefficients] : node.condition.motion_form())
-          for (unsigned int d = 0; d < dim; ++d)
-            speed += coefficients[d] * ghosted(dim * at + d);
-        missed = std::max(missed, std::abs(speed - node.condition.value));
         impulses += std::abs(node.impulse);
         impulse += node.impulse * node.condition.force();
       }
-    missed   = Utilities::MPI::max(missed, solid.communicator);
     impulses = Utilities::MPI::sum(impulses, solid.communicator);
     sliding  = Utilities::MPI::sum(sliding, solid.communicator);
     across   = Utilities::MPI::sum(across, solid.communicator);
 
-    const double energy = kinetic(before), lost = energy - kinetic(v),
+    const double energy = kinetic_energy(mass, before), lost = energy - kinetic_energy(mass, v),
                  work = mean * loss.normal + mean * loss.tangential;
     // The block gets the impulses along their directions, the base the opposite.
     impulse       = Utilities::MPI::sum(impulse, solid.communicator);
     double change = 0.;
     for (const unsigned int of : {0, 1})
-      change =
-        std::max(change,
-                 (momentum(v, of) - momentum(before, of) + (of == 1 ? 1. : -1.) * impulse).norm() /
-                   impulses);
+      change = std::max(change,
+                        (momentum_of(of, mass, solid, v) - momentum_of(of, mass, solid, before) +
+                         (of == 1 ? 1. : -1.) * impulse)
+                            .norm() /
+                          impulses);
     // What has been taken is gone: nothing is left for a second time.
     Vec again(v);
     impact.stop(again, true);

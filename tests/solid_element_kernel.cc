@@ -39,6 +39,144 @@ namespace
 
 
 
+  /** The largest figures of all cells. */
+  struct Figures
+  {
+    double       stress = 0., force = 0., asymmetry = 0., rigid = 0., volume = 0., at_once = 0.;
+    unsigned int zero = 0, cells = 0;
+  };
+
+
+
+  /** Patch test: a displacement that is linear in space gives the exact stress at all points. */
+  void
+  check_stress(ElementKernel                 &kernel,
+               const std::vector<double>     &u,
+               const SymmetricTensor<2, dim> &exact,
+               Figures                       &figures)
+  {
+    kernel.set_displacement(u);
+    for (unsigned int q = 0; q < kernel.n_quadrature_points(); ++q)
+      {
+        figures.stress = std::max(figures.stress, (kernel.stress(q) - exact).norm() / exact.norm());
+        figures.volume += kernel.volume(q);
+      }
+  }
+
+
+
+  /** Rigid motions: none of the six needs a force. */
+  void
+  check_rigid_motions(const ElementKernel           &kernel,
+                      const ElementStiffness<1>     &k,
+                      const std::vector<Point<dim>> &support,
+                      const std::vector<Index>      &dofs,
+                      const double                   largest,
+                      Figures                       &figures)
+  {
+    const unsigned int n = kernel.n_dofs();
+    for (unsigned int m = 0; m < 6; ++m)
+      {
+        Tensor<1, dim> e;
+        e[m % dim] = 1.;
+        std::vector<double> r(n);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const Tensor<1, dim> x = support[dofs[kernel.local_dof(i / dim, 0)]];
+            r[i]                   = (m < dim ? e : cross_product_3d(e, x))[i % dim];
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            double sum = 0.;
+            for (unsigned int j = 0; j < n; ++j)
+              sum += k(i, j) * r[j];
+            figures.rigid = std::max(figures.rigid, std::abs(sum) / largest);
+          }
+      }
+  }
+
+
+
+  /** Number of motions without energy: eigenvalues of zero. */
+  unsigned int
+  n_motions_without_energy(const ElementStiffness<1> &k, const unsigned int n, const double largest)
+  {
+    LAPACKFullMatrix<double> matrix(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        matrix(i, j) = k(i, j) / largest;
+    dealii::Vector<double> eigenvalues;
+    FullMatrix<double>     eigenvectors;
+    matrix.compute_eigenvalues_symmetric(-1e3, 1e-9, 1e-14, eigenvalues, eigenvectors);
+    return eigenvalues.size();
+  }
+
+
+
+  /** All cells of the mesh, one by one and at once, under one displacement gradient.
+   * @param exact The stress that belongs to it. */
+  Figures
+  check_cells(ElementKernel                 &kernel,
+              const DoFHandler<dim>         &dof_handler,
+              const MappingQ<dim>           &mapping,
+              const Tensor<2, dim>          &gradient,
+              const SymmetricTensor<2, dim> &exact)
+  {
+    std::vector<Point<dim>> support(dof_handler.n_dofs());
+    DoFTools::map_dofs_to_support_points(mapping, dof_handler, support);
+    const unsigned int               n = kernel.n_dofs();
+    dealii::Vector<double>           residual(dof_handler.n_dofs());
+    std::vector<Index>               dofs(dof_handler.get_fe().n_dofs_per_cell());
+    std::vector<double>              u(n);
+    std::vector<std::vector<double>> one_by_one;
+    ElementStiffness<8>              eight = kernel.stiffness_of_cells();
+    Figures                          figures;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      {
+        kernel.reinit(cell);
+        kernel.become(figures.cells, eight);
+        cell->get_dof_indices(dofs);
+        const ElementStiffness<1> &k = kernel.stiffness();
+        for (unsigned int a = 0; a < kernel.nodes_per_cell(); ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            u[dim * a + d] = gradient[d] * support[dofs[kernel.local_dof(a, d)]];
+        check_stress(kernel, u, exact, figures);
+
+        double largest = 0.;
+        one_by_one.emplace_back();
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            double sum = 0.;
+            for (unsigned int j = 0; j < n; ++j)
+              {
+                sum += k(i, j) * u[j];
+                one_by_one.back().push_back(k(i, j));
+                largest           = std::max(largest, std::abs(k(i, j)));
+                figures.asymmetry = std::max(figures.asymmetry, std::abs(k(i, j) - k(j, i)));
+              }
+            residual[dofs[kernel.local_dof(i / dim, i % dim)]] += sum;
+          }
+        check_rigid_motions(kernel, k, support, dofs, largest, figures);
+        figures.zero += n_motions_without_energy(k, n, largest);
+        ++figures.cells;
+      }
+    eight.compute();
+    for (unsigned int c = 0; c < 8; ++c)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          figures.at_once =
+            std::max(figures.at_once,
+                     std::abs(eight(i, j, c) - one_by_one[c][n * i + j]) / exact.norm());
+    // Forces on nodes inside are in balance.
+    for (const auto i : DoFTools::extract_boundary_dofs(dof_handler))
+      residual[i] = 0.;
+    for (unsigned int i = 0; i < residual.size(); ++i)
+      figures.force = std::max(figures.force, std::abs(residual[i]) / exact.norm());
+    return figures;
+  }
+
+
+
   void
   check(const std::string &name, const unsigned int degree, const ElementType type, const double nu)
   {
@@ -62,100 +200,13 @@ namespace
     const SymmetricTensor<2, dim> strain = symmetrize(gradient);
     const SymmetricTensor<2, dim> exact =
       2. * mu * strain + lambda * trace(strain) * unit_symmetric_tensor<dim>();
-    const double scale = exact.norm();
 
-    std::vector<Point<dim>> support(dof_handler.n_dofs());
-    DoFTools::map_dofs_to_support_points(mapping, dof_handler, support);
-    dealii::Vector<double> residual(dof_handler.n_dofs());
-    std::vector<char>      inner(dof_handler.n_dofs(), 1);
-    const IndexSet         boundary = DoFTools::extract_boundary_dofs(dof_handler);
-    for (const auto i : boundary)
-      inner[i] = 0;
-
-    double              stress = 0., force = 0., asymmetry = 0., energy = 0., volume = 0.;
-    unsigned int        zero = 0, cells = 0;
-    std::vector<Index>  dofs(fe.n_dofs_per_cell());
-    ElementStiffness<8> eight = kernel.stiffness_of_cells();
-    std::vector<std::vector<double>> one_by_one;
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      {
-        kernel.reinit(cell);
-        kernel.become(cells, eight);
-        cell->get_dof_indices(dofs);
-        const ElementStiffness<1> &k = kernel.stiffness();
-        const unsigned int         n = kernel.n_dofs();
-
-        std::vector<double> u(n);
-        for (unsigned int a = 0; a < kernel.nodes_per_cell(); ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            u[dim * a + d] = gradient[d] * support[dofs[kernel.local_dof(a, d)]];
-        kernel.set_displacement(u);
-        for (unsigned int q = 0; q < kernel.n_quadrature_points(); ++q)
-          {
-            stress = std::max(stress, (kernel.stress(q) - exact).norm() / scale);
-            volume += kernel.volume(q);
-          }
-
-        double largest = 0.;
-        one_by_one.emplace_back();
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            double sum = 0.;
-            for (unsigned int j = 0; j < n; ++j)
-              {
-                sum += k(i, j) * u[j];
-                one_by_one.back().push_back(k(i, j));
-                largest   = std::max(largest, std::abs(k(i, j)));
-                asymmetry = std::max(asymmetry, std::abs(k(i, j) - k(j, i)));
-              }
-            residual[dofs[kernel.local_dof(i / dim, i % dim)]] += sum;
-          }
-
-        // Rigid motions.
-        for (unsigned int m = 0; m < 6; ++m)
-          {
-            Tensor<1, dim> e;
-            e[m % dim] = 1.;
-            std::vector<double> r(n);
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                const Tensor<1, dim> x = support[dofs[kernel.local_dof(i / dim, 0)]];
-                r[i]                   = (m < dim ? e : cross_product_3d(e, x))[i % dim];
-              }
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                double sum = 0.;
-                for (unsigned int j = 0; j < n; ++j)
-                  sum += k(i, j) * r[j];
-                energy = std::max(energy, std::abs(sum) / largest);
-              }
-          }
-        LAPACKFullMatrix<double> matrix(n, n);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            matrix(i, j) = k(i, j) / largest;
-        dealii::Vector<double> eigenvalues;
-        FullMatrix<double>     eigenvectors;
-        matrix.compute_eigenvalues_symmetric(-1e3, 1e-9, 1e-14, eigenvalues, eigenvectors);
-        zero += eigenvalues.size();
-        ++cells;
-      }
-    // All cells of the mesh at once.
-    eight.compute();
-    double at_once = 0.;
-    for (unsigned int c = 0; c < 8; ++c)
-      for (unsigned int i = 0; i < kernel.n_dofs(); ++i)
-        for (unsigned int j = 0; j < kernel.n_dofs(); ++j)
-          at_once =
-            std::max(at_once,
-                     std::abs(eight(i, j, c) - one_by_one[c][kernel.n_dofs() * i + j]) / scale);
-    for (unsigned int i = 0; i < residual.size(); ++i)
-      if (inner[i])
-        force = std::max(force, std::abs(residual[i]) / scale);
-    std::cout << name << ", nu = " << nu << ": volume " << volume << ", patch test: stress "
-              << small(stress) << ", forces inside " << small(force) << ", asymmetry "
-              << small(asymmetry / scale, 1e-11) << ", eight at once " << small(at_once, 1e-11)
-              << ", rigid motions " << small(energy) << ", " << double(zero) / cells
+    const Figures figures = check_cells(kernel, dof_handler, mapping, gradient, exact);
+    std::cout << name << ", nu = " << nu << ": volume " << figures.volume << ", patch test: stress "
+              << small(figures.stress) << ", forces inside " << small(figures.force)
+              << ", asymmetry " << small(figures.asymmetry / exact.norm(), 1e-11)
+              << ", eight at once " << small(figures.at_once, 1e-11) << ", rigid motions "
+              << small(figures.rigid) << ", " << double(figures.zero) / figures.cells
               << " motions without energy" << std::endl;
   }
 } // namespace

@@ -38,113 +38,154 @@ namespace
     return result;
   }
 
-  Figures
-  check(CellKernel &kernel, const unsigned int degree, const bool recovery)
+  /** A cell in a step from @p committed, at the end of which it has the displacement u. */
+  struct PlasticStep
   {
-    Figures            figures;
-    const bool         finite = kernel.finite_strain();
-    const unsigned int n = kernel.n_dofs(), n_nodes = kernel.nodes_per_cell();
+    PlasticStep(CellKernel &kernel, const unsigned int degree)
+      : kernel(kernel)
+      , finite(kernel.finite_strain())
+      , n(kernel.n_dofs())
+      , n_nodes(kernel.nodes_per_cell())
+      , n_state(kernel.material()->n_state())
+      , X(n)
+      , u(n)
+    {
+      std::mt19937                           generator(42);
+      std::uniform_real_distribution<double> random(-0.1, 0.1);
+      const std::vector<Point<dim>>          unit = FE_Q<dim>(degree).get_unit_support_points();
+      Array                                  first(n);
+      const double                           size = finite ? 0.3 : 0.01;
+      for (unsigned int a = 0; a < n_nodes; ++a)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            X[dim * a + d]     = (1. + 0.5 * d) * unit[a][d] + random(generator) / degree;
+            first[dim * a + d] = size * (unit[a][(d + 1) % dim] + random(generator) / degree);
+            u[dim * a + d]     = first[dim * a + d] +
+                             size * (0.7 * unit[a][(d + 2) % dim] - 0.4 * unit[a][d] * (d == 0) +
+                                     random(generator) / degree);
+          }
+      kernel.reinit(X.data(), first.data());
+      kernel.force();
+      committed = kernel.present();
+      kernel.reinit(X.data(), u.data(), committed.data());
+      force     = kernel.force();
+      state     = kernel.present();
+      matrix    = kernel.stiffness();
+      symmetric = kernel.stiffness(true);
+      for (const double k : matrix)
+        largest = std::max(largest, std::abs(k));
+      for (const double f : force)
+        largest_force = std::max(largest_force, std::abs(f));
+    }
 
-    std::mt19937                           generator(42);
-    std::uniform_real_distribution<double> random(-0.1, 0.1);
-    const std::vector<Point<dim>>          unit = FE_Q<dim>(degree).get_unit_support_points();
-    Array                                  X(n), first(n), u(n);
-    const double                           size = finite ? 0.3 : 0.01;
-    for (unsigned int a = 0; a < n_nodes; ++a)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          X[dim * a + d]     = (1. + 0.5 * d) * unit[a][d] + random(generator) / degree;
-          first[dim * a + d] = size * (unit[a][(d + 1) % dim] + random(generator) / degree);
-          u[dim * a + d] =
-            first[dim * a + d] + size * (0.7 * unit[a][(d + 2) % dim] -
-                                         0.4 * unit[a][d] * (d == 0) + random(generator) / degree);
-        }
-    kernel.reinit(X.data(), first.data());
-    kernel.force();
-    const Array committed = kernel.present();
+    CellKernel        &kernel;
+    const bool         finite;
+    const unsigned int n, n_nodes, n_state;
+    Array              X, u, committed, force, state, matrix, symmetric;
+    double             largest = 0., largest_force = 0.;
+  };
 
-    kernel.reinit(X.data(), u.data(), committed.data());
-    const Array        force     = kernel.force();
-    const Array        state     = kernel.present();
-    const Array        matrix    = kernel.stiffness();
-    const Array        symmetric = kernel.stiffness(true);
-    const unsigned int n_state   = kernel.material()->n_state();
-    for (unsigned int q = 0; q < kernel.n_quadrature_points(); ++q)
-      figures.plastic = std::min(
-        {figures.plastic, committed[q * n_state], state[q * n_state] - committed[q * n_state]});
 
-    double largest = 0.;
-    for (const double k : matrix)
-      largest = std::max(largest, std::abs(k));
-    double largest_force = 0.;
-    for (const double f : force)
-      largest_force = std::max(largest_force, std::abs(f));
+
+  /** All points yield before the step and in it; the tangent is symmetric, or its symmetric part
+   * can be had. */
+  void
+  check_state_and_symmetry(const PlasticStep &step, Figures &figures)
+  {
+    const unsigned int n = step.n;
+    for (unsigned int q = 0; q < step.kernel.n_quadrature_points(); ++q)
+      figures.plastic = std::min({figures.plastic,
+                                  step.committed[q * step.n_state],
+                                  step.state[q * step.n_state] - step.committed[q * step.n_state]});
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         {
-          figures.asymmetry =
-            std::max(figures.asymmetry, std::abs(matrix[n * i + j] - matrix[n * j + i]) / largest);
+          const double here = step.matrix[n * i + j], there = step.matrix[n * j + i];
+          figures.asymmetry = std::max(figures.asymmetry, std::abs(here - there) / step.largest);
           figures.symmetric_part =
             std::max(figures.symmetric_part,
-                     std::abs(symmetric[n * i + j] -
-                              0.5 * (matrix[n * i + j] + matrix[n * j + i])) /
-                       largest);
+                     std::abs(step.symmetric[n * i + j] - 0.5 * (here + there)) / step.largest);
         }
-    const double h = finite ? 1e-6 : 1e-7;
+  }
+
+
+
+  /** Forces are the derivative of the energy, the tangent is that of the forces. */
+  void
+  check_derivatives(PlasticStep &step, const bool recovery, Figures &figures)
+  {
+    const unsigned int n = step.n;
+    const double       h = step.finite ? 1e-6 : 1e-7;
     for (unsigned int j = 0; j < n; ++j)
       {
         Array  forces[2];
         double energies[2];
         for (const unsigned int side : {0, 1})
           {
-            Array moved(u);
+            Array moved(step.u);
             moved[j] += side == 0 ? h : -h;
-            kernel.reinit(X.data(), moved.data(), committed.data());
-            energies[side] = kernel.energy();
-            forces[side]   = kernel.force();
+            step.kernel.reinit(step.X.data(), moved.data(), step.committed.data());
+            energies[side] = step.kernel.energy();
+            forces[side]   = step.kernel.force();
           }
         if (!recovery)
           figures.energy =
             std::max(figures.energy,
-                     std::abs((energies[0] - energies[1]) / (2. * h) - force[j]) / largest_force);
+                     std::abs((energies[0] - energies[1]) / (2. * h) - step.force[j]) /
+                       step.largest_force);
         for (unsigned int i = 0; i < n; ++i)
           figures.tangent =
             std::max(figures.tangent,
-                     std::abs((forces[0][i] - forces[1][i]) / (2. * h) - matrix[n * i + j]) /
-                       largest);
+                     std::abs((forces[0][i] - forces[1][i]) / (2. * h) - step.matrix[n * i + j]) /
+                       step.largest);
       }
-    // What is committed, again.
-    kernel.reinit(X.data(), u.data(), state.data());
-    figures.again = distance(kernel.force(), force) / largest_force;
-    figures.state = distance(kernel.present(), state);
+  }
 
-    if (!finite)
-      return figures;
-    kernel.reinit(X.data(), u.data(), committed.data());
+
+
+  /** What is committed, again. */
+  void
+  check_committed(PlasticStep &step, Figures &figures)
+  {
+    step.kernel.reinit(step.X.data(), step.u.data(), step.state.data());
+    figures.again = distance(step.kernel.force(), step.force) / step.largest_force;
+    figures.state = distance(step.kernel.present(), step.state);
+  }
+
+
+
+  /** A rotation over the step turns forces and stress and leaves the plastic strain alone, which
+   * keeps the volume. */
+  void
+  check_rotation(PlasticStep &step, Figures &figures)
+  {
+    CellKernel &kernel = step.kernel;
+    kernel.reinit(step.X.data(), step.u.data(), step.committed.data());
     std::vector<SymmetricTensor<2, dim>> stress;
     for (unsigned int q = 0; q < kernel.n_quadrature_points(); ++q)
       stress.push_back(kernel.stress(q));
     const Tensor<2, dim> Q =
       Physics::Transformations::Rotations::rotation_matrix_3d(Point<dim>(0.6, 0., 0.8), 2.);
-    Array turned(n);
-    for (unsigned int a = 0; a < n_nodes; ++a)
+    Array turned(step.n);
+    for (unsigned int a = 0; a < step.n_nodes; ++a)
       for (unsigned int i = 0; i < dim; ++i)
         {
-          turned[dim * a + i] = 5. - X[dim * a + i];
+          turned[dim * a + i] = 5. - step.X[dim * a + i];
           for (unsigned int j = 0; j < dim; ++j)
-            turned[dim * a + i] += Q[i][j] * (X[dim * a + j] + u[dim * a + j]);
+            turned[dim * a + i] += Q[i][j] * (step.X[dim * a + j] + step.u[dim * a + j]);
         }
-    kernel.reinit(X.data(), turned.data(), committed.data());
+    kernel.reinit(step.X.data(), turned.data(), step.committed.data());
     const Array turned_force = kernel.force();
-    figures.rotation         = distance(kernel.present(), state);
-    for (unsigned int a = 0; a < n_nodes; ++a)
+    figures.rotation         = distance(kernel.present(), step.state);
+    for (unsigned int a = 0; a < step.n_nodes; ++a)
       for (unsigned int i = 0; i < dim; ++i)
         {
           double expected = 0.;
           for (unsigned int j = 0; j < dim; ++j)
-            expected += Q[i][j] * force[dim * a + j];
+            expected += Q[i][j] * step.force[dim * a + j];
           figures.rotation =
-            std::max(figures.rotation, std::abs(turned_force[dim * a + i] - expected) / largest);
+            std::max(figures.rotation,
+                     std::abs(turned_force[dim * a + i] - expected) / step.largest);
         }
     for (unsigned int q = 0; q < kernel.n_quadrature_points(); ++q)
       {
@@ -155,11 +196,27 @@ namespace
         Tensor<2, dim> inverse;
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int j = 0; j < dim; ++j)
-            inverse[i][j] = state[q * n_state + 2 + dim * i + j];
+            inverse[i][j] = step.state[q * step.n_state + 2 + dim * i + j];
         figures.dilatation = std::max(figures.dilatation, std::abs(determinant(inverse) - 1.));
       }
+  }
+
+
+
+  Figures
+  check(CellKernel &kernel, const unsigned int degree, const bool recovery)
+  {
+    Figures     figures;
+    PlasticStep step(kernel, degree);
+    check_state_and_symmetry(step, figures);
+    check_derivatives(step, recovery, figures);
+    check_committed(step, figures);
+    if (step.finite)
+      check_rotation(step, figures);
     return figures;
   }
+
+
 
   void
   check(const std::string &law, const std::string &element, const unsigned int degree)

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
-#include <cmath>
 #include <set>
 
-// One implicit step as Newton's method sees it (doc/theory.md 5). In each iteration residual()
-// updates the contact geometry, the forces and the active set, linearize() makes the linear system
-// with all conditions (StepSystem), solve() solves it and update() applies the increment. What is
-// kept of a step is in step_history.cc, checks of its outcome are in step_checks.cc. All functions
-// are collective.
+// One implicit step (doc/theory.md 5), from the start of the problem to what is found of each
+// solution. Newton's iteration is in step_iteration.cc, what is kept of a step in step_history.cc,
+// checks of its outcome are in step_checks.cc. All functions are collective.
 namespace Touchstone
 {
   using namespace dealii;
@@ -166,189 +164,6 @@ namespace Touchstone
     sum.factorisations += now.factorisations;
     sum.preconditioner_setups += now.preconditioner_setups;
     return sum;
-  }
-
-
-
-  // The order is fixed: geometry at u, forces of the bodies, forces of contact from these, the
-  // residual with both, and last the active set, which is judged by the contact forces.
-  NewtonState
-  StepProblem::residual(const unsigned int damping)
-  {
-    NewtonState state;
-    update_geometry(state);
-    Vector without_contact(solid.owned, solid.communicator);
-    balance(without_contact);
-    contact.enforcement().recover(contact, without_contact, system->conditions());
-    judge_balance(without_contact, state);
-    update_active_set(damping, state);
-    // Uzawa's outer iteration augments forces once they are in balance.
-    if (state.changes == 0 && state.prescribed && balanced(state, scene.newton))
-      contact.enforcement().balanced(contact);
-    forcing_term.update(state, system->linear_solver().symmetric_only() && solid.linear());
-    return state;
-  }
-
-
-
-  void
-  StepProblem::update_geometry(NewtonState &state)
-  {
-    {
-      TimerOutput::Scope scope(timer, "search");
-      contact.update(u, time);
-    }
-    // See begin_step().
-    if (touch_unknown)
-      touch = contact.part_to_touch();
-    touch_unknown = false;
-    // Prescribed displacements first: they take precedence over contact, and the residual needs
-    // their directions. Contact is added in linearize().
-    missed = system->prescribe(time, u);
-    // Exact up to round-off after the first full increment; a shortened increment misses a part.
-    state.prescribed = missed <= scene.newton.gap_tolerance * system->smallest_cell();
-  }
-
-
-
-  void
-  StepProblem::balance(Vector &without_contact)
-  {
-    {
-      TimerOutput::Scope scope(timer, "assembly");
-      solid.internal_force(u, internal);
-      if (!boundary_conditions.follower_pressure().empty())
-        boundary_conditions.external_force(time, u, external);
-    }
-    // Time integration weighs the forces at both ends of the step and adds inertia. Forces on
-    // hanging nodes count for the nodes that these follow.
-    integration->balance(u, external, internal, applied);
-    without_contact = applied;
-    solid.condense(without_contact);
-  }
-
-
-
-  void
-  StepProblem::judge_balance(const Vector &without_contact, NewtonState &state)
-  {
-    // Relative residual, equation (13): the scale is the largest of internal, external, contact and
-    // inertial forces.
-    Vector contact_force(solid.owned, solid.communicator);
-    contact.add_forces(contact_force);
-    unbalanced = without_contact;
-    unbalanced += contact_force;
-
-    // Forces along prescribed directions are reactions of the supports and no residual.
-    Vector free(unbalanced);
-    system->remove_supported(free);
-    const double present = std::max(
-      {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
-    const double round_off =
-      solid.round_off(u) + integration->round_off(u) +
-      std::sqrt(Utilities::MPI::sum(contact.enforcement().round_off_squared(contact.rows(), extent),
-                                    solid.communicator));
-    // Where forces vanish, at the end of contact for example, the present forces are round-off and
-    // no scale for the residual; then a thousandth of the largest forces of earlier steps is used.
-    // The forces of a body in free flight are round-off from the start: force_scale excludes them
-    // from these.
-    constexpr double small_force = 1e-3, largest_round_off = 1e-6;
-    force_scale        = largest_round_off * present > round_off ? present : 0.;
-    const double scale = std::max(present, small_force * largest_force_scale);
-    state.force        = free.l2_norm();
-    state.residual     = scale > 0. ? state.force / scale : 0.;
-    state.round_off    = scale > 0. ? round_off / scale : 0.;
-    // A large round-off is plausible only before the first forces act. Later on it must not hide a
-    // residual, so that the allowance is bounded.
-    if (largest_force_scale > 0.)
-      state.round_off = std::min(state.round_off, largest_round_off);
-  }
-
-
-
-  void
-  StepProblem::update_active_set(const unsigned int damping, NewtonState &state)
-  {
-    const ActiveSetUpdate set =
-      contact.enforcement().update_active_set(contact, scene.newton.gap_tolerance, damping);
-    changed_rows.clear();
-    for (const ContactRow *row : set.changed)
-      changed_rows.push_back(
-        {{row->reference[0], row->reference[1], row->reference[2], double(row->pair)}});
-    state.gap       = set.gap;
-    state.active    = set.active;
-    state.changes   = set.changes;
-    state.signature = set.signature;
-  }
-
-
-
-  void
-  StepProblem::linearize()
-  {
-    TimerOutput::Scope scope(timer, "assembly");
-    if (!solid.linear())
-      {
-        // Linear bodies have a constant stiffness, which was assembled in the constructor
-        // (doc/theory.md 2.1).
-        solid.assemble(u, system->linear_solver().symmetric_only());
-        ++assemblies;
-      }
-    system->assemble({time, u, applied, unbalanced, forcing_term.tolerance(), forcing_term.slow()});
-  }
-
-
-
-  int
-  StepProblem::solve()
-  {
-    TimerOutput::Scope scope(timer, "linear solver");
-    const int          iterations = system->solve(solved_increment);
-    check_increment();
-    system->recover(solved_increment);
-    return iterations;
-  }
-
-
-
-  void
-  StepProblem::update()
-  {
-    // The strain energy is not defined for det F <= 0, so the increment is halved until all cells
-    // are admissible (doc/theory.md 2.2). The multipliers belong to the end of the full increment
-    // and are not scaled.
-    admissible_part = 1.;
-    increment       = solved_increment;
-    Vector trial(u);
-    trial += increment;
-    for (unsigned int halvings = 0; !solid.admissible(trial); ++halvings)
-      {
-        // The load stepping then cuts the step.
-        if (halvings == 6)
-          throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
-                              "increment: " +
-                              inverted_place(trial));
-        increment *= 0.5;
-        admissible_part *= 0.5;
-        trial = u;
-        trial += increment;
-      }
-    before_increment = u;
-    u                = trial;
-    contact.enforcement().update(contact,
-                                 scene.newton.line_search != NewtonParameters::LineSearch::none);
-  }
-
-
-
-  void
-  StepProblem::shorten(const double fraction)
-  {
-    u = before_increment;
-    u.add(fraction, increment);
-    contact.enforcement().shorten(contact,
-                                  fraction < 1. ? fraction * admissible_part
-                                                : 1.); // the full increment, as in update()
   }
 
 

@@ -3,6 +3,7 @@
 #ifndef touchstone_algebra_condensation_h
 #define touchstone_algebra_condensation_h
 
+#include <touchstone/algebra/matrix.h>
 #include <touchstone/algebra/transformation.h>
 
 #include <Epetra_Map.h>
@@ -11,6 +12,16 @@
 
 namespace Touchstone
 {
+  /** @brief Visit the entries of dof @p i of a node's row: local indices and values. */
+  template <class Visit>
+  void
+  for_each_entry(const Matrix::Rows::Row &row, const int i, const Visit &visit)
+  {
+    for (std::size_t k = 0; k < row.columns.size(); ++k)
+      for (unsigned int c = 0; c < dim; ++c)
+        visit(static_cast<int>(dim * row.columns[k] + c), row.blocks[k][dim * c + i % dim]);
+  }
+
   /** @brief Cache of the rows of a Transformation, without units, by local index. */
   class TransformationRows
   {

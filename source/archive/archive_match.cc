@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/archive/archive.h>
+#include <touchstone/archive/archive_blocks.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -10,93 +11,14 @@
 #include <boost/serialization/utility.hpp>
 #include <boost/serialization/vector.hpp>
 
-// Writing the state of a run as pieces that do not depend on the partition, and reading it on any
-// number of ranks. The writer needs no communication. The reader makes the same mesh, finds the
-// cells of all pieces in it by their CellId, thereby learns which node of the file is which of
-// its own, and takes what belongs to its nodes and cells. Values go through unchanged, bit by
-// bit, so that a resumed run can repeat the one that was interrupted.
+// Which node and cell of an archive is which of the present mesh: cells of all pieces are found by
+// their CellId, and thereby the nodes; then each rank takes what belongs to its own.
 namespace Touchstone
 {
   using namespace dealii;
 
   namespace
   {
-    const char *const cells_block = "cells";
-
-    // deal.II's pack() compresses by default; it is switched off here and where blocks are packed.
-    template <class T>
-    T
-    unpack(const std::vector<char> &bytes)
-    {
-      return Utilities::unpack<T>(bytes, /*allow_compression=*/false);
-    }
-
-    /**
-     * The active cells of a rank: their ids, and the numbers of their nodes. All are in two flat
-     * lists, since boost would serialise one object per cell with an overhead each.
-     */
-    struct CellList
-    {
-      static constexpr std::size_t id_size = std::tuple_size<CellId::binary_type>::value;
-
-      std::vector<unsigned int> ids;
-      std::vector<Index>        nodes;
-
-      std::size_t
-      size() const
-      {
-        return ids.size() / id_size;
-      }
-
-      CellId::binary_type
-      id(const std::size_t cell) const
-      {
-        CellId::binary_type result;
-        std::copy_n(ids.begin() + cell * id_size, id_size, result.begin());
-        return result;
-      }
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &ids &nodes;
-      }
-    };
-
-    /**
-     * A part of a field: the values of the consecutive dofs that one rank owns, from @p first on.
-     */
-    struct FieldPart
-    {
-      Index               first = 0;
-      std::vector<double> values;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &first &values;
-      }
-    };
-
-    /**
-     * Numbers of the nodes of a cell, in the order of the element. That order is the same in
-     * every mesh, so nodes of equal position in the list of one cell are the same node. The dofs
-     * of a node are consecutive, so the first component tells its number.
-     */
-    template <class Cell>
-    std::vector<Index>
-    nodes_of_cell(const DoFHandler<dim> &dof_handler, const Cell &cell)
-    {
-      std::vector<Index> dofs(dof_handler.get_fe().n_dofs_per_cell()), nodes;
-      cell->get_dof_indices(dofs);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        if (dof_handler.get_fe().system_to_component_index(i).first == 0)
-          nodes.push_back(dofs[i] / dim);
-      return nodes;
-    }
-
     /**
      * Visit the blocks of one kind (prefix of ArchiveWriter) with their names: the reader need
      * not know which fields a run has written.
@@ -112,140 +34,6 @@ namespace Touchstone
           visit(name.substr(prefix.size()), bytes);
     }
   } // namespace
-
-
-
-  // The list of cells comes first: all other blocks refer to the numbers of nodes and to the
-  // order of cells in it.
-  ArchiveWriter::ArchiveWriter(const DoFHandler<dim> &dof_handler)
-    : dof_handler(dof_handler)
-  {
-    CellList list;
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const auto id    = cell->id().template to_binary<dim>();
-          const auto nodes = nodes_of_cell(dof_handler, cell);
-          list.ids.insert(list.ids.end(), id.begin(), id.end());
-          list.nodes.insert(list.nodes.end(), nodes.begin(), nodes.end());
-        }
-    put_block(cells_block, list);
-  }
-
-
-
-  // Only the first number and the values: owned dofs are contiguous.
-  void
-  ArchiveWriter::put_field(const std::string &name, const Vector &field)
-  {
-    FieldPart part;
-    if (dof_handler.locally_owned_dofs().n_elements() > 0)
-      part.first = dof_handler.locally_owned_dofs().nth_index_in_set(0);
-    AssertThrow(dof_handler.locally_owned_dofs().is_contiguous(), ExcInternalError());
-    part.values.assign(field.begin(),
-                       field.begin() + dof_handler.locally_owned_dofs().n_elements());
-    put_block(field_prefix + name, part);
-  }
-
-
-
-  // Values in the order of the list of cells; a cell may have any number of them, such as
-  // internal variables of its quadrature points.
-  void
-  ArchiveWriter::put_cells(const std::string                                           &name,
-                           const std::function<std::vector<double>(unsigned int cell)> &values)
-  {
-    std::vector<std::vector<double>> all;
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        all.push_back(values(cell->active_cell_index()));
-    put_block(cell_prefix + name, all);
-  }
-
-
-
-  void
-  ArchiveWriter::put_nodes(const std::string &name, const std::vector<NodeRecord> &all)
-  {
-    put_block(node_prefix + name, all);
-  }
-
-
-
-  void
-  ArchiveWriter::put_keys(const std::string &name, const KeyPairs &keys)
-  {
-    put_block(key_prefix + name, keys);
-  }
-
-
-
-  std::vector<char>
-  ArchiveWriter::piece() const
-  {
-    return Utilities::pack(blocks, /*allow_compression=*/false);
-  }
-
-
-
-  ArchiveReader::ArchiveReader(const std::function<std::vector<char>(unsigned int)> &source,
-                               const unsigned int                                    n_pieces)
-    : source(source)
-    , n_pieces(n_pieces)
-  {
-  }
-
-
-
-  // One piece is kept at a time: together they may be larger than the memory of one rank, and
-  // callers read them one after the other.
-  const ArchiveReader::Blocks &
-  ArchiveReader::piece(const unsigned int number) const
-  {
-    if (present != number)
-      {
-        blocks  = unpack<Blocks>(source(number));
-        present = number;
-      }
-    return blocks;
-  }
-
-
-
-  const std::vector<char> &
-  ArchiveReader::block(const Blocks &piece, const std::string &name)
-  {
-    const auto found = piece.find(name);
-    if (found == piece.end())
-      throw ArchiveError("it has no '" + name + "'");
-    return found->second;
-  }
-
-
-
-  // The ancestors of all active cells, of @p level and finer. They determine the adaptive mesh:
-  // refining just these cells makes the active cells of the archive.
-  std::set<CellId::binary_type>
-  ArchiveReader::refined_cells(const unsigned int level) const
-  {
-    std::set<CellId::binary_type> result;
-    for (unsigned int i = 0; i < n_pieces; ++i)
-      {
-        const CellList list = unpack<CellList>(block(piece(i), cells_block));
-        for (std::size_t c = 0; c < list.size(); ++c)
-          {
-            const CellId id(list.id(c));
-            const auto   path = id.get_child_indices();
-            for (std::size_t depth = path.size(); depth > level; --depth)
-              if (!result
-                     .insert(CellId(id.get_coarse_cell_id(), depth - 1, path.data())
-                               .template to_binary<dim>())
-                     .second)
-                break; // its own ancestors are known, too
-          }
-      }
-    return result;
-  }
 
 
 
@@ -412,52 +200,5 @@ namespace Touchstone
       for (auto &[node, record] : list)
         for (Index &other : record.nodes)
           other = translation.at(other);
-  }
-
-
-
-  namespace
-  {
-    template <class Map>
-    const typename Map::mapped_type &
-    find(const Map &map, const std::string &what, const std::string &name)
-    {
-      const auto found = map.find(name);
-      if (found == map.end())
-        throw ArchiveError("it has no " + what + "'" + name + "'");
-      return found->second;
-    }
-  } // namespace
-
-
-
-  const Vector &
-  ArchiveReader::field(const std::string &name) const
-  {
-    return find(fields, ArchiveWriter::field_prefix, name);
-  }
-
-
-
-  const std::vector<std::vector<double>> &
-  ArchiveReader::cells(const std::string &name) const
-  {
-    return find(cell_data, ArchiveWriter::cell_prefix, name);
-  }
-
-
-
-  const std::map<Index, NodeRecord> &
-  ArchiveReader::nodes(const std::string &name) const
-  {
-    return find(records, ArchiveWriter::node_prefix, name);
-  }
-
-
-
-  const KeyPairs &
-  ArchiveReader::keys(const std::string &name) const
-  {
-    return find(key_pairs, ArchiveWriter::key_prefix, name);
   }
 } // namespace Touchstone

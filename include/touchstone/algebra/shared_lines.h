@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_algebra_shared_lines_h
+#define touchstone_algebra_shared_lines_h
+
+#include <touchstone/base/types.h>
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/lac/affine_constraints.h>
+
+#include <mpi.h>
+#include <vector>
+
+// Constraint lines of which each rank has those of its own dofs and needs some of others.
+namespace Touchstone
+{
+  /** @brief @p known and @p more dofs. IndexSet takes single ones one by one into a sorted
+   * list, which takes the square of their number. */
+  dealii::IndexSet
+  add_indices(const dealii::IndexSet &known, std::vector<Index> more);
+
+  /** @brief Add the lines that the owners of @p needed dofs have. (deal.II's
+   * make_consistent_in_parallel() looks for each one among all that there are, which takes
+   * the square of their number.) Collective. */
+  void
+  add_lines_of_others(dealii::AffineConstraints<double> &constraints,
+                      const dealii::IndexSet            &owned,
+                      const dealii::IndexSet            &needed,
+                      MPI_Comm                           communicator);
+} // namespace Touchstone
+
+#endif

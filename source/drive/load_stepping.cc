@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/non_convergence.h>
+#include <touchstone/drive/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+// The steps of a run: each is made, committed or cut, until the end time is reached or a failure
+// repeats itself. Steps that are to end where bodies meet are shortened (doc/time_integration.md).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  Simulation::load_stepping()
+  {
+    const double end = scene.load_stepping.end_time, nominal = end / scene.load_stepping.steps;
+    // A resumed run starts with the position of its checkpoint; size zero stands for a run from the
+    // beginning.
+    Position at = start;
+    if (at.size <= 0.)
+      at.size = nominal;
+    /**
+     * Fraction of the step size that is made next, below 1 if the step is to end where bodies meet
+     * ("Adapt steps" of doc/time_integration.md). It is not a cut: later steps have their full size
+     * again.
+     */
+    double part = 1.;
+    // The tolerance stands for the round-off of summing up step sizes.
+    while (at.time < end * (1. - 1e-12))
+      {
+        // The last step ends exactly at the end time: neither beyond it, nor just before it, which
+        // would leave a step of the size of round-off.
+        at.size = std::min(at.size, end - at.time);
+        const double next =
+          end - at.time - part * at.size < 1e-9 * nominal ? end : at.time + part * at.size;
+        // Number of steps in all if none is cut from here on, for the display only.
+        const unsigned int expected =
+          at.step - 1 + static_cast<unsigned int>(std::ceil((end - at.time) / at.size - 1e-9));
+        progress.begin_step(at.step, expected, next);
+        try
+          {
+            part = make_step(at, next);
+          }
+        catch (const NonConvergence &failure)
+          {
+            part = 1.;
+            if (!cut_step(failure, at, next))
+              return;
+          }
+        catch (const InputError &error)
+          {
+            // A formula without a finite value at this time is a mistake of the input, found only
+            // now: results of earlier steps are kept and written.
+            problem->rollback();
+            stop(error.what(), {at.time, nominal, at.step, 0});
+            throw;
+          }
+      }
+    if (scene.output.vtu_interval > 0)
+      write_vtu(at.step - 1, at.time);
+    write_last_checkpoint(at);
+    summary.converged = true;
+  }
+
+
+
+  double
+  Simulation::make_step(Position &at, const double next)
+  {
+    const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
+    const double length  = next - at.time;
+    // Solve, adapt the mesh, and solve again; all of it from the same committed state.
+    unsigned int newton = solve_step(next);
+    newton += adapt(at.step, next);
+    // Checks that can still reject the step (bodies thrown off, contact that rows cannot describe)
+    // come before try_commit(), since a committed state cannot be withdrawn.
+    const StepFindings findings = problem->findings();
+    const double       part =
+      problem->try_commit(scene.time_integration.smallest_step * nominal / length);
+    if (part < 1.)
+      {
+        // try_commit() returns a fraction of the step just made, which may itself have been
+        // shortened: converted to a fraction of the nominal size of this step. The same step is
+        // then made again from the committed state.
+        const double of_size = part * (length / at.size);
+        problem->rollback();
+        progress.shorten_step(of_size * at.size);
+        return of_size;
+      }
+    if (!findings.remarks.empty())
+      log.line("  " + findings.remarks);
+    // From here on the step counts. Failures of later steps are not compared with earlier ones.
+    committed_time = at.time = next;
+    repeated_failure.forget();
+    if (const CycleCounts *cycles = problem->cycle_counts())
+      progress.end_step(cycles->cycles,
+                        cycles->smallest_step,
+                        cycles->cell,
+                        1e9 * cycles->seconds * Utilities::MPI::n_mpi_processes(communicator) /
+                          (double(summary.cells) * cycles->cycles),
+                        scene.pairs.empty() || cycles->seconds == 0.
+                          ? 0.
+                          : cycles->contact_seconds / cycles->seconds);
+    else
+      progress.end_step(newton);
+    for (const std::string &text : findings.warnings)
+      warnings.add(text);
+    record_step(at.step, at.time, length, newton, at.cuts);
+    log.check();
+    summary.steps = at.step;
+    ++at.step;
+    // Each converged step undoes one cut: the difficulty is often local in time, and the size
+    // returns to the user's.
+    if (at.cuts > 0)
+      {
+        at.size *= 2.;
+        --at.cuts;
+      }
+    if (checkpoint_due(at))
+      write_checkpoint(at);
+    return 1.;
+  }
+
+
+
+  bool
+  Simulation::cut_step(const NonConvergence &failure, Position &at, const double next)
+  {
+    const bool repeated = repeated_failure.add(failure, last_state, problem->difficulty().position);
+    // A failure that repeats itself with half the step does not depend on the step size, and other
+    // failures say themselves that a smaller step is no remedy: further cuts would only take time.
+    const bool        hopeless = repeated || !failure.shorter_step_may_help();
+    const std::string reason   = describe(failure, repeated);
+    problem->rollback();
+    if (at.cuts >= scene.load_stepping.maximum_cuts || hopeless)
+      {
+        // The checkpoint of a failed run has the nominal step size: with other parameters (solver,
+        // tolerances) the run may resume from there.
+        stop(reason + " (step " + std::to_string(at.step) + " at time " + std::to_string(next) +
+               ", cut " + std::to_string(at.cuts) + " times)",
+             {at.time, scene.load_stepping.end_time / scene.load_stepping.steps, at.step, 0});
+        return false;
+      }
+    ++at.cuts;
+    at.size *= 0.5;
+    progress.cut_step(reason, at.size);
+    return true;
+  }
+
+
+
+  std::string
+  Simulation::describe(const NonConvergence &failure, const bool repeated) const
+  {
+    std::string text = failure.what();
+    // Such failures name their cause themselves.
+    if (!failure.shorter_step_may_help())
+      return text;
+    // Collective: all ranks describe the same position.
+    const StepDifficulty difficulty = problem->difficulty();
+    if (!difficulty.position.empty())
+      text += "; farthest from a solution: " + difficulty.position;
+    text += difficulty.suspicion;
+    if (!repeated)
+      return text;
+    std::ostringstream more;
+    more << "; the attempt with twice the step failed in the same way, with residual "
+         << last_state.residual << ", gap " << last_state.gap << ", " << last_state.active
+         << " active rows and " << last_state.changes
+         << " that changed, so that smaller steps cannot help. Other choices take other paths: "
+            "'Contact/Enforcement', 'Pairing' of the pair, another mesh, slave and master "
+            "exchanged";
+    if (scene.has_friction())
+      more << ", 'Contact/Friction = regularised'";
+    return text + more.str();
+  }
+
+
+
+  void
+  Simulation::stop(const std::string &reason, const Position &position)
+  {
+    summary.failure = reason;
+    // The last committed state is written even if the interval of VTU output would have left it
+    // out: it is what the user needs to find the cause.
+    write_vtu(position.step - 1, position.time);
+    write_last_checkpoint(position);
+  }
+} // namespace Touchstone

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/contact/contact_counts.h>
+#include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/results.h>
+#include <touchstone/drive/simulation.h>
+#include <touchstone/output/resources.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+// What a run leaves on disk beside its statistics: VTU files, and at the end the summary with
+// warnings, the comparison with an exact solution, counts of work and times.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  Simulation::write_vtu(const unsigned int step, const double time)
+  {
+    if (last_vtu_step == step)
+      return;
+    TimerOutput::Scope scope(timer, "output");
+    last_vtu_step = step;
+    // Ghost values are collective, and so are both outputs: all ranks get here together.
+    const Vector u     = problem->state().ghosted_displacement();
+    const auto   rates = problem->state().time_integration.rates();
+    Vector       velocity;
+    if (!rates.empty())
+      velocity = solid.ghosted(*rates.front());
+    volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time);
+    contact_output.write(contact_faces(problem->state().contact),
+                         contact_points(problem->state().contact, u),
+                         step,
+                         time);
+  }
+
+
+
+  void
+  Simulation::write_summary()
+  {
+    check_lost_contact();
+    {
+      const StepState state = problem->state();
+      for (const std::string &text :
+           overlapping_bodies(state.contact, state.ghosted_displacement()))
+        warnings.add(text);
+    }
+    finish_summary();
+    summary.quantities = statistics.for_summary();
+    summary.warnings   = warnings.list();
+    if (summary.ranks > 1)
+      log.line(summary.balance_line());
+    TimerOutput::Scope scope(timer, "output");
+    // Atomic: programs that wait for the file never read half of it.
+    folder.write_file_atomically("summary.json", summary.to_json().print());
+  }
+
+
+
+  void
+  Simulation::check_lost_contact()
+  {
+    // In dynamics bodies may separate for good; in statics it usually means that the scene is not
+    // what was meant.
+    if (scene.time_integration.dynamic())
+      return;
+    for (const auto &[pair, time] : had_contact)
+      if (summary.contact[pair].active == 0)
+        warnings.add("contact pair '" + pair + "' had contact until t = " +
+                     Utilities::to_string(time) + " and has none at the end");
+  }
+
+
+
+  void
+  Simulation::finish_summary()
+  {
+    measure_balance();
+    if (summary.converged)
+      {
+        const Vector   u = problem->state().ghosted_displacement();
+        ReferenceInput input;
+        input.solid        = &solid;
+        input.displacement = &u;
+        input.points       = contact_points(problem->state().contact, u);
+        input.pair_results = pair_results(problem->state().contact, u);
+        input.motion       = summary.motion ? &*summary.motion : nullptr;
+        input.communicator = communicator;
+        // Only a converged run is compared: the exact solution is that of the end time.
+        const ReferenceComparison result = reference->compare(input);
+        summary.errors                   = result.errors;
+        comparison_lines                 = result.lines;
+      }
+    for (const auto &[body, strain] : solid.largest_plastic_strain())
+      summary.plastic_strain[scene.bodies[body].name] = strain;
+    const LinearSolverCounts counts = problem->state().counts.linear;
+    summary.iterations.linear_total = counts.iterations;
+    summary.iterations.linear_mean =
+      counts.solves > 0 ? double(counts.iterations) / counts.solves : 0.;
+    summary.counts.assemblies            = problem->state().counts.assemblies;
+    summary.counts.factorisations        = counts.factorisations;
+    summary.counts.preconditioner_setups = counts.preconditioner_setups;
+    summary.counts.searches              = problem->state().counts.searches;
+
+    summary.seconds        = seconds_so_far();
+    summary.peak_memory_mb = peak_memory_mb(communicator);
+  }
+
+
+
+  void
+  Simulation::measure_balance()
+  {
+    // Counts of work per rank and their largest value over the mean: unlike seconds they do not
+    // depend on the machine or its load.
+    const ContactCounts work = contact_counts(problem->state().contact);
+    const std::vector<std::pair<std::string, double>> counts = {
+      {"cells", forest.triangulation.n_locally_owned_active_cells()},
+      {"unknowns", solid.owned.n_elements()},
+      {"neighbours", forest.triangulation.ghost_owners().size()},
+      {"slave_rows", work.slave_rows},
+      {"master_faces", work.master_faces},
+      {"search_candidates", work.search.candidates},
+      {"search_messages", work.search.messages},
+      {"search_faces_sent", work.search.faces_sent}};
+    summary.balance.clear();
+    for (const auto &[phase, mine] : counts)
+      {
+        const auto all = Utilities::MPI::min_max_avg(mine, communicator);
+        summary.balance.push_back({phase, {all.avg, all.max}});
+      }
+  }
+
+
+
+  RunSummary::Seconds
+  Simulation::seconds_so_far()
+  {
+    RunSummary::Seconds result;
+    auto                phases = timer.get_summary_data(TimerOutput::total_wall_time);
+    // Seconds of the run before it was resumed are included.
+    result.assembly      = earlier_seconds.assembly + phases["assembly"];
+    result.linear_solver = earlier_seconds.linear_solver + phases["linear solver"];
+    result.search        = earlier_seconds.search + phases["search"];
+    result.output        = earlier_seconds.output + phases["output"];
+    result.wall          = earlier_seconds.wall + wall.wall_time();
+    result.cpu           = earlier_seconds.cpu + cpu_seconds(communicator);
+    return result;
+  }
+} // namespace Touchstone
