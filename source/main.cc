@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/interruption.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/output/model_export.h>
 #include <touchstone/scene/command_line.h>
@@ -22,7 +23,8 @@ namespace
     bad_input     = 1,
     not_converged = 2,
     no_output     = 3,
-    broken        = 4
+    broken        = 4,
+    interrupted   = 5
   };
 
   /**
@@ -83,10 +85,12 @@ namespace
                       << scene.output.directory
                       << ": solution.pvd, contact.pvd, statistics, summary.json\n";
           }
+        // In one piece, or mpirun mixes it with the standard output.
         if (!summary.converged)
-          std::cerr << "Not converged: " << summary.failure << '\n';
+          std::cerr << (summary.interrupted ? "Interrupted: " : "Not converged: ") +
+                         summary.failure + '\n';
       }
-    return summary.converged ? 0 : not_converged;
+    return summary.converged ? 0 : summary.interrupted ? interrupted : not_converged;
   }
 } // namespace
 
@@ -99,6 +103,8 @@ main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                           communicator = MPI_COMM_WORLD;
   const bool first = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  // MPI has its own handlers until here.
+  Interruption::listen();
   try
     {
       return run(argc, argv, communicator);

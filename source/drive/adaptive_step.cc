@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/interruption.h>
 #include <touchstone/drive/simulation.h>
 
 #include <cmath>
@@ -35,6 +36,7 @@ namespace Touchstone
                      " of the increment: all of it had made things worse");
           }
         ++summary.iterations.newton;
+        Interruption::check(communicator);
         summary.iterations.contact += (state.changes > 0);
       });
   }

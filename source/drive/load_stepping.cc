@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/interruption.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/simulation.h>
 
@@ -47,6 +48,17 @@ namespace Touchstone
         try
           {
             part = make_step(at, next);
+          }
+        catch (const Interruption &signal)
+          {
+            problem->rollback();
+            summary.interrupted = true;
+            stop(signal.what() + (" in step " + std::to_string(at.step)) + " to time " +
+                   std::to_string(next) +
+                   (at.step > 1 ? "; with --resume the run begins with this step again"
+                                : ", before which there is nothing to resume"),
+                 at);
+            return;
           }
         catch (const NonConvergence &failure)
           {

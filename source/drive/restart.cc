@@ -107,7 +107,9 @@ namespace Touchstone
   void
   Simulation::write_last_checkpoint(const Position &position)
   {
-    if (scene.checkpoints.active() && last_checkpoint != position.step && position.step > 1)
+    // A run that a signal ends is to go on later, whether or not the user has thought of it.
+    if ((scene.checkpoints.active() || summary.interrupted) && last_checkpoint != position.step &&
+        position.step > 1)
       write_checkpoint(position);
   }
 

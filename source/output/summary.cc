@@ -295,7 +295,10 @@ namespace Touchstone
       for (const auto &[boundary, force] : boundaries)
         force_scale = std::max(force_scale, largest_component(force));
 
-    out << (converged ? "Converged" : "NOT CONVERGED") << ": " << steps << " steps";
+    out << (converged     ? "Converged"
+            : interrupted ? "INTERRUPTED"
+                          : "NOT CONVERGED")
+        << ": " << steps << " steps";
     if (with_iterations && cycles > 0)
       out << ", " << cycles << " cycles";
     else if (with_iterations)

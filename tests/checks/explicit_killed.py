@@ -8,7 +8,6 @@ kills at 20 places, on one and two ranks in turn; ctest at three."""
 
 import contextlib
 import os
-import pathlib
 import random
 import shutil
 import signal
@@ -16,23 +15,12 @@ import subprocess
 import time
 
 from touchstone_test import (STEPS, Run, check, checks, finish, folder, processors, program,
-                             settings_options)
+                             session, settings_options)
 
 BLOCKS = checks / "explicit_blocks.prm"
 STEPS_OF_RUN = 30
 SETTINGS = {"Output/VTU interval": 5, "Checkpoints/Steps between": 1, STEPS: STEPS_OF_RUN,
             "Load stepping/End time": 1.5}
-
-
-def session(leader):
-    """Processes of a session: mpirun and ranks are in one, but not in one group of processes."""
-    members = []
-    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
-        with contextlib.suppress(OSError):
-            # Behind the name in parentheses: state, parent, group, session.
-            if int(stat.read_text(encoding="utf-8").rpartition(")")[2].split()[3]) == leader:
-                members.append(int(stat.parent.name))
-    return members
 
 
 def newest_checkpoint(name):

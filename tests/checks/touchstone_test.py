@@ -10,6 +10,7 @@ finish(). Lines of it that begin with "# ctest:" are read by tests/CMakeLists.tx
 Needs Python 3.9 and nothing else.
 """
 
+import contextlib
 import json
 import math
 import os
@@ -87,6 +88,17 @@ def launch(*arguments, ranks=1, timeout=None):
     with processors(ranks):
         return subprocess.run([*command, program, *map(str, arguments)], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
+
+
+def session(leader):
+    """Processes of a session: mpirun and ranks are in one, but not in one group of processes."""
+    members = []
+    for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            # Behind the name in parentheses: state, parent, group, session.
+            if int(stat.read_text(encoding="utf-8").rpartition(")")[2].split()[3]) == leader:
+                members.append(int(stat.parent.name))
+    return members
 
 
 class Run:

@@ -146,6 +146,8 @@ namespace Touchstone
     std::vector<std::string> warnings;
     /** Why the run did not converge; empty if it did. */
     std::string failure;
+    /** A signal has ended it. */
+    bool interrupted = false;
 
     /** @brief For checkpoints: what is counted or known step by step; the rest is found out at
      * the end, or saved by its owner. */

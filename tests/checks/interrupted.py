@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A run that a signal ends says so, has its own exit code and a checkpoint without being asked for
+one, and goes on with --resume to the result of a run that was not interrupted: SIGTERM, SIGINT to
+one of two ranks, SIGUSR1 by way of mpirun; implicit and explicit."""
+
+import os
+import shutil
+import signal
+import subprocess
+
+from touchstone_test import (GAP, RESIDUAL, STEPS, Run, check, checks, finish, folder, launch,
+                             processors, program, run, same, session, settings_options)
+
+IMPLICIT = checks / "restart.prm", {STEPS: 12, RESIDUAL: 1e-12, GAP: 1e-11}
+EXPLICIT = checks / "explicit_blocks.prm", {STEPS: 30, "Load stepping/End time": 1.5}
+INTERRUPTED = 5
+
+
+def interrupt(name, scene, settings, number, ranks=1, one_rank=False, step=4):
+    """Send the signal NUMBER when STEP begins. @return what the run has said, and its exit code."""
+    shutil.rmtree(folder / name, ignore_errors=True)
+    command = [*(["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []), program,
+               "--output", name, *settings_options(settings), scene]
+    text = ""
+    with processors(ranks), subprocess.Popen(list(map(str, command)), stdout=subprocess.PIPE,
+                                             stderr=subprocess.STDOUT, text=True,
+                                             start_new_session=True) as running:
+        for line in running.stdout:
+            text += line
+            if line.startswith(f"Step {step}/"):
+                victim = running.pid
+                if one_rank:
+                    victim = max(member for member in session(running.pid)
+                                 if member != running.pid)
+                os.kill(victim, number)
+        code = running.wait()
+    return text, code
+
+
+def goes_on(name, scene, settings, number, whole, **how):
+    text, code = interrupt(name, scene, settings, number, **how)
+    signal_name = signal.Signals(number).name
+    check(code == INTERRUPTED, f"{name}: exit code {code}, {text[-500:]}")
+    check(f"Interrupted: ended by the signal {signal_name} in step" in text and
+          "--resume" in text, f"{name}: the reason is not said: {text[-500:]}")
+    failure = Run(name, folder / name, "").summary.get("failure", "")
+    check(signal_name in failure, f"{name}: summary.json says {failure}")
+    check(any((folder / name).glob("checkpoint_*")), f"{name}: no checkpoint")
+    done = launch("--resume", "--output", name, *settings_options(settings), scene,
+                  ranks=how.get("ranks", 1))
+    check(done.returncode == 0 and "goes on from" in done.stdout, f"{name}: {done.stdout}")
+    same(whole, Run(name, folder / name, done.stdout), 1e-10)
+
+
+scene, settings = IMPLICIT
+whole = run("implicit-whole", scene, settings)
+goes_on("implicit-term", scene, settings, signal.SIGTERM, whole)
+goes_on("implicit-int-2", scene, settings, signal.SIGINT, whole, ranks=2, one_rank=True)
+goes_on("implicit-usr1-2", scene, settings, signal.SIGUSR1, whole, ranks=2)
+
+scene, settings = EXPLICIT
+whole = run("explicit-whole", scene, settings)
+goes_on("explicit-term", scene, settings, signal.SIGTERM, whole)
+
+# Nothing to go on from, and nothing that says so.
+text, code = interrupt("first_step", *IMPLICIT, signal.SIGTERM, step=1)
+check(code == INTERRUPTED and "nothing to resume" in text, f"first step: {code}, {text[-500:]}")
+finish()
