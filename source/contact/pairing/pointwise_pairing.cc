@@ -36,6 +36,7 @@ namespace Touchstone
         for (const SurfaceNode &node : input.slave->owned_nodes())
           start.push_back(node.reference);
         present_faces.resize(start.size());
+        indices.resize(start.size());
       }
 
       void
@@ -77,6 +78,8 @@ namespace Touchstone
       std::vector<std::optional<ContactPartner>> partners;
       /** Keys of the faces that were the partners of the nodes in the last update. */
       std::vector<std::optional<std::uint64_t>> present_faces;
+      /** And their indices in the search, where they are most likely found again. */
+      std::vector<std::size_t> indices;
       /** Positions of the slave nodes at the start of the step. */
       std::vector<Point<dim>> start;
     };
@@ -106,11 +109,14 @@ namespace Touchstone
                                                            start[k],
                                                            input.slave->normal(nodes[k].node),
                                                            row.was_active,
-                                                           present_faces[k]});
+                                                           present_faces[k],
+                                                           indices[k]});
           // The face of this update is preferred in the next one, also in the next step and after a
           // restart (memory()).
           present_faces[k] =
             partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
+          if (partner)
+            indices[k] = search.exchange().index(*partner->face);
           row.stencil.clear();
           if (!partner)
             {
