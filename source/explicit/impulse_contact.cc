@@ -37,6 +37,7 @@ namespace Touchstone
     , nodes(nodes)
     , solver(nodes.communicator())
     , motion(contact, nodes)
+    , surfaces(contact, nodes)
     , displacement(contact.solid_model().owned, contact.communicator())
     , history(contact.rows().size())
     , inverse_masses(nodes.n_owned())
@@ -100,7 +101,9 @@ namespace Touchstone
     if (!renew_rows)
       return false;
     interval_start = time;
-    renew(u, time);
+    // The rows of the committed state are those of the end of the interval before, and a checkpoint
+    // has them.
+    make_rows(u);
     return true;
   }
 
@@ -115,46 +118,86 @@ namespace Touchstone
                           const double     acting)
   {
     check_obstacles(time, step);
-    const bool starts = start_interval(u, time);
-    import(u, before, v);
-    if (!starts)
+    if (surfaces.needed())
+      surfaces.measure(before, v, speeds_before, speeds);
+    if (!start_interval(u, time))
+      renew_if_moved(u, before, v, time, step);
+    last_step = step;
+    if (all_asleep(time, step))
       {
-        for (unsigned int node = 0; node < solver.nodes.n(); ++node)
-          moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
-        if (motion.demands_rows(u, v, step, solver, kept_rows, moved))
-          {
-            renew(u, time);
-            import(u, before, v);
-          }
+        ++counted.cycles;
+        end_of_action();
+        return;
       }
+    import(u, before, v);
     set_geometry(time, step);
     const ImpulseCounts counts =
       rule.springs() ? push(time, step, acting > 0. ? acting : step) : solve(time, step);
     ++counted.cycles;
     counted.sweeps += counts.sweeps;
     counted.rounds += counts.rounds;
-    counted.most_sweeps     = std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps);
-    const bool acted_before = acted;
-    acted                   = counts.rounds > 0;
-    for (KeptRow &row : kept)
-      row.fresh = false;
-    if (!acted)
+    counted.most_sweeps = std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps);
+    fresh               = false;
+    if (counts.rounds == 0)
       {
-        if (acted_before)
-          for (RowHistory &row : history)
-            {
-              row.impulse       = Tensor<1, dim>();
-              row.sliding       = false;
-              row.energy.ahead  = 0.;
-              row.energy.stored = 0.;
-            }
+        end_of_action();
+        if (surfaces.needed() && !rule.springs())
+          {
+            all_asleep_until = std::numeric_limits<double>::max();
+            for (const double until : asleep_until)
+              all_asleep_until = std::min(all_asleep_until, until);
+            all_asleep_until = Utilities::MPI::min(all_asleep_until, nodes.communicator());
+          }
         return;
       }
+    acted            = true;
+    all_asleep_until = 0.;
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
       v[local[node]] = solver.velocity[node];
     keep_results(step);
     if (rule.springs())
       keep_springs(step);
+  }
+
+
+
+  void
+  ImpulseContact::end_of_action()
+  {
+    if (acted)
+      for (RowHistory &row : history)
+        {
+          row.impulse       = Tensor<1, dim>();
+          row.sliding       = false;
+          row.energy.ahead  = 0.;
+          row.energy.stored = 0.;
+        }
+    acted = false;
+  }
+
+
+
+  // Most cycles need not look at the motion of single faces and rows: nodes of a surface cannot
+  // have moved by more, relative to each other, than the box of their velocities allows.
+  void
+  ImpulseContact::renew_if_moved(const NodeField &u,
+                                 const NodeField &before,
+                                 const NodeField &v,
+                                 const double     time,
+                                 const double     step)
+  {
+    if (!surfaces.needed())
+      return;
+    travelled.add(last_step, speeds_before);
+    const RowTravel ahead(step, speeds);
+    if (!motion.must_look(travelled, ahead))
+      return;
+    import(u, before, v);
+    for (unsigned int node = 0; node < solver.nodes.n(); ++node)
+      moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
+    if (motion.demands_rows(
+          u, v, step, solver, kept_rows, moved, travelled, ahead, largest_weights))
+      renew(u, time);
   }
 
 
@@ -174,6 +217,8 @@ namespace Touchstone
     if (rule.springs())
       return;
     renew(u, time);
+    if (surfaces.needed())
+      surfaces.measure(start, v, speeds_before, speeds);
     import(u, start, v);
     set_geometry(time, step);
     for (std::size_t k = 0; k < kept.size(); ++k)

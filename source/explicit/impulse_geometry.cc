@@ -102,16 +102,9 @@ namespace Touchstone
   ImpulseContact::reach(const double time, const double step) const
   {
     // Springs need the mobility of all rows, and rows with obstacles always take part.
-    bool bodies = false;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      bodies = bodies || contact.pair(p).master();
-    if (rule.springs() || !bodies)
+    if (rule.springs() || !surfaces.needed())
       return std::numeric_limits<double>::max();
-    double square = 0.;
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
-      square =
-        std::max({square, solver.velocity[node].norm_square(), v_before[node].norm_square()});
-    double way = step * std::sqrt(Utilities::MPI::max(square, nodes.communicator()));
+    double way = step * std::max(speeds.highest, speeds_before.highest);
     // An obstacle may drive a node that has rows with other bodies, too.
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const ContactPair &pair = contact.pair(p); !pair.master())
@@ -125,7 +118,8 @@ namespace Touchstone
   ImpulseContact::set_geometry(const double time, const double step)
   {
     const double far = reach(time, step);
-    for (std::size_t k = 0; k < kept.size(); ++k)
+    find_near_rows(far);
+    for (const std::size_t k : solver.near)
       {
         ImpulseRow       &row  = solver.rows[k];
         const RowHistory &h    = history[kept[k].index];
@@ -135,13 +129,53 @@ namespace Touchstone
         if (from.stencil.empty())
           set_obstacle_geometry(row, kept[k], time, step);
         else
-          set_pair_geometry(row, kept[k], time, step, far);
+          {
+            set_pair_geometry(row, kept[k], time, step, far);
+            set_time_to_sleep(k);
+          }
         if (row.friction && !row.distant)
           {
             row.tangential  = directions_of_friction(*row.friction, row.normal);
             row.slip_length = row.friction->history.slip_length + h.path;
           }
       }
+  }
+
+
+
+  // A row that was distant stays so at least until its sides can have come together by what was
+  // beyond reach. It is as the last look left it, without an impulse.
+  void
+  ImpulseContact::find_near_rows(const double reach)
+  {
+    solver.near.clear();
+    const double needed = largest_weights * travelled.apart + reach;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      if (!(asleep_until[k] > needed))
+        solver.near.push_back(k);
+  }
+
+
+
+  void
+  ImpulseContact::set_time_to_sleep(const std::size_t k)
+  {
+    // Round-off of gaps and travels.
+    constexpr double  safe = 1. - 1e-9;
+    const ContactRow &of   = contact.rows()[kept[k].index];
+    const bool        overlaps =
+      contact.pair(of).overlap(of.index - contact.pair(of).rows().front().index) != 0.;
+    asleep_until[k] = solver.rows[k].distant && !overlaps
+                        ? safe * kept[k].at_start + largest_weights * travelled.apart
+                        : 0.;
+  }
+
+
+
+  bool
+  ImpulseContact::all_asleep(const double time, const double step) const
+  {
+    return all_asleep_until > largest_weights * travelled.apart + reach(time, step);
   }
 
 

@@ -6,12 +6,36 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/explicit/impulse_solver.h>
 #include <touchstone/explicit/node_map.h>
+#include <touchstone/explicit/surface_speeds.h>
 
 #include <array>
 #include <vector>
 
 namespace Touchstone
 {
+  /** @brief Bounds of how far nodes of contact surfaces have moved relative to each other, length:
+   * of both sides of a pair, and of one side (doc/explicit.md, section 9.5). */
+  struct RowTravel
+  {
+    double apart = 0., within = 0.;
+
+    RowTravel() = default;
+
+    /** @brief Within a cycle. */
+    RowTravel(const double step, const Speeds &speeds)
+    {
+      add(step, speeds);
+    }
+
+    void
+    add(const double step, const Speeds &speeds)
+    {
+      // A little more, for round-off.
+      apart += (1. + 1e-9) * step * speeds.apart;
+      within += (1. + 1e-9) * step * speeds.within;
+    }
+  };
+
   /**
    * @brief Tells when the rows that explicit dynamics keeps are to be made anew: before anything
    * has moved so far, relative to what it faces and to the size of the faces, that its partner,
@@ -26,9 +50,19 @@ namespace Touchstone
     void
     restart(const NodeField &u);
 
+    /** @brief Whether demands_rows() might say yes, the same on all ranks.
+     * @param travelled Since restart(). @param ahead In this cycle with its free velocities. */
+    bool
+    must_look(const RowTravel &travelled, const RowTravel &ahead) const
+    {
+      return travelled.apart + ahead.apart >= safe_until.apart ||
+             travelled.within + ahead.within >= safe_until.within;
+    }
+
     /**
      * @brief Whether, on any rank, the rows do not serve a cycle that ends with the displacement
      * @p u + @p step times @p v. Collective.
+     * @param travelled,ahead As of must_look(); @p largest_weights by so much rows move faster.
      * @param solver With the kept rows; @p rows the row of Contact and @p u_nodes the displacement
      *               when the rows were made, by row and node of the solver.
      */
@@ -38,9 +72,14 @@ namespace Touchstone
                  double                                     step,
                  const ImpulseSolver                       &solver,
                  const std::vector<std::size_t>            &rows,
-                 const std::vector<dealii::Tensor<1, dim>> &moved) const;
+                 const std::vector<dealii::Tensor<1, dim>> &moved,
+                 const RowTravel                           &travelled,
+                 const RowTravel                           &ahead,
+                 double                                     largest_weights);
 
   private:
+    /** Until then no criterion can be met; from the last look. */
+    RowTravel      safe_until;
     const Contact &contact;
     const NodeMap &nodes;
     /** Corners of the faces of this rank of each pair that searches, by local node, the size of the
@@ -66,14 +105,15 @@ namespace Touchstone
     /** By pair: a slave node without partner, on any rank. */
     std::vector<bool> searching;
 
-    bool
-    faces_turned(const NodeField &u, const NodeField &v, double step) const;
-    bool
-    rows_slid(const ImpulseSolver                       &solver,
-              const std::vector<std::size_t>            &rows,
-              const std::vector<dealii::Tensor<1, dim>> &moved) const;
-    bool
-    may_find_partner(const NodeField &u, const NodeField &v, double step) const;
+    /** How far each criterion is from being met, negative if it is; length. */
+    double
+    until_faces_turn(const NodeField &u, const NodeField &v, double step) const;
+    double
+    until_rows_slide(const ImpulseSolver                       &solver,
+                     const std::vector<std::size_t>            &rows,
+                     const std::vector<dealii::Tensor<1, dim>> &moved) const;
+    double
+    until_partners_are_found(const NodeField &u, const NodeField &v, double step) const;
   };
 } // namespace Touchstone
 

@@ -144,8 +144,8 @@ namespace Touchstone
     mutable std::vector<dealii::Tensor<1, dim>> sent, received;
     mutable std::vector<MPI_Request>            requests;
 
-    /** The number of the node of each owned dof, in the order of the dofs; invalid for those that no
-     * row mentions. */
+    /** The number of the node of each owned dof, in the order of the dofs; invalid for those that
+     * no row mentions. */
     std::vector<unsigned int> numbers_of_owned;
 
     /** The number of an owned node that a row mentions. */

@@ -2,10 +2,9 @@
 
 #include <touchstone/contact/search/face_tree.h>
 
-#include <boost/iterator/function_output_iterator.hpp>
-
 #include <algorithm>
 #include <array>
+#include <boost/iterator/function_output_iterator.hpp>
 #include <tuple>
 
 // R-trees of the boxes around the master faces that this rank knows. They reduce the candidates of
@@ -64,7 +63,8 @@ namespace Touchstone
     result.normal = cross_product_3d((x[1] - x[0]) + (x[3] - x[2]), (x[2] - x[0]) + (x[3] - x[1]));
     result.normal /= result.normal.norm();
     for (unsigned int d = 0; d < dim; ++d)
-      std::tie(result.lower[d], result.upper[d]) = std::minmax({x[0][d], x[1][d], x[2][d], x[3][d]});
+      std::tie(result.lower[d], result.upper[d]) =
+        std::minmax({x[0][d], x[1][d], x[2][d], x[3][d]});
     return result;
   }
 

@@ -195,9 +195,9 @@ namespace Touchstone
 
 
 
-  // The distance of any face bounds how far the closest one can be, so all that may be it are within
-  // a small box. They are taken in the same order as without a guess, up to one that excludes the
-  // rest: the result is the same whatever the guess was.
+  // The distance of any face bounds how far the closest one can be, so all that may be it are
+  // within a small box. They are taken in the same order as without a guess, up to one that
+  // excludes the rest: the result is the same whatever the guess was.
   std::optional<FaceProjection>
   Search::closest_near_guess(const SlavePoint &point) const
   {
