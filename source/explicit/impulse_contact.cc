@@ -195,8 +195,7 @@ namespace Touchstone
     import(u, before, v);
     for (unsigned int node = 0; node < solver.nodes.n(); ++node)
       moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
-    if (motion.demands_rows(
-          u, v, step, solver, kept_rows, moved, travelled, ahead, largest_weights))
+    if (motion.demands_rows(u, v, step, solver, moved, travelled, ahead, largest_weights))
       renew(u, time);
   }
 

@@ -111,7 +111,7 @@ namespace Touchstone
     travelled        = RowTravel();
     fresh            = true;
     renew_rows       = false;
-    motion.restart(u);
+    motion.restart(u, kept_rows);
     made_at = u_nodes;
     moved.resize(u_nodes.size());
     v_before.resize(u_nodes.size());

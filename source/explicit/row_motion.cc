@@ -64,10 +64,10 @@ namespace Touchstone
 
 
   void
-  RowMotion::restart(const NodeField &u)
+  RowMotion::restart(const NodeField &u, const std::vector<std::size_t> &rows)
   {
     made_at    = u;
-    safe_until = RowTravel();
+    safe_until = Safe();
     // Its owner knows the displacement of a ghost better than this rank may do at present.
     nodes.update_ghosts(made_at);
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
@@ -76,6 +76,13 @@ namespace Touchstone
         for (const WatchedNode &slave : slaves[p])
           some |= !contact.rows()[slave.row].get().has_partner;
         searching[p] = Utilities::MPI::max(some, nodes.communicator()) > 0;
+      }
+    sliding.clear();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        const ContactRow &row = contact.rows()[rows[k]];
+        if (!row.stencil.empty() && !contact.pair(row).small_sliding())
+          sliding.push_back({k, row.size, row.gap, row.normal});
       }
   }
 
@@ -109,19 +116,15 @@ namespace Touchstone
 
   double
   RowMotion::until_rows_slide(const ImpulseSolver               &solver,
-                              const std::vector<std::size_t>    &rows,
                               const std::vector<Tensor<1, dim>> &moved) const
   {
     double result = std::numeric_limits<double>::max();
-    for (std::size_t k = 0; k < rows.size(); ++k)
+    for (const WatchedRow &row : sliding)
       {
-        const ContactRow &row = contact.rows()[rows[k]];
-        if (row.stencil.empty() || contact.pair(row).small_sliding())
-          continue;
         Tensor<1, dim> relative;
-        for (unsigned int i = 0; i < solver.rows[k].n_nodes; ++i)
+        for (unsigned int i = 0; i < solver.rows[row.row].n_nodes; ++i)
           {
-            const std::size_t s = solver.slot(solver.rows[k], i);
+            const std::size_t s = solver.slot(solver.rows[row.row], i);
             relative += solver.weights[s] * moved[solver.nodes.node(s)];
           }
         const double along  = relative * row.normal;
@@ -138,7 +141,8 @@ namespace Touchstone
 
 
   // A node without a partner may be right beside the edge of the master surface: it is bounded by
-  // how far it and the master surface have moved, as long as they do not move together.
+  // how far it and the master surface have moved relative to each other, and to the distance
+  // between them.
   double
   RowMotion::until_partners_are_found(const NodeField &u,
                                       const NodeField &v,
@@ -165,13 +169,14 @@ namespace Touchstone
             }
           Utilities::MPI::max(extreme, nodes.communicator(), all);
           for (const WatchedNode &slave : slaves[p])
-            if (!contact.rows()[slave.row].get().has_partner)
+            if (const ContactRow &row = contact.rows()[slave.row]; !row.has_partner)
               {
                 const Tensor<1, dim> m = moved(slave.node);
                 Tensor<1, dim>       farthest;
                 for (unsigned int d = 0; d < dim; ++d)
                   farthest[d] = std::max(m[d] + all[dim + d], all[d] - m[d]);
-                result = std::min(result, slides * slave.size - farthest.norm());
+                const double limit = std::max(slides * slave.size, slides_apart * row.away);
+                result             = std::min(result, limit - farthest.norm());
               }
         }
     return result;
@@ -184,23 +189,29 @@ namespace Touchstone
                           const NodeField                   &v,
                           const double                       step,
                           const ImpulseSolver               &solver,
-                          const std::vector<std::size_t>    &rows,
                           const std::vector<Tensor<1, dim>> &moved,
                           const RowTravel                   &travelled,
                           const RowTravel                   &ahead,
                           const double                       largest_weights)
   {
-    // The first is collective.
-    const double found    = until_partners_are_found(u, v, step);
-    const double until[2] = {until_faces_turn(u, v, step),
-                             std::min(found, until_rows_slide(solver, rows, moved))};
-    double       least[2];
+    // Which criteria are looked at is the same on all ranks.
+    const double apart = travelled.apart + ahead.apart;
+    const bool   turn  = travelled.within + ahead.within >= safe_until.turn,
+               slide = apart >= safe_until.slide, find = apart >= safe_until.find;
+    const double until[3] = {turn ? until_faces_turn(u, v, step) : 0.,
+                             slide ? until_rows_slide(solver, moved) : 0.,
+                             find ? until_partners_are_found(u, v, step) : 0.};
+    double least[3];
     Utilities::MPI::min(until, nodes.communicator(), least);
     // What was looked at is the end of this cycle with its free velocities. At that of a later one
     // nodes are elsewhere by what they travel until then, and by both free motions.
     constexpr double safe = 1. - 1e-9;
-    safe_until.within     = safe * least[0] + travelled.within - ahead.within;
-    safe_until.apart      = safe * least[1] / largest_weights + travelled.apart - ahead.apart;
-    return std::min(least[0], least[1]) < 0.;
+    if (turn)
+      safe_until.turn = safe * least[0] + travelled.within - ahead.within;
+    if (slide)
+      safe_until.slide = safe * least[1] / largest_weights + travelled.apart - ahead.apart;
+    if (find)
+      safe_until.find = safe * least[2] + travelled.apart - ahead.apart;
+    return std::min({least[0], least[1], least[2]}) < 0.;
   }
 } // namespace Touchstone

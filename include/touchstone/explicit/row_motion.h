@@ -8,6 +8,7 @@
 #include <touchstone/explicit/node_map.h>
 #include <touchstone/explicit/surface_speeds.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -46,40 +47,39 @@ namespace Touchstone
   public:
     RowMotion(const Contact &contact, const NodeMap &nodes);
 
-    /** @brief Rows have been made at the displacement @p u. Collective. */
+    /** @brief Rows have been made at the displacement @p u. Collective.
+     * @param rows The row of Contact by row of the solver. */
     void
-    restart(const NodeField &u);
+    restart(const NodeField &u, const std::vector<std::size_t> &rows);
 
     /** @brief Whether demands_rows() might say yes, the same on all ranks.
      * @param travelled Since restart(). @param ahead In this cycle with its free velocities. */
     bool
     must_look(const RowTravel &travelled, const RowTravel &ahead) const
     {
-      return travelled.apart + ahead.apart >= safe_until.apart ||
-             travelled.within + ahead.within >= safe_until.within;
+      return travelled.apart + ahead.apart >= std::min(safe_until.slide, safe_until.find) ||
+             travelled.within + ahead.within >= safe_until.turn;
     }
 
     /**
      * @brief Whether, on any rank, the rows do not serve a cycle that ends with the displacement
      * @p u + @p step times @p v. Collective.
-     * @param travelled,ahead As of must_look(); @p largest_weights by so much rows move faster.
-     * @param solver With the kept rows; @p rows the row of Contact and @p u_nodes the displacement
-     *               when the rows were made, by row and node of the solver.
+     * @param solver With the kept rows. @param moved By node of the solver: what it will have moved
+     *               at that end since restart().
+     * @param travelled,ahead As of must_look(). @param largest_weights By so much rows move faster
+     *               than nodes do apart.
      */
     bool
     demands_rows(const NodeField                           &u,
                  const NodeField                           &v,
                  double                                     step,
                  const ImpulseSolver                       &solver,
-                 const std::vector<std::size_t>            &rows,
                  const std::vector<dealii::Tensor<1, dim>> &moved,
                  const RowTravel                           &travelled,
                  const RowTravel                           &ahead,
                  double                                     largest_weights);
 
   private:
-    /** Until then no criterion can be met; from the last look. */
-    RowTravel      safe_until;
     const Contact &contact;
     const NodeMap &nodes;
     /** Corners of the faces of this rank of each pair that searches, by local node, the size of the
@@ -105,12 +105,27 @@ namespace Touchstone
     /** By pair: a slave node without partner, on any rank. */
     std::vector<bool> searching;
 
+    /** A row of two bodies that may slide: its index in the solver, and what it was like when it
+     * was made. */
+    struct WatchedRow
+    {
+      std::size_t            row;
+      double                 size, gap;
+      dealii::Tensor<1, dim> normal;
+    };
+    std::vector<WatchedRow> sliding;
+    /** Travel until which each criterion cannot be met, from the last look at it; length. */
+    struct Safe
+    {
+      double turn = 0., slide = 0., find = 0.;
+    };
+    Safe safe_until;
+
     /** How far each criterion is from being met, negative if it is; length. */
     double
     until_faces_turn(const NodeField &u, const NodeField &v, double step) const;
     double
     until_rows_slide(const ImpulseSolver                       &solver,
-                     const std::vector<std::size_t>            &rows,
                      const std::vector<dealii::Tensor<1, dim>> &moved) const;
     double
     until_partners_are_found(const NodeField &u, const NodeField &v, double step) const;

@@ -104,13 +104,14 @@ namespace Touchstone
       partners.resize(nodes.size());
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
-          ContactRow &row     = rows[k];
-          const auto &partner = partners[k] = search.find({positions[k],
-                                                           start[k],
-                                                           input.slave->normal(nodes[k].node),
-                                                           row.was_active,
-                                                           present_faces[k],
-                                                           indices[k]});
+          ContactRow      &row = rows[k];
+          const SlavePoint point{positions[k],
+                                 start[k],
+                                 input.slave->normal(nodes[k].node),
+                                 row.was_active,
+                                 present_faces[k],
+                                 indices[k]};
+          const auto      &partner = partners[k] = search.find(point);
           // The face of this update is preferred in the next one, also in the next step and after a
           // restart (memory()).
           present_faces[k] =
@@ -122,6 +123,7 @@ namespace Touchstone
             {
               row.has_partner = false;
               row.gap         = 0.;
+              row.away        = search.distance(point);
               continue;
             }
           row.has_partner = true;

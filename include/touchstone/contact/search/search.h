@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/search/swept_search.h>
 
+#include <cmath>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -74,6 +75,14 @@ namespace Touchstone
      */
     std::optional<ContactPartner>
     find(const SlavePoint &point) const;
+
+    /** @brief The distance of a node from the closest face, at most the reach; length. */
+    double
+    distance(const SlavePoint &point) const
+    {
+      const FaceProjection found = closest(point);
+      return found.face ? std::sqrt(found.projection.distance_squared) : reach;
+    }
 
     /** @brief The faces of the last update. */
     const FaceExchange &
