@@ -64,22 +64,6 @@ namespace Touchstone
 
 
   void
-  ImpulseContact::begin_interval()
-  {
-    renew_rows = true;
-    counted    = ImpulseWork();
-    // Everything from the committed state, which is what a checkpoint has: sweeps begin from no
-    // impulses.
-    for (const ContactRow &row : contact.rows())
-      {
-        history[row.index]         = RowHistory();
-        history[row.index].sliding = contact.state(row).status == ContactStatus::slip;
-      }
-  }
-
-
-
-  void
   ImpulseContact::import(const NodeField &u, const NodeField &before, const NodeField &v)
   {
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
@@ -95,20 +79,6 @@ namespace Touchstone
 
 
 
-  bool
-  ImpulseContact::start_interval(const NodeField &u, const double time)
-  {
-    if (!renew_rows)
-      return false;
-    interval_start = time;
-    // The rows of the committed state are those of the end of the interval before, and a checkpoint
-    // has them.
-    make_rows(u);
-    return true;
-  }
-
-
-
   void
   ImpulseContact::project(const NodeField &u,
                           const NodeField &before,
@@ -120,6 +90,7 @@ namespace Touchstone
     check_obstacles(time, step);
     if (surfaces.needed())
       surfaces.measure(before, v, speeds_before, speeds);
+    fastest = std::max(fastest, speeds_before.apart);
     if (!start_interval(u, time))
       renew_if_moved(u, before, v, time, step);
     last_step = step;
@@ -173,69 +144,6 @@ namespace Touchstone
           row.energy.stored = 0.;
         }
     acted = false;
-  }
-
-
-
-  // Most cycles need not look at the motion of single faces and rows: nodes of a surface cannot
-  // have moved by more, relative to each other, than the box of their velocities allows.
-  void
-  ImpulseContact::renew_if_moved(const NodeField &u,
-                                 const NodeField &before,
-                                 const NodeField &v,
-                                 const double     time,
-                                 const double     step)
-  {
-    if (!surfaces.needed())
-      return;
-    travelled.add(last_step, speeds_before);
-    const RowTravel ahead(step, speeds);
-    if (!motion.must_look(travelled, ahead))
-      return;
-    import(u, before, v);
-    for (unsigned int node = 0; node < solver.nodes.n(); ++node)
-      moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
-    if (motion.demands_rows(u, v, step, solver, moved, travelled, ahead, largest_weights))
-      renew(u, time);
-  }
-
-
-
-  // Loads and stresses at the start that press closed sides together are balanced by contact then
-  // as later: without it the velocity half a cycle before would part the sides, and the first cycle
-  // would give the energy that brings them back. This is the projection of a cycle with time
-  // reversed: gaps half a cycle before were not negative, but for sides that part with the initial
-  // velocities.
-  void
-  ImpulseContact::project_before(const NodeField &u,
-                                 const NodeField &start,
-                                 NodeField       &v,
-                                 const double     time,
-                                 const double     step)
-  {
-    if (rule.springs())
-      return;
-    renew(u, time);
-    if (surfaces.needed())
-      surfaces.measure(start, v, speeds_before, speeds);
-    import(u, start, v);
-    set_geometry(time, step);
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      {
-        ImpulseRow          &row = solver.rows[k];
-        const Tensor<1, dim> w   = solver.relative_velocity(row, v_before);
-        row.friction             = nullptr; // made anew with the first cycle
-        row.drive *= -1.;
-        row.allowed =
-          row.tied
-            ? w
-            : (std::max(0., kept[k].at_start) / step + std::max(0., w * row.normal)) * row.normal;
-      }
-    for (Tensor<1, dim> &velocity : solver.velocity)
-      velocity *= -1.;
-    solver.solve(control(time, step));
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
-      v[local[node]] = -solver.velocity[node];
   }
 
 

@@ -41,6 +41,8 @@ namespace Touchstone
     sums.resize(nodes.n());
     free.resize(nodes.n());
     metric.resize(rows.size());
+    near.resize(rows.size());
+    std::iota(near.begin(), near.end(), 0);
     active.assign(rows.size(), 0);
     extrapolated.resize(rows.size());
     present.resize(rows.size());

@@ -119,6 +119,14 @@ namespace Touchstone
       return counted;
     }
 
+    /** @brief The highest velocity of nodes of both sides of a pair of bodies relative to each
+     * other since begin_interval(), of all pairs. */
+    double
+    fastest_approach() const
+    {
+      return fastest;
+    }
+
     /** @name Springs from one output interval to the next */
     /** @{ */
     void
@@ -148,7 +156,7 @@ namespace Touchstone
     bool acted = false;
     /** Of the cycle before and of the free velocities, and the length of the cycle before. */
     Speeds    speeds_before, speeds;
-    double    last_step = 0.;
+    double    last_step = 0., fastest = 0.;
     RowTravel travelled;
     /** Half the largest sum of the absolute weights of a row and its slave node, over all ranks: by
      * so much a row can move faster than its nodes do apart. */
@@ -212,6 +220,9 @@ namespace Touchstone
     find_patches();
     void
     find_smallest_faces();
+    /** How far the obstacle of a pair moves in a cycle. */
+    static dealii::Tensor<1, dim>
+    motion_of_obstacle(const ContactPair &pair, double time, double step);
     void
     check_obstacles(double time, double step) const;
     /** Make the rows of the committed state if an interval begins. @return whether it does. */

@@ -106,7 +106,7 @@ namespace Touchstone
     RowNodes                nodes;
     std::vector<ImpulseRow> rows;
     /** Indices of the rows that are looked at in this cycle, in ascending order; the others are
-     * distant and have no impulse. */
+     * distant and have no impulse. All after resize(). */
     std::vector<std::size_t> near;
     /** By slot: the weight, or of lever entries the matrix by which the impulse acts on the
      * node. */
