@@ -122,17 +122,14 @@ namespace Touchstone
 
 
 
-  std::vector<std::string>
-  pairs_with_oblique_forces(const Contact &contact)
+  bool
+  has_oblique_force(const Contact &contact, const ContactPair &pair)
   {
-    std::vector<std::string> names;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (const ContactPair &pair = contact.pair(p);
-          !pair.tied() &&
-          !oblique_force_of_pair(contact, pair, normal_forces(contact, pair, contact.solid_model()))
-             .empty())
-        names.push_back(pair.parameters().name);
-    return names;
+    return !pair.tied() &&
+           !oblique_force_of_pair(contact,
+                                  pair,
+                                  normal_forces(contact, pair, contact.solid_model()))
+              .empty();
   }
 
 

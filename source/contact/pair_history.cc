@@ -25,9 +25,13 @@ namespace Touchstone
   ContactPair::commit()
   {
     commit_positions();
-    // Derivatives are made anew in each iteration and need not be copied with the history.
+    // Derivatives are made anew in each iteration and need not be copied with the history, and
+    // distances are not in checkpoints.
     for (ContactRow &row : present)
-      row.derivative.reset();
+      {
+        row.derivative.reset();
+        row.away = 0.;
+      }
     committed = present;
   }
 

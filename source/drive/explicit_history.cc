@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/archive/archive.h>
-#include <touchstone/base/exact_sum.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/explicit/inverted_cells.h>
@@ -10,71 +9,11 @@
 #include <cmath>
 #include <cstdio>
 
-// History of explicit dynamics: energies and momenta at the end of an output interval, what is kept
-// of it and written to checkpoints (doc/explicit.md, sections 6 and 7).
+// History of explicit dynamics: what is kept of an output interval and written to checkpoints
+// (doc/explicit.md, sections 6 and 7).
 namespace Touchstone
 {
   using namespace dealii;
-
-  // Half a cycle's work of what a support takes of the forces at this time.
-  double
-  ExplicitStep::work_ahead(const State &at, const unsigned int node) const
-  {
-    if (!supports.supported(node))
-      return 0.;
-    const Tensor<1, dim> force = at.force(node);
-    return 0.5 * at.length * (at.v[node] * (force - supports.free_part(node, force)));
-  }
-
-
-
-  Energies
-  ExplicitStep::energies()
-  {
-    // Of two velocities half a cycle before and after the end the product is the kinetic energy
-    // that the forces of this time give: with it the ledger closes up to round-off for linear
-    // bodies (doc/explicit.md, section 6). Forces that supports take give no velocity: kinetic
-    // energy and work of supports are both without that half cycle.
-    ExactSum kinetic, external, viscous, damped;
-    for (unsigned int i = 0; i < map.n_owned(); ++i)
-      {
-        const Tensor<1, dim> force = now.force(i);
-        kinetic.add(0.5 *
-                    (cells.masses()[i] * (now.v[i] * now.v[i]) + now.length * (now.v[i] * force)));
-        kinetic.add(-work_ahead(now, i));
-        external.add(work[i].external);
-        external.add(work_ahead(kept, i));
-        external.add(-work_ahead(now, i));
-        viscous.add(work[i].viscous);
-        damped.add(work[i].damping);
-      }
-    const MPI_Comm                communicator = solid.communicator;
-    const ExplicitCells::Energies of_cells     = cells.energies(now.u);
-    Energies                      result       = committed;
-    result.kinetic                             = kinetic.value(communicator);
-    result.strain                              = of_cells.strain;
-    result.plastic                             = of_cells.plastic;
-    result.hourglass                           = of_cells.hourglass;
-    result.external += external.value(communicator);
-    result.viscous += viscous.value(communicator);
-    result.damping += damped.value(communicator);
-    if (impulses)
-      {
-        // Forces of stress that moving obstacles balance give no velocity either: as of supports,
-        // half a cycle's work is left out.
-        const ImpulseEnergy by_contact = impulses->energy();
-        result.contact -= by_contact.normal;
-        result.friction -= by_contact.friction;
-        result.external += by_contact.obstacles + (by_contact.ahead - obstacles_ahead);
-        result.kinetic += by_contact.ahead;
-        obstacles_ahead_now = by_contact.ahead;
-        held_by_springs     = by_contact.stored;
-      }
-    result.update_largest();
-    return result;
-  }
-
-
 
   double
   ExplicitStep::try_commit(const double smallest_part)
@@ -119,6 +58,7 @@ namespace Touchstone
     committed       = end;
     kept            = now;
     obstacles_ahead = obstacles_ahead_now;
+    oblique         = oblique_now;
     if (impulses)
       impulses->commit();
     cells.commit();
@@ -148,44 +88,6 @@ namespace Touchstone
     cells.rollback();
     std::fill(work.begin(), work.end(), NodalWork());
     contact.rollback();
-  }
-
-
-
-  std::vector<BodyMomentum>
-  ExplicitStep::momenta() const
-  {
-    struct Sums
-    {
-      ExactSum                  mass;
-      std::array<ExactSum, dim> linear, angular;
-    };
-    std::vector<Sums> sums(scene.bodies.size());
-    for (unsigned int i = 0; i < map.n_owned(); ++i)
-      {
-        const double         mass     = cells.masses()[i];
-        const Tensor<1, dim> momentum = mass * kept.v[i];
-        const Tensor<1, dim> angular =
-          cross_product_3d(Tensor<1, dim>(map.positions()[i] + kept.u[i]), momentum);
-        Sums &sum = sums[map.body(i)];
-        sum.mass.add(mass);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            sum.linear[d].add(momentum[d]);
-            sum.angular[d].add(angular[d]);
-          }
-      }
-    std::vector<BodyMomentum> result(sums.size());
-    for (std::size_t b = 0; b < sums.size(); ++b)
-      {
-        result[b].mass = sums[b].mass.value(solid.communicator);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            result[b].linear[d]  = sums[b].linear[d].value(solid.communicator);
-            result[b].angular[d] = sums[b].angular[d].value(solid.communicator);
-          }
-      }
-    return result;
   }
 
 
@@ -235,6 +137,7 @@ namespace Touchstone
     solid.save(archive);
     contact.save(archive);
     archive.put("work of obstacles ahead", obstacles_ahead);
+    archive.put("oblique contact", oblique);
     if (impulses)
       impulses->save(archive);
     // What is kept of earlier cycles to save time must be the same in a run that resumes.
@@ -269,6 +172,8 @@ namespace Touchstone
     contact.load(archive);
     if (archive.has("work of obstacles ahead")) // not in checkpoints of earlier versions
       obstacles_ahead = archive.get<double>("work of obstacles ahead");
+    if (archive.has("oblique contact"))
+      oblique = archive.get<std::vector<ObliqueContact>>("oblique contact");
     if (impulses)
       impulses->load(archive);
   }

@@ -210,67 +210,10 @@ namespace Touchstone
         counts.contact = impulses->work();
       }
     judge();
+    if (impulses)
+      judge_directions(t - start);
     counts.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
     return 0;
-  }
-
-
-
-  void
-  ExplicitStep::judge()
-  {
-    if (parameters.courant_factor > 1.)
-      found.warnings.push_back("'Time integration/Courant factor' is above 1: cycles may be longer "
-                               "than is stable for a cell by itself");
-    const ExplicitCells::Energies of = cells.energies(now.u);
-    // Hourglass modes of coarse meshes in bending are of this size.
-    constexpr double much = 0.1;
-    if (of.hourglass > much * (of.strain + of.plastic) && of.hourglass > 1e-6 * committed.largest)
-      found.warnings.push_back(
-        "hourglass modes of one-point cells have more than a tenth of the "
-        "energy in the bodies: take a finer mesh, distribute loads over more "
-        "nodes, or take another 'Element'");
-  }
-
-
-
-  StepFindings
-  ExplicitStep::findings() const
-  {
-    StepFindings result = found;
-    if (!impulses)
-      return result;
-    if (const std::string text = unresolved_overlap(contact); !text.empty())
-      throw UnresolvedContactFailure(text);
-    // A corner that hits a face between its nodes gets a force in a wrong direction, but momentum
-    // and energy are right, and a tumbling body goes on: other than in statics this is no reason to
-    // end.
-    for (const std::string &pair : pairs_with_oblique_forces(contact))
-      result.warnings.push_back("contact pair '" + pair +
-                                "' has had forces far from normal to the slave surface, as an edge "
-                                "or a vertex touches another edge or the inside of a slave face: "
-                                "their direction is not right; refine the slave surface, exchange "
-                                "slave and master, or round the edges");
-    return result;
-  }
-
-
-
-  StepState
-  ExplicitStep::state() const
-  {
-    return {displacement, contact, *this, solid, {}, [this]() {
-              return supports.reactions(kept.support);
-            }};
-  }
-
-
-
-  std::string
-  ExplicitStep::advice() const
-  {
-    return "The length of the steps does not matter: see 'Courant factor' and "
-           "'Step check interval'.";
   }
 } // namespace Touchstone

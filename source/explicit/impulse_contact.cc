@@ -37,6 +37,7 @@ namespace Touchstone
     , nodes(nodes)
     , solver(nodes.communicator())
     , motion(contact, nodes)
+    , surfaces(contact, nodes)
     , displacement(contact.solid_model().owned, contact.communicator())
     , history(contact.rows().size())
     , inverse_masses(nodes.n_owned())
@@ -63,22 +64,6 @@ namespace Touchstone
 
 
   void
-  ImpulseContact::begin_interval()
-  {
-    renew_rows = true;
-    counted    = ImpulseWork();
-    // Everything from the committed state, which is what a checkpoint has: sweeps begin from no
-    // impulses.
-    for (const ContactRow &row : contact.rows())
-      {
-        history[row.index]         = RowHistory();
-        history[row.index].sliding = contact.state(row).status == ContactStatus::slip;
-      }
-  }
-
-
-
-  void
   ImpulseContact::import(const NodeField &u, const NodeField &before, const NodeField &v)
   {
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
@@ -94,18 +79,6 @@ namespace Touchstone
 
 
 
-  bool
-  ImpulseContact::start_interval(const NodeField &u, const double time)
-  {
-    if (!renew_rows)
-      return false;
-    interval_start = time;
-    renew(u, time);
-    return true;
-  }
-
-
-
   void
   ImpulseContact::project(const NodeField &u,
                           const NodeField &before,
@@ -115,41 +88,41 @@ namespace Touchstone
                           const double     acting)
   {
     check_obstacles(time, step);
-    const bool starts = start_interval(u, time);
-    import(u, before, v);
-    if (!starts)
+    if (surfaces.needed())
+      surfaces.measure(before, v, speeds_before, speeds);
+    fastest = std::max(fastest, speeds_before.apart);
+    if (!start_interval(u, time))
+      renew_if_moved(u, before, v, time, step);
+    last_step = step;
+    if (all_asleep(time, step))
       {
-        for (unsigned int node = 0; node < solver.nodes.n(); ++node)
-          moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
-        if (motion.demands_rows(u, v, step, solver, kept_rows, moved))
-          {
-            renew(u, time);
-            import(u, before, v);
-          }
+        ++counted.cycles;
+        end_of_action();
+        return;
       }
+    import(u, before, v);
     set_geometry(time, step);
     const ImpulseCounts counts =
       rule.springs() ? push(time, step, acting > 0. ? acting : step) : solve(time, step);
     ++counted.cycles;
     counted.sweeps += counts.sweeps;
     counted.rounds += counts.rounds;
-    counted.most_sweeps     = std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps);
-    const bool acted_before = acted;
-    acted                   = counts.rounds > 0;
-    for (KeptRow &row : kept)
-      row.fresh = false;
-    if (!acted)
+    counted.most_sweeps = std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps);
+    fresh               = false;
+    if (counts.rounds == 0)
       {
-        if (acted_before)
-          for (RowHistory &row : history)
-            {
-              row.impulse       = Tensor<1, dim>();
-              row.sliding       = false;
-              row.energy.ahead  = 0.;
-              row.energy.stored = 0.;
-            }
+        end_of_action();
+        if (surfaces.needed() && !rule.springs())
+          {
+            all_asleep_until = std::numeric_limits<double>::max();
+            for (const double until : asleep_until)
+              all_asleep_until = std::min(all_asleep_until, until);
+            all_asleep_until = Utilities::MPI::min(all_asleep_until, nodes.communicator());
+          }
         return;
       }
+    acted            = true;
+    all_asleep_until = 0.;
     for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
       v[local[node]] = solver.velocity[node];
     keep_results(step);
@@ -159,39 +132,18 @@ namespace Touchstone
 
 
 
-  // Loads and stresses at the start that press closed sides together are balanced by contact then
-  // as later: without it the velocity half a cycle before would part the sides, and the first cycle
-  // would give the energy that brings them back. This is the projection of a cycle with time
-  // reversed: gaps half a cycle before were not negative, but for sides that part with the initial
-  // velocities.
   void
-  ImpulseContact::project_before(const NodeField &u,
-                                 const NodeField &start,
-                                 NodeField       &v,
-                                 const double     time,
-                                 const double     step)
+  ImpulseContact::end_of_action()
   {
-    if (rule.springs())
-      return;
-    renew(u, time);
-    import(u, start, v);
-    set_geometry(time, step);
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      {
-        ImpulseRow          &row = solver.rows[k];
-        const Tensor<1, dim> w   = solver.relative_velocity(row, v_before);
-        row.friction             = nullptr; // made anew with the first cycle
-        row.drive *= -1.;
-        row.allowed =
-          row.tied
-            ? w
-            : (std::max(0., kept[k].at_start) / step + std::max(0., w * row.normal)) * row.normal;
-      }
-    for (Tensor<1, dim> &velocity : solver.velocity)
-      velocity *= -1.;
-    solver.solve(control(time, step));
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
-      v[local[node]] = -solver.velocity[node];
+    if (acted)
+      for (RowHistory &row : history)
+        {
+          row.impulse       = Tensor<1, dim>();
+          row.sliding       = false;
+          row.energy.ahead  = 0.;
+          row.energy.stored = 0.;
+        }
+    acted = false;
   }
 
 

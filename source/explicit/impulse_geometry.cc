@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/base/input_error.h>
-#include <touchstone/contact/geometry/face_derivative.h>
 #include <touchstone/explicit/impulse_contact.h>
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <string>
 
-// Where the kept rows stand at the start of a cycle: gaps, the velocity that they leave free, what
-// drives obstacles, and the levers that keep the moment of momentum (doc/explicit.md, sections 9.1
-// and 9.5).
+// Where the kept rows stand at the start of a cycle: gaps, and the velocity that they leave free
+// (doc/explicit.md, sections 9.1 and 9.5).
 namespace Touchstone
 {
   using namespace dealii;
@@ -27,21 +20,6 @@ namespace Touchstone
     /** And no more than this part of it: what a change of weights or normals makes of a gap that
      * was closed is undone over many cycles, so that the work is no matter of one of them. */
     constexpr double undone_of_overlap = 0.05;
-
-    /** Sides that are farther apart than they come with so many times the highest velocity of their
-     * nodes do not meet in the cycle: twice that velocity they come from both sides, and an impact
-     * on other rows in the same cycle can double it. */
-    constexpr double beyond_reach = 4.;
-
-    /** A lever shorter than this, relative to the size of the faces, is round-off. */
-    constexpr double no_lever = 1e-13;
-
-    /** How far the obstacle of a pair moves in a cycle. */
-    Tensor<1, dim>
-    motion_of_obstacle(const ContactPair &pair, const double time, const double step)
-    {
-      return pair.pairing().shift(time + step) - pair.pairing().shift(time);
-    }
 
 
 
@@ -60,72 +38,12 @@ namespace Touchstone
 
 
 
-  // A jump of an obstacle is a mistake of its formula: nodes that it passes would be pressed apart
-  // on the wrong side, or thrown at a speed that nothing survives.
-  void
-  ImpulseContact::check_obstacles(const double time, const double step) const
-  {
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (const ContactPair &pair = contact.pair(p); !pair.master())
-        {
-          const Tensor<1, dim> move = motion_of_obstacle(pair, time, step);
-          if (move.norm() <= smallest_face[p])
-            continue;
-          unsigned int axis = 0;
-          for (unsigned int d = 1; d < dim; ++d)
-            if (std::abs(move[d]) > std::abs(move[axis]))
-              axis = d;
-          char text[200];
-          std::snprintf(text,
-                        sizeof(text),
-                        "moves the obstacle by %.4g within the cycle of %.4g at time %.6g, which "
-                        "is more than a face of the body that it meets (%.4g)",
-                        move.norm(),
-                        step,
-                        time,
-                        smallest_face[p]);
-          const ObstacleParameters &obstacle  = *pair.obstacle();
-          const std::string *const  motions[] = {&obstacle.motion_x,
-                                                 &obstacle.motion_y,
-                                                 &obstacle.motion_z};
-          throw InputError(obstacle.section(),
-                           "Motion " + std::string(1, "xyz"[axis]),
-                           *motions[axis],
-                           text,
-                           "let it move smoothly, as 'min(v*t, d)' or 'd*(1-cos(pi*t/T))/2' do");
-        }
-  }
-
-
-
-  double
-  ImpulseContact::reach(const double time, const double step) const
-  {
-    // Springs need the mobility of all rows, and rows with obstacles always take part.
-    bool bodies = false;
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      bodies = bodies || contact.pair(p).master();
-    if (rule.springs() || !bodies)
-      return std::numeric_limits<double>::max();
-    double square = 0.;
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
-      square =
-        std::max({square, solver.velocity[node].norm_square(), v_before[node].norm_square()});
-    double way = step * std::sqrt(Utilities::MPI::max(square, nodes.communicator()));
-    // An obstacle may drive a node that has rows with other bodies, too.
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      if (const ContactPair &pair = contact.pair(p); !pair.master())
-        way = std::max(way, motion_of_obstacle(pair, time, step).norm());
-    return beyond_reach * way;
-  }
-
-
-
   void
   ImpulseContact::set_geometry(const double time, const double step)
   {
     const double far = reach(time, step);
-    for (std::size_t k = 0; k < kept.size(); ++k)
+    find_near_rows(far);
+    for (const std::size_t k : solver.near)
       {
         ImpulseRow       &row  = solver.rows[k];
         const RowHistory &h    = history[kept[k].index];
@@ -135,7 +53,10 @@ namespace Touchstone
         if (from.stencil.empty())
           set_obstacle_geometry(row, kept[k], time, step);
         else
-          set_pair_geometry(row, kept[k], time, step, far);
+          {
+            set_pair_geometry(row, kept[k], time, step, far);
+            set_time_to_sleep(k);
+          }
         if (row.friction && !row.distant)
           {
             row.tangential  = directions_of_friction(*row.friction, row.normal);
@@ -217,86 +138,5 @@ namespace Touchstone
           }
         row.allowed = ((gap - allowed + grows) / step) * row.normal;
       }
-  }
-
-
-
-  // The shape is met where the node is: curved obstacles need no criterion of motion.
-  void
-  ImpulseContact::set_obstacle_geometry(ImpulseRow  &row,
-                                        KeptRow     &from,
-                                        const double time,
-                                        const double step)
-  {
-    const ContactRow  &of   = contact.rows()[from.index];
-    const ContactPair &pair = contact.pair(of);
-    const unsigned int node = solver.nodes.node(row.first);
-    const Point<dim>   x(reference[node] + u_nodes[node]);
-    const auto         here    = pair.pairing().at(x, time);
-    const double       overlap = pair.overlap(of.index - pair.rows().front().index);
-    row.drive                  = motion_of_obstacle(pair, time, step) / step;
-    RowHistory &h              = history[of.index];
-    h.drive_before             = h.driven ? h.drive : row.drive;
-    h.drive                    = row.drive;
-    h.driven                   = true;
-    row.normal                 = here->normal;
-    if (row.tied)
-      {
-        row.allowed =
-          (from.gap_vector + u_nodes[node] - (pair.pairing().shift(time) - of.shift)) / step;
-        return;
-      }
-    const double gap   = here->gap_vector * here->normal - pair.part_of_overlap(time) * overlap;
-    const double grows = (pair.part_of_overlap(time) - pair.part_of_overlap(time + step)) * overlap;
-    from.at_start      = gap;
-    row.allowed        = ((gap - gap_allowed(row, of, gap, step) + grows) / step) * row.normal;
-  }
-
-
-
-  // The forces of a row on its nodes, f and -w_m f, have the moment d x f about any point, with d
-  // from the contact point to the slave node: none if f acts along d. Forces c (y x J^-1 (d x f))
-  // on the n nodes around the slave node, at y from their mean, with c = 1/n and J = sum c (|y|^2 I
-  // - y y), take it up. Zywicz and Puso (1999), Int. J. Numer. Methods Engng 44, have a moment arm
-  // for the same purpose.
-  // With small sliding partners stay as they were in the reference state, and the line from the
-  // contact point to the slave node grows with the sliding: such a lever would turn the rate of the
-  // gap into something else. These pairs keep linear momentum alone, as in implicit runs.
-  void
-  ImpulseContact::set_lever(ImpulseRow &row, const ContactRow &of)
-  {
-    row.levered = false;
-    if (contact.pair(of).small_sliding() && !row.tied)
-      return;
-    Tensor<1, dim> d;
-    for (unsigned int i = 0; i < row.n_nodes; ++i)
-      {
-        const std::size_t  s    = solver.slot(row, i);
-        const unsigned int node = solver.nodes.node(s);
-        d += solver.weights[s] * (reference[node] + u_nodes[node]);
-      }
-    // Along the normal it has no moment with a normal force.
-    const double across = (d - (d * of.normal) * of.normal).norm();
-    row.levered         = (row.friction || row.tied ? d.norm() : across) > no_lever * of.size;
-    if (!row.levered)
-      return;
-    const std::size_t first = row.first + row.n_nodes, last = first + row.n_lever;
-    const double      c = 1. / row.n_lever;
-    Tensor<1, dim>    mean;
-    const auto        position = [&](const std::size_t s) {
-      return reference[solver.nodes.node(s)] + u_nodes[solver.nodes.node(s)];
-    };
-    for (std::size_t s = first; s < last; ++s)
-      mean += c * position(s);
-    Tensor<2, dim> inertia;
-    for (std::size_t s = first; s < last; ++s)
-      {
-        const Tensor<1, dim> y = position(s) - mean;
-        inertia += c * (y.norm_square() * Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
-                        outer_product(y, y));
-      }
-    const Tensor<2, dim> turn = invert(inertia) * cross_matrix(d);
-    for (std::size_t s = first; s < last; ++s)
-      solver.levers[s] = c * cross_matrix(position(s) - mean) * turn;
   }
 } // namespace Touchstone

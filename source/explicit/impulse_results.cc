@@ -19,7 +19,7 @@ namespace Touchstone
     // a sweep too few.
     constexpr double of_supports = 1e-3, of_others = 0.1;
     unsigned int     pair = contact.n_pairs();
-    for (std::size_t k = 0; k < kept.size(); ++k)
+    for (const std::size_t k : solver.near)
       {
         const ImpulseRow &row  = solver.rows[k];
         const ContactRow &from = contact.rows()[kept[k].index];
@@ -60,7 +60,7 @@ namespace Touchstone
   ImpulseContact::keep_results(const double step)
   {
     ExactSum given;
-    for (std::size_t k = 0; k < kept.size(); ++k)
+    for (const std::size_t k : solver.near)
       {
         const ImpulseRow &row = solver.rows[k];
         RowHistory       &h   = history[kept[k].index];
@@ -113,6 +113,7 @@ namespace Touchstone
   ImpulseContact::end_interval(const NodeField &u, const double time)
   {
     nodes.to_vector(u, displacement);
+    tell_what_presses();
     contact.update(displacement, time);
     const double length = time - interval_start;
     for (const ContactRow &row : contact.rows())

@@ -4,6 +4,7 @@
 #include <touchstone/explicit/impulse_contact.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 // The rows that explicit dynamics keeps (doc/explicit.md, section 9.5): taken from Contact when
@@ -52,28 +53,34 @@ namespace Touchstone
   {
     ++counted.renewals;
     nodes.to_vector(u, displacement);
-    // Rows in contact leave an edge later than open ones arrive there.
     if (!renew_rows)
-      for (const ContactRow &row : contact.rows())
-        {
-          RowState state = contact.state(row);
-          if (state.status != ContactStatus::no_partner && !row.tied)
-            state.status = history[row.index].impulse * row.normal > 0. ? ContactStatus::slip
-                                                                        : ContactStatus::open;
-          contact.enforcement().set_state(row, state);
-        }
+      tell_what_presses();
     contact.update(displacement, time);
     contact.commit_positions();
-    make_rows();
-    motion.restart(u);
-    renew_rows = false;
+    make_rows(u);
   }
 
 
 
   void
-  ImpulseContact::make_rows()
+  ImpulseContact::tell_what_presses()
   {
+    for (const ContactRow &row : contact.rows())
+      {
+        RowState state = contact.state(row);
+        if (state.status != ContactStatus::no_partner && !row.tied)
+          state.status = history[row.index].impulse * row.normal > 0. ? ContactStatus::slip
+                                                                      : ContactStatus::open;
+        contact.enforcement().set_state(row, state);
+      }
+  }
+
+
+
+  void
+  ImpulseContact::make_rows(const NodeField &u)
+  {
+    nodes.to_vector(u, displacement);
     std::vector<std::pair<Index, RowKey>> slots;
     solver.rows.clear();
     kept.clear();
@@ -86,7 +93,6 @@ namespace Touchstone
                           from.gap,
                           from.gap_vector,
                           contact.pair(from).part_of_overlap(contact.time()),
-                          true,
                           from.gap});
           kept_rows.push_back(from.index);
         }
@@ -95,8 +101,17 @@ namespace Touchstone
     solver.nodes.reinit(contact.solid_model().owned, slots);
     solver.resize();
     set_nodes();
+    largest_weights = 1.;
     for (std::size_t k = 0; k < kept.size(); ++k)
       set_weights(k);
+    if (surfaces.needed())
+      largest_weights = Utilities::MPI::max(largest_weights, nodes.communicator());
+    asleep_until.assign(kept.size(), 0.);
+    all_asleep_until = 0.;
+    travelled        = RowTravel();
+    fresh            = true;
+    renew_rows       = false;
+    motion.restart(u, kept_rows);
     made_at = u_nodes;
     moved.resize(u_nodes.size());
     v_before.resize(u_nodes.size());
@@ -194,11 +209,15 @@ namespace Touchstone
       solver.weights[of_master] /= sum;
     // The gaps that the row would have at zero displacements.
     Tensor<1, dim> by_motion;
+    double         absolute = 0.;
     for (unsigned int i = 0; i < row.n_nodes; ++i)
       {
         const std::size_t slot = solver.slot(row, i);
         by_motion += solver.weights[slot] * u_nodes[solver.nodes.node(slot)];
+        absolute += std::abs(solver.weights[slot]);
       }
+    if (!from.stencil.empty())
+      largest_weights = std::max(largest_weights, 0.5 * absolute);
     kept[k].gap_vector -= by_motion;
     kept[k].gap -= by_motion * from.normal;
   }

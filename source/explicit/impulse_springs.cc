@@ -131,7 +131,7 @@ namespace Touchstone
     const double gap = std::min(0., kept[k].at_start);
     // A gap that is another one since partners, weights or normals are, or one that bodies begin
     // with: the energy of the spring comes from outside.
-    if (kept[k].fresh)
+    if (fresh)
       {
         const double supplied = 0.5 * (spring.stiffness * gap * gap - before);
         h.energy.obstacles += supplied;

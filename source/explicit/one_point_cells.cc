@@ -110,40 +110,45 @@ namespace Touchstone
                                  NodeField                 &force,
                                  NodeField                 &viscous)
   {
-    using Hourglass     = OnePointKernels::Hourglass;
-    unsigned int failed = numbers::invalid_unsigned_int;
-    const bool   damped = body.hourglass == BodyParameters::Hourglass::viscous;
-    double forces[dim * n_nodes][n_cells], gradient[dim * dim][n_cells], stress[dim * dim][n_cells];
-    const auto control = body.hourglass != BodyParameters::Hourglass::stiffness ? Hourglass::none
-                         : finite ? Hourglass::convected
-                                  : Hourglass::fixed;
-    const double *const displacement = numbers_of(u), *const velocity = numbers_of(v);
+    using Hourglass      = OnePointKernels::Hourglass;
+    unsigned int failed  = numbers::invalid_unsigned_int;
+    const bool   damped  = body.hourglass == BodyParameters::Hourglass::viscous;
+    const auto   control = body.hourglass != BodyParameters::Hourglass::stiffness ? Hourglass::none
+                           : finite ? Hourglass::convected
+                                    : Hourglass::fixed;
+    double       values[dim * n_nodes][n_cells], forces[dim * n_nodes][n_cells],
+      gradient[dim * dim][n_cells], stress[dim * dim][n_cells];
     for (unsigned int b = 0; b < blocks.size(); ++b)
       {
         const OnePointBlock &block  = blocks[b];
         const unsigned int   first  = b * n_cells;
         const unsigned int   n_used = std::min<unsigned int>(n_cells, cells.size() - first);
-        OnePointKernels::set_gradients(block, displacement, gradient);
+        OnePointKernels::gather(block, numbers_of(u), values);
+        OnePointKernels::set_gradients(block, values, gradient);
         const unsigned int lane = law.respond(gradient, step, n_used, states.block(b), stress);
         if (lane < n_used)
           failed = std::min(failed, first + lane);
-        OnePointKernels::set_forces(block, displacement, gradient, stress, control, forces);
+        OnePointKernels::set_forces(block, values, gradient, stress, control, forces);
         scatter(block.nodes, n_used, forces, force);
         if (!damped && bulk == nullptr)
           continue;
-        double rates[dim * dim][n_cells], periods[n_cells];
-        OnePointKernels::set_gradients(block, velocity, rates);
-        std::fill_n(&stress[0][0], dim * dim * n_cells, 0.);
+        OnePointKernels::gather(block, numbers_of(v), values);
         if (bulk != nullptr)
           {
+            double periods[n_cells];
             for (unsigned int l = 0; l < n_cells; ++l)
               periods[l] = bulk->periods[first + std::min(l, n_used - 1)];
-            OnePointKernels::viscous(
-              finite ? gradient : nullptr, rates, bulk->viscosity, periods, stress);
+            OnePointKernels::set_viscous_forces(
+              block, values, finite ? gradient : nullptr, bulk->viscosity, periods, forces);
+            scatter(block.nodes, n_used, forces, viscous);
           }
-        OnePointKernels::set_forces(
-          block, velocity, rates, stress, damped ? Hourglass::damped : Hourglass::none, forces);
-        scatter(block.nodes, n_used, forces, viscous);
+        if (damped)
+          {
+            std::fill_n(&stress[0][0], dim * dim * n_cells, 0.);
+            OnePointKernels::set_gradients(block, values, gradient);
+            OnePointKernels::set_forces(block, values, gradient, stress, Hourglass::damped, forces);
+            scatter(block.nodes, n_used, forces, viscous);
+          }
       }
     return failed;
   }

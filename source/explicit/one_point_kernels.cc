@@ -14,18 +14,10 @@ namespace Touchstone
 
     /** Component @p i of the nodes of all cells. */
     __attribute__((always_inline)) inline void
-    gather(const OnePointBlock &block,
-           const double        *field,
-           const unsigned int   i,
-           Lanes (&x)[n_corners])
+    component(const double (*field)[lane_count], const unsigned int i, Lanes (&x)[n_corners])
     {
       for (unsigned int a = 0; a < n_corners; ++a)
-        {
-          double values[lane_count];
-          for (unsigned int c = 0; c < lane_count; ++c)
-            values[c] = field[dim * block.nodes[c][a] + i];
-          x[a] = load(values);
-        }
+        x[a] = load(field[dim * a + i]);
     }
 
     /** The sums of the hourglass modes over the nodes. */
@@ -44,16 +36,32 @@ namespace Touchstone
 
 
 
+  void
+  OnePointKernels::gather(const OnePointBlock &block,
+                          const double        *field,
+                          double (*values)[lane_count])
+  {
+    for (unsigned int c = 0; c < lane_count; ++c)
+      for (unsigned int a = 0; a < n_corners; ++a)
+        {
+          const double *const node = field + dim * block.nodes[c][a];
+          for (unsigned int i = 0; i < dim; ++i)
+            values[dim * a + i][c] = node[i];
+        }
+  }
+
+
+
   /** Displacement gradients, [3i+j], of eight cells. */
   TOUCHSTONE_VECTORISED void
   OnePointKernels::set_gradients(const OnePointBlock &block,
-                                 const double        *u,
+                                 const double (*u)[lane_count],
                                  double (*gradient)[lane_count])
   {
     for (unsigned int i = 0; i < dim; ++i)
       {
         Lanes x[n_corners];
-        gather(block, u, i, x);
+        component(u, i, x);
         for (unsigned int j = 0; j < dim; ++j)
           {
             Lanes sum = x[0] * load(block.gradients[j]);
@@ -67,7 +75,7 @@ namespace Touchstone
   /** Forces of stress and hourglass control on the nodes, [3a+i], of eight cells. */
   TOUCHSTONE_VECTORISED void
   OnePointKernels::set_forces(const OnePointBlock &block,
-                              const double        *u,
+                              const double (*u)[lane_count],
                               const double (*gradient)[lane_count],
                               const double (*stress)[lane_count],
                               const Hourglass control,
@@ -82,7 +90,7 @@ namespace Touchstone
         if (control != Hourglass::none)
           {
             Lanes x[n_corners];
-            gather(block, u, i, x);
+            component(u, i, x);
             hourglass_sums(x, q[i]);
           }
         for (unsigned int m = 0; m < n_controlled; ++m)
@@ -151,30 +159,42 @@ namespace Touchstone
 
 
   TOUCHSTONE_VECTORISED void
-  OnePointKernels::viscous(const double (*gradient)[lane_count],
-                           const double (*rates)[lane_count],
-                           const Viscosity &viscosity,
-                           const double    *periods,
-                           double (*stress)[lane_count])
+  OnePointKernels::set_viscous_forces(const OnePointBlock &block,
+                                      const double (*velocity)[lane_count],
+                                      const double (*gradient)[lane_count],
+                                      const Viscosity &viscosity,
+                                      const double    *periods,
+                                      double (*force)[lane_count])
   {
-    const Lanes zero = {};
-    Lanes       H[dim * dim], J = zero + 1., rate = zero;
-    for (unsigned int k = 0; k < dim * dim; ++k)
-      H[k] = k % (dim + 1) == 0 ? zero + 1. : zero;
-    if (gradient != nullptr)
+    // Nodes move the volume by J F^{-T} b_a, of the undeformed volume.
+    Lanes by_nodes[dim * n_corners], J = {}, rate = {};
+    J += 1.;
+    if (gradient == nullptr)
+      for (unsigned int k = 0; k < dim * n_corners; ++k)
+        by_nodes[k] = load(block.gradients[k]);
+    else
       {
-        Lanes F[dim * dim];
+        Lanes F[dim * dim], H[dim * dim];
         for (unsigned int k = 0; k < dim * dim; ++k)
-          F[k] = load(gradient[k]) + H[k];
+          {
+            F[k] = load(gradient[k]);
+            if (k % (dim + 1) == 0)
+              F[k] += 1.;
+          }
         cofactors(F, H);
         J = F[0] * H[0] + F[1] * H[1] + F[2] * H[2];
+        for (unsigned int a = 0; a < n_corners; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            by_nodes[dim * a + i] = H[dim * i] * load(block.gradients[dim * a]) +
+                                    H[dim * i + 1] * load(block.gradients[dim * a + 1]) +
+                                    H[dim * i + 2] * load(block.gradients[dim * a + 2]);
       }
-    for (unsigned int k = 0; k < dim * dim; ++k)
-      rate += H[k] * load(rates[k]);
+    for (unsigned int k = 0; k < dim * n_corners; ++k)
+      rate += by_nodes[k] * load(velocity[k]);
     rate /= J;
-    const Lanes pressure = viscosity(rate, load(periods)) * rate;
-    for (unsigned int k = 0; k < dim * dim; ++k)
-      store(pressure * H[k], stress[k]);
+    const Lanes pressure = load(block.volume) * (viscosity(rate, load(periods)) * rate);
+    for (unsigned int k = 0; k < dim * n_corners; ++k)
+      store(pressure * by_nodes[k], force[k]);
   }
 
 

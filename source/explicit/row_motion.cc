@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // When rows are renewed. Between two renewals gaps are linear in the positions of the nodes, with
 // normals and weights as they were; the criteria bound by how much these could be others by now.
@@ -63,9 +64,10 @@ namespace Touchstone
 
 
   void
-  RowMotion::restart(const NodeField &u)
+  RowMotion::restart(const NodeField &u, const std::vector<std::size_t> &rows)
   {
-    made_at = u;
+    made_at    = u;
+    safe_until = Safe();
     // Its owner knows the displacement of a ghost better than this rank may do at present.
     nodes.update_ghosts(made_at);
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
@@ -75,67 +77,81 @@ namespace Touchstone
           some |= !contact.rows()[slave.row].get().has_partner;
         searching[p] = Utilities::MPI::max(some, nodes.communicator()) > 0;
       }
+    sliding.clear();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        const ContactRow &row = contact.rows()[rows[k]];
+        if (!row.stencil.empty() && !contact.pair(row).small_sliding())
+          sliding.push_back({k, row.size, row.gap, row.normal});
+      }
   }
 
 
 
-  bool
-  RowMotion::faces_turned(const NodeField &u, const NodeField &v, const double step) const
+  double
+  RowMotion::until_faces_turn(const NodeField &u, const NodeField &v, const double step) const
   {
     const auto moved = [&](const unsigned int node) {
       return u[node] + step * v[node] - made_at[node];
     };
+    double result = std::numeric_limits<double>::max();
     for (const WatchedFace &face : faces)
       {
         std::array<Tensor<1, dim>, 4> m;
         for (unsigned int i = 0; i < 4; ++i)
           m[i] = moved(face.corners[i]);
-        const double limit = turns * turns * face.size * face.size;
-        for (const auto &[a, b] :
-             {std::pair(0, 1), std::pair(1, 3), std::pair(3, 2), std::pair(2, 0)})
-          if ((m[a] - m[b]).norm_square() > limit)
-            return true;
+        const double limit  = turns * face.size;
+        const double square = std::max({(m[0] - m[1]).norm_square(),
+                                        (m[1] - m[3]).norm_square(),
+                                        (m[3] - m[2]).norm_square(),
+                                        (m[2] - m[0]).norm_square()});
+        if (square > limit * limit)
+          return -1.;
+        result = std::min(result, limit - std::sqrt(square));
       }
-    return false;
+    return result;
   }
 
 
 
-  bool
-  RowMotion::rows_slid(const ImpulseSolver               &solver,
-                       const std::vector<std::size_t>    &rows,
-                       const std::vector<Tensor<1, dim>> &moved) const
+  double
+  RowMotion::until_rows_slide(const ImpulseSolver               &solver,
+                              const std::vector<Tensor<1, dim>> &moved) const
   {
-    for (std::size_t k = 0; k < rows.size(); ++k)
+    double result = std::numeric_limits<double>::max();
+    for (const WatchedRow &row : sliding)
       {
-        const ContactRow &row = contact.rows()[rows[k]];
-        if (row.stencil.empty() || contact.pair(row).small_sliding())
-          continue;
         Tensor<1, dim> relative;
-        for (unsigned int i = 0; i < solver.rows[k].n_nodes; ++i)
+        for (unsigned int i = 0; i < solver.rows[row.row].n_nodes; ++i)
           {
-            const std::size_t s = solver.slot(solver.rows[k], i);
+            const std::size_t s = solver.slot(solver.rows[row.row], i);
             relative += solver.weights[s] * moved[solver.nodes.node(s)];
           }
-        const double along = relative * row.normal;
-        if ((relative - along * row.normal).norm() >
-            std::max(slides * row.size, slides_apart * (row.gap + along)))
-          return true;
+        const double along  = relative * row.normal;
+        const double across = (relative - along * row.normal).norm();
+        const double limit  = std::max(slides * row.size, slides_apart * (row.gap + along));
+        if (across > limit)
+          return -1.;
+        // The limit falls as the gap does.
+        result = std::min(result, (limit - across) / (1. + slides_apart));
       }
-    return false;
+    return result;
   }
 
 
 
   // A node without a partner may be right beside the edge of the master surface: it is bounded by
-  // how far it and the master surface have moved, as long as they do not move together.
-  bool
-  RowMotion::may_find_partner(const NodeField &u, const NodeField &v, const double step) const
+  // how far it and the master surface have moved relative to each other, and to the distance
+  // between them.
+  double
+  RowMotion::until_partners_are_found(const NodeField &u,
+                                      const NodeField &v,
+                                      const double     step) const
   {
     const auto moved = [&](const unsigned int node) {
       return u[node] + step * v[node] - made_at[node];
     };
-    bool result = false;
+    double result = std::numeric_limits<double>::max();
     for (unsigned int p = 0; p < searching.size(); ++p)
       if (searching[p])
         {
@@ -153,13 +169,14 @@ namespace Touchstone
             }
           Utilities::MPI::max(extreme, nodes.communicator(), all);
           for (const WatchedNode &slave : slaves[p])
-            if (!contact.rows()[slave.row].get().has_partner)
+            if (const ContactRow &row = contact.rows()[slave.row]; !row.has_partner)
               {
                 const Tensor<1, dim> m = moved(slave.node);
                 Tensor<1, dim>       farthest;
                 for (unsigned int d = 0; d < dim; ++d)
                   farthest[d] = std::max(m[d] + all[dim + d], all[d] - m[d]);
-                result = result || farthest.norm() > slides * slave.size;
+                const double limit = std::max(slides * slave.size, slides_apart * row.away);
+                result             = std::min(result, limit - farthest.norm());
               }
         }
     return result;
@@ -172,12 +189,29 @@ namespace Touchstone
                           const NodeField                   &v,
                           const double                       step,
                           const ImpulseSolver               &solver,
-                          const std::vector<std::size_t>    &rows,
-                          const std::vector<Tensor<1, dim>> &moved) const
+                          const std::vector<Tensor<1, dim>> &moved,
+                          const RowTravel                   &travelled,
+                          const RowTravel                   &ahead,
+                          const double                       largest_weights)
   {
-    // may_find_partner() is collective.
-    const bool found = may_find_partner(u, v, step);
-    const int  yes   = found || faces_turned(u, v, step) || rows_slid(solver, rows, moved);
-    return Utilities::MPI::max(yes, nodes.communicator()) > 0;
+    // Which criteria are looked at is the same on all ranks.
+    const double apart = travelled.apart + ahead.apart;
+    const bool   turn  = travelled.within + ahead.within >= safe_until.turn,
+               slide = apart >= safe_until.slide, find = apart >= safe_until.find;
+    const double until[3] = {turn ? until_faces_turn(u, v, step) : 0.,
+                             slide ? until_rows_slide(solver, moved) : 0.,
+                             find ? until_partners_are_found(u, v, step) : 0.};
+    double least[3];
+    Utilities::MPI::min(until, nodes.communicator(), least);
+    // What was looked at is the end of this cycle with its free velocities. At that of a later one
+    // nodes are elsewhere by what they travel until then, and by both free motions.
+    constexpr double safe = 1. - 1e-9;
+    if (turn)
+      safe_until.turn = safe * least[0] + travelled.within - ahead.within;
+    if (slide)
+      safe_until.slide = safe * least[1] / largest_weights + travelled.apart - ahead.apart;
+    if (find)
+      safe_until.find = safe * least[2] + travelled.apart - ahead.apart;
+    return std::min({least[0], least[1], least[2]}) < 0.;
   }
 } // namespace Touchstone

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 // The nodes of contact rows across ranks. Rows live where their slave node does, and name nodes of
 // any rank, so neither the ghost layer of the mesh nor its messages serve them.
@@ -71,13 +72,17 @@ namespace Touchstone
           requests_to[owners[s]].push_back({slots[s].first, slots[s].second});
           by_rank[owners[s]].sent_slots.push_back(s);
         }
-    const Requests                asked = exchange_records(requests_to, comm);
-    std::map<Index, unsigned int> local = number_owned(owned, slots, asked);
+    const Requests asked = exchange_records(requests_to, comm);
+    number_owned(owned, slots, asked);
+    std::map<Index, unsigned int> ghosts;
     for (auto &[rank, neighbour] : by_rank)
-      number_ghosts(neighbour, slots, local);
-    nodes_of_slots.clear();
-    for (const auto &slot : slots)
-      nodes_of_slots.push_back(local.at(slot.first));
+      number_ghosts(neighbour, slots, ghosts);
+    nodes_of_slots.resize(slots.size());
+    for (std::size_t s = 0; s < slots.size(); ++s)
+      {
+        const Index dof   = slots[s].first;
+        nodes_of_slots[s] = owned.is_element(dof) ? number(owned, dof) : ghosts.at(dof);
+      }
     std::size_t n_received = 0;
     for (const auto &[rank, list] : asked)
       {
@@ -86,9 +91,9 @@ namespace Touchstone
         neighbour.n_received     = list.size();
         n_received += list.size();
         for (const Index dof : sorted(list, [](const SlotRequest &request) { return request.dof; }))
-          neighbour.wanted.push_back(local.at(dof));
+          neighbour.wanted.push_back(number(owned, dof));
       }
-    order_contributions(slots, asked, local);
+    order_contributions(owned, slots, asked);
 
     neighbours.clear();
     std::size_t n_sent = 0, n_wanted = 0;
@@ -109,26 +114,31 @@ namespace Touchstone
 
 
   // Owned nodes that any row mentions, in the order of their dofs.
-  std::map<Index, unsigned int>
+  void
   RowNodes::number_owned(const IndexSet                              &owned,
                          const std::vector<std::pair<Index, RowKey>> &slots,
                          const Requests                              &asked)
   {
-    std::map<Index, unsigned int> local;
+    numbers_of_owned.assign(owned.n_elements(), numbers::invalid_unsigned_int);
+    dofs.clear();
+    const auto mention = [&](const Index dof) {
+      unsigned int &place = numbers_of_owned[owned.index_within_set(dof)];
+      if (place == numbers::invalid_unsigned_int)
+        {
+          place = 0;
+          dofs.push_back(dof);
+        }
+    };
     for (const auto &slot : slots)
       if (owned.is_element(slot.first))
-        local.emplace(slot.first, 0);
+        mention(slot.first);
     for (const auto &of_rank : asked)
       for (const SlotRequest &request : of_rank.second)
-        local.emplace(request.dof, 0);
-    dofs.clear();
-    for (auto &[dof, number] : local)
-      {
-        number = dofs.size();
-        dofs.push_back(dof);
-      }
+        mention(request.dof);
+    std::sort(dofs.begin(), dofs.end());
+    for (unsigned int node = 0; node < dofs.size(); ++node)
+      numbers_of_owned[owned.index_within_set(dofs[node])] = node;
     first_ghost = dofs.size();
-    return local;
   }
 
 
@@ -137,13 +147,13 @@ namespace Touchstone
   void
   RowNodes::number_ghosts(Neighbour                                   &neighbour,
                           const std::vector<std::pair<Index, RowKey>> &slots,
-                          std::map<Index, unsigned int>               &local)
+                          std::map<Index, unsigned int>               &ghosts)
   {
     neighbour.first_ghost = dofs.size();
     for (const Index dof :
          sorted(neighbour.sent_slots, [&](const std::size_t s) { return slots[s].first; }))
       {
-        local.emplace(dof, dofs.size());
+        ghosts.emplace(dof, dofs.size());
         dofs.push_back(dof);
       }
     neighbour.n_ghosts = dofs.size() - neighbour.first_ghost;
@@ -152,34 +162,43 @@ namespace Touchstone
 
 
   void
-  RowNodes::order_contributions(const std::vector<std::pair<Index, RowKey>> &slots,
-                                const Requests                              &asked,
-                                const std::map<Index, unsigned int>         &local)
+  RowNodes::order_contributions(const IndexSet                              &owned,
+                                const std::vector<std::pair<Index, RowKey>> &slots,
+                                const Requests                              &asked)
   {
+    // Received slots come first at each node, then own ones.
+    begin.assign(first_ghost + 1, 0);
+    for (const auto &of_rank : asked)
+      for (const SlotRequest &request : of_rank.second)
+        ++begin[number(owned, request.dof) + 1];
+    for (const unsigned int node : nodes_of_slots)
+      if (node < first_ghost)
+        ++begin[node + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
     struct Contribution
     {
       RowKey      key;
       std::size_t slot;
     };
-    std::vector<std::vector<Contribution>> of_node(first_ghost);
-    std::size_t                            number = slots.size();
+    std::vector<Contribution> all(begin.back());
+    std::vector<std::size_t>  next(begin.begin(), begin.end() - 1);
+    std::size_t               slot_number = slots.size();
     for (const auto &of_rank : asked)
       for (const SlotRequest &request : of_rank.second)
-        of_node[local.at(request.dof)].push_back({request.key, number++});
+        all[next[number(owned, request.dof)]++] = {request.key, slot_number++};
     for (std::size_t s = 0; s < slots.size(); ++s)
       if (nodes_of_slots[s] < first_ghost)
-        of_node[nodes_of_slots[s]].push_back({slots[s].second, s});
-    begin.assign(1, 0);
-    contributions.clear();
-    for (auto &list : of_node)
-      {
-        // Slots of one row are all here or all from one rank, and keep their order.
-        std::stable_sort(list.begin(), list.end(), [](const auto &a, const auto &b) {
-          return a.key < b.key;
-        });
-        for (const Contribution &contribution : list)
-          contributions.push_back(contribution.slot);
-        begin.push_back(contributions.size());
-      }
+        all[next[nodes_of_slots[s]]++] = {slots[s].second, s};
+    contributions.resize(all.size());
+    for (unsigned int node = 0; node < first_ghost; ++node)
+      // Slots of one row are all here or all from one rank, and keep their order: numbers of slots
+      // ascend in each row.
+      std::sort(all.begin() + begin[node],
+                all.begin() + begin[node + 1],
+                [](const Contribution &a, const Contribution &b) {
+                  return a.key < b.key || (!(b.key < a.key) && a.slot < b.slot);
+                });
+    for (std::size_t c = 0; c < all.size(); ++c)
+      contributions[c] = all[c].slot;
   }
 } // namespace Touchstone

@@ -74,29 +74,50 @@ check(table["soft penalty", 0.9][5] == table["forward increment", 0.9][5],
 check(table["penalty, factor 10", 0.9][5] > table["penalty", 0.9][5] >
       table["forward increment", 0.9][5], "penalty does not shorten the step")
 
-# Springs with friction: the same bits on several ranks, and after a restart.
+# Springs keep the gap of the end of an interval: going on from it takes nothing from outside.
+for enforcement in "penalty", "soft penalty":
+    kept = run(f"{enforcement} kept", bars, {ENFORCEMENT: enforcement, COURANT: 0.9, STEPS: 5,
+                                             "Load stepping/End time": 30})
+    check(abs(kept.rows()[2]["impact: force x"]) > 0, f"{kept}: no force")
+    below(f"{kept}, energy from outside",
+          abs(kept.value("motion", "energies", "external")) /
+          kept.value("motion", "energies", "initial"), 1e-12)
+
+
+def resumes(name, scene, settings):
+    """The run of the first of two checkpoints goes on to the same results."""
+    first = run(name, scene, settings)
+    statistics = (first.folder / "statistics").read_text(encoding="utf-8")
+    # The last checkpoint is lost.
+    newest = sorted(first.folder.glob("checkpoint_[0-9]*"))[-1]
+    for piece in newest.iterdir():
+        piece.unlink()
+    newest.rmdir()
+    again = launch("--results-only", "--output", first.folder, "--resume",
+                   *settings_options({**settings, "Output/VTU interval": 0}), scene)
+    check(again.returncode == 0, f"{first}, resumed: {again.stdout}")
+    Run(str(first), first.folder, again.stdout).says("goes on from checkpoint_")
+    check((first.folder / "statistics").read_text(encoding="utf-8") == statistics,
+          f"{first}: other results after a restart")
+    return first, statistics
+
+
+# Springs with friction: the same bits on several ranks, and after a restart; of a block on a slope that
+# is held by springs which have not slipped, whose elastic slip is their state.
 corner = checks / "explicit_corner.prm"
 for enforcement in "penalty", "soft penalty":
     settings = {ENFORCEMENT: enforcement, "Body block/Geometry/Cells": "2, 2, 2", STEPS: 10,
                 "Load stepping/End time": 0.08,
                 "Checkpoints/Steps between": 5}
-    one = run(f"corner {enforcement}", corner, settings)
+    one, statistics = resumes(f"corner {enforcement}", corner, settings)
     check(one.value("motion", "energies", "friction") > 0, f"{one}: no friction")
-    statistics = (one.folder / "statistics").read_text(encoding="utf-8")
     more = run(f"corner {enforcement} 3", corner, settings, 3)
     check((more.folder / "statistics").read_text(encoding="utf-8") == statistics,
           f"{one}: other results on 3 ranks")
-    # The last checkpoint is lost.
-    newest = sorted(one.folder.glob("checkpoint_[0-9]*"))[-1]
-    for piece in newest.iterdir():
-        piece.unlink()
-    newest.rmdir()
-    again = launch("--results-only", "--output", one.folder, "--resume",
-                   *settings_options({**settings, "Output/VTU interval": 0}), corner)
-    check(again.returncode == 0, f"{one}, resumed: {again.stdout}")
-    Run(str(one), one.folder, again.stdout).says("goes on from checkpoint_")
-    check((one.folder / "statistics").read_text(encoding="utf-8") == statistics,
-          f"{one}: other results after a restart")
+    held, _ = resumes(f"slope {enforcement}", checks / "explicit_slope.prm",
+                      {ENFORCEMENT: enforcement, STEPS: 4, "Load stepping/End time": 2,
+                       "Checkpoints/Steps between": 2})
+    check(abs(held.rows()[1]["contact: force x"]) > 0.1, f"{held}: nothing holds the block")
 # Springs that are much too soft.
 soft = run("much too soft", bars, {ENFORCEMENT: "penalty", FACTOR: 1e-4, STEPS: 10,
                                    "Body left/Initial velocity x": 0.2}, fails=True)

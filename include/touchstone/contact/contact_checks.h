@@ -24,10 +24,10 @@ namespace Touchstone
   std::string
   unresolved_overlap(const Contact &contact);
 
-  /** @brief Pairs with a contact force that is far from normal to the slave surface, the other part
-   * of unresolved_contact(). Collective. */
-  std::vector<std::string>
-  pairs_with_oblique_forces(const Contact &contact);
+  /** @brief Whether a pair has a contact force that is far from normal to the slave surface, the
+   * other part of unresolved_contact(). Collective. */
+  bool
+  has_oblique_force(const Contact &contact, const ContactPair &pair);
 } // namespace Touchstone
 
 #endif

@@ -112,6 +112,9 @@ namespace Touchstone
     dealii::Tensor<1, dim> lever;
     /** Current position of the slave node. */
     dealii::Point<dim> position;
+    /** Of a row without a partner: the master surface is not closer, length; zero if that is not
+     * known, as after a step. */
+    double away = 0.;
     /** Displacement of the obstacle since time 0, length; zero for a master body. */
     dealii::Tensor<1, dim> shift;
     /** @} */

@@ -135,6 +135,22 @@ namespace Touchstone
     /** Of the supports in the interval so far, as State::support. */
     NodeField    support_impulse;
     StepFindings found;
+    /** Of a pair whose contact forces have been far from normal to the slave surface since so many
+     * intervals: their impulse, and the highest velocity of both sides relative to each other. */
+    struct ObliqueContact
+    {
+      double impulse = 0., speed = 0.;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &impulse &speed;
+      }
+    };
+    std::vector<ObliqueContact> oblique, oblique_now;
+    /** Why such a contact ends the run, if it does. */
+    std::string persistent;
     /** Half a cycle's work of moving obstacles at the committed state, and what contact springs
      * hold at present; force times length. */
     double obstacles_ahead = 0., obstacles_ahead_now = 0., held_by_springs = 0.;
@@ -181,6 +197,10 @@ namespace Touchstone
     /** Set the warnings on the state at the end of an interval. Collective. */
     void
     judge();
+    /** Watch for directions of contact forces that are not right, in an interval of this length.
+     * Collective. */
+    void
+    judge_directions(double length);
     /** One cycle of this length. */
     void
     cycle(double length);

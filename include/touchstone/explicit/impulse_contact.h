@@ -9,6 +9,7 @@
 #include <touchstone/explicit/impulse_work.h>
 #include <touchstone/explicit/node_map.h>
 #include <touchstone/explicit/row_motion.h>
+#include <touchstone/explicit/surface_speeds.h>
 
 #include <vector>
 
@@ -118,6 +119,14 @@ namespace Touchstone
       return counted;
     }
 
+    /** @brief The highest velocity of nodes of both sides of a pair of bodies relative to each
+     * other since begin_interval(), of all pairs. */
+    double
+    fastest_approach() const
+    {
+      return fastest;
+    }
+
     /** @name Springs from one output interval to the next */
     /** @{ */
     void
@@ -137,12 +146,26 @@ namespace Touchstone
     const NodeMap           &nodes;
     ImpulseSolver            solver;
     RowMotion                motion;
+    SurfaceSpeeds            surfaces;
     Vector                   displacement;
     double                   interval_start = 0.;
     bool                     renew_rows     = true;
+    /** Nothing has moved since the rows were made. */
+    bool fresh = true;
     /** There were impulses in the last cycle. */
-    bool        acted = false;
-    ImpulseWork counted;
+    bool acted = false;
+    /** Of the cycle before and of the free velocities, and the length of the cycle before. */
+    Speeds    speeds_before, speeds;
+    double    last_step = 0., fastest = 0.;
+    RowTravel travelled;
+    /** Half the largest sum of the absolute weights of a row and its slave node, over all ranks: by
+     * so much a row can move faster than its nodes do apart. */
+    double largest_weights = 1.;
+    /** By row of the solver: the travel up to which the gap cannot have come into reach, and the
+     * least of all ranks; length. */
+    std::vector<double> asleep_until;
+    double              all_asleep_until = 0.;
+    ImpulseWork         counted;
 
     /** What is known of each row of Contact, by its index. */
     struct RowHistory
@@ -182,8 +205,6 @@ namespace Touchstone
       dealii::Tensor<1, dim> gap_vector;
       /** ContactPair::part_of_overlap() that counted when the row was made. */
       double part;
-      /** Nothing has moved since the row was made. */
-      bool fresh;
       /** The gap at the start of the cycle. */
       double at_start;
     };
@@ -199,15 +220,23 @@ namespace Touchstone
     find_patches();
     void
     find_smallest_faces();
+    /** How far the obstacle of a pair moves in a cycle. */
+    static dealii::Tensor<1, dim>
+    motion_of_obstacle(const ContactPair &pair, double time, double step);
     void
     check_obstacles(double time, double step) const;
-    /** Renew the rows if an interval begins. @return whether it does. */
+    /** Make the rows of the committed state if an interval begins. @return whether it does. */
     bool
     start_interval(const NodeField &u, double time);
     void
     renew(const NodeField &u, double time);
+    /** Rows of Contact that pressed in the last cycle leave an edge later than open ones arrive
+     * there. */
     void
-    make_rows();
+    tell_what_presses();
+    /** Take the rows from Contact. */
+    void
+    make_rows(const NodeField &u);
     /** Parts of make_rows(): a row that has lost its partner; one that has one, with its nodes;
      * what the nodes are like; the weights of row @p k, and its gap without motion. */
     void
@@ -220,14 +249,30 @@ namespace Touchstone
     set_weights(std::size_t k);
     void
     import(const NodeField &u, const NodeField &before, const NodeField &v);
+    /** Renew the rows if motion demands it. Collective. */
+    void
+    renew_if_moved(const NodeField &u,
+                   const NodeField &before,
+                   const NodeField &v,
+                   double           time,
+                   double           step);
+    /** No row can be in reach in this cycle, on any rank. */
+    bool
+    all_asleep(double time, double step) const;
+    void
+    end_of_action();
     void
     set_geometry(double time, double step);
+    void
+    find_near_rows(double reach);
+    void
+    set_time_to_sleep(std::size_t k);
     /** Relative velocity of the cycle before. */
     dealii::Tensor<1, dim>
     velocity_before(const ImpulseRow &row, const RowHistory &h) const;
     double
     gap_allowed(const ImpulseRow &row, const ContactRow &of, double gap, double step) const;
-    /** The gap from which on sides cannot meet within a cycle, length. Collective. */
+    /** The gap from which on sides cannot meet within a cycle, length. */
     double
     reach(double time, double step) const;
     void

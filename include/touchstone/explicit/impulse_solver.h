@@ -105,6 +105,9 @@ namespace Touchstone
     /** The nodes of the slots. */
     RowNodes                nodes;
     std::vector<ImpulseRow> rows;
+    /** Indices of the rows that are looked at in this cycle, in ascending order; the others are
+     * distant and have no impulse. All after resize(). */
+    std::vector<std::size_t> near;
     /** By slot: the weight, or of lever entries the matrix by which the impulse acts on the
      * node. */
     std::vector<double>                 weights;
@@ -165,7 +168,7 @@ namespace Touchstone
     std::vector<Metric>                 metric;
     std::vector<dealii::Tensor<1, dim>> extrapolated, present;
     std::vector<dealii::Tensor<1, dim>> at_slots, sums, free;
-    std::vector<bool>                   active;
+    std::vector<unsigned char>          active; // 0 or 1
     std::vector<std::size_t>            order;
 
     dealii::Tensor<1, dim>

@@ -16,13 +16,19 @@ namespace Touchstone
   }
 
   /** @brief What is computed of eight one-point cells at once. Tensors are [3i+j], fields those of
-   * local nodes, [3n+i]. */
+   * the nodes of the cells, [3a+i]. */
   namespace OnePointKernels
   {
+    /** @brief The values of a field of local nodes, [3n+i], at the nodes of the cells. */
+    void
+    gather(const OnePointBlock &block,
+           const double        *field,
+           double (*values)[OnePointBlock::n_cells]);
+
     /** @brief Gradients of a field. */
     void
     set_gradients(const OnePointBlock &block,
-                  const double        *field,
+                  const double (*field)[OnePointBlock::n_cells],
                   double (*gradient)[OnePointBlock::n_cells]);
 
     /** @brief How hourglass modes are controlled: by springs along the edges of the cell, which
@@ -39,20 +45,22 @@ namespace Touchstone
      * the hourglass modes of a field with these gradients. */
     void
     set_forces(const OnePointBlock &block,
-               const double        *field,
+               const double (*field)[OnePointBlock::n_cells],
                const double (*gradient)[OnePointBlock::n_cells],
                const double (*stress)[OnePointBlock::n_cells],
                Hourglass control,
                double (*force)[OnePointBlock::n_cells]);
 
-    /** @brief First Piola-Kirchhoff stress of bulk viscosity times r cof(F) at the rate r of the
-     * volume. @p gradient null: small strain. @p periods see Viscosity. */
+    /** @brief Forces on the nodes, [3a+i], of bulk viscosity: its pressure times the derivative of
+     * the volume, at this @p velocity. @p gradient of the displacement, null: small strain.
+     * @p periods see Viscosity. */
     void
-    viscous(const double (*gradient)[OnePointBlock::n_cells],
-            const double (*rates)[OnePointBlock::n_cells],
-            const Viscosity &viscosity,
-            const double    *periods,
-            double (*stress)[OnePointBlock::n_cells]);
+    set_viscous_forces(const OnePointBlock &block,
+                       const double (*velocity)[OnePointBlock::n_cells],
+                       const double (*gradient)[OnePointBlock::n_cells],
+                       const Viscosity &viscosity,
+                       const double    *periods,
+                       double (*force)[OnePointBlock::n_cells]);
 
     /** @brief Stress of Hooke's law by the gradients of the displacement. */
     void

@@ -6,12 +6,37 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/explicit/impulse_solver.h>
 #include <touchstone/explicit/node_map.h>
+#include <touchstone/explicit/surface_speeds.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 namespace Touchstone
 {
+  /** @brief Bounds of how far nodes of contact surfaces have moved relative to each other, length:
+   * of both sides of a pair, and of one side (doc/explicit.md, section 9.5). */
+  struct RowTravel
+  {
+    double apart = 0., within = 0.;
+
+    RowTravel() = default;
+
+    /** @brief Within a cycle. */
+    RowTravel(const double step, const Speeds &speeds)
+    {
+      add(step, speeds);
+    }
+
+    void
+    add(const double step, const Speeds &speeds)
+    {
+      // A little more, for round-off.
+      apart += (1. + 1e-9) * step * speeds.apart;
+      within += (1. + 1e-9) * step * speeds.within;
+    }
+  };
+
   /**
    * @brief Tells when the rows that explicit dynamics keeps are to be made anew: before anything
    * has moved so far, relative to what it faces and to the size of the faces, that its partner,
@@ -22,23 +47,37 @@ namespace Touchstone
   public:
     RowMotion(const Contact &contact, const NodeMap &nodes);
 
-    /** @brief Rows have been made at the displacement @p u. Collective. */
+    /** @brief Rows have been made at the displacement @p u. Collective.
+     * @param rows The row of Contact by row of the solver. */
     void
-    restart(const NodeField &u);
+    restart(const NodeField &u, const std::vector<std::size_t> &rows);
+
+    /** @brief Whether demands_rows() might say yes, the same on all ranks.
+     * @param travelled Since restart(). @param ahead In this cycle with its free velocities. */
+    bool
+    must_look(const RowTravel &travelled, const RowTravel &ahead) const
+    {
+      return travelled.apart + ahead.apart >= std::min(safe_until.slide, safe_until.find) ||
+             travelled.within + ahead.within >= safe_until.turn;
+    }
 
     /**
      * @brief Whether, on any rank, the rows do not serve a cycle that ends with the displacement
      * @p u + @p step times @p v. Collective.
-     * @param solver With the kept rows; @p rows the row of Contact and @p u_nodes the displacement
-     *               when the rows were made, by row and node of the solver.
+     * @param solver With the kept rows. @param moved By node of the solver: what it will have moved
+     *               at that end since restart().
+     * @param travelled,ahead As of must_look(). @param largest_weights By so much rows move faster
+     *               than nodes do apart.
      */
     bool
     demands_rows(const NodeField                           &u,
                  const NodeField                           &v,
                  double                                     step,
                  const ImpulseSolver                       &solver,
-                 const std::vector<std::size_t>            &rows,
-                 const std::vector<dealii::Tensor<1, dim>> &moved) const;
+                 const std::vector<dealii::Tensor<1, dim>> &moved,
+                 const RowTravel                           &travelled,
+                 const RowTravel                           &ahead,
+                 double                                     largest_weights);
 
   private:
     const Contact &contact;
@@ -66,14 +105,30 @@ namespace Touchstone
     /** By pair: a slave node without partner, on any rank. */
     std::vector<bool> searching;
 
-    bool
-    faces_turned(const NodeField &u, const NodeField &v, double step) const;
-    bool
-    rows_slid(const ImpulseSolver                       &solver,
-              const std::vector<std::size_t>            &rows,
-              const std::vector<dealii::Tensor<1, dim>> &moved) const;
-    bool
-    may_find_partner(const NodeField &u, const NodeField &v, double step) const;
+    /** A row of two bodies that may slide: its index in the solver, and what it was like when it
+     * was made. */
+    struct WatchedRow
+    {
+      std::size_t            row;
+      double                 size, gap;
+      dealii::Tensor<1, dim> normal;
+    };
+    std::vector<WatchedRow> sliding;
+    /** Travel until which each criterion cannot be met, from the last look at it; length. */
+    struct Safe
+    {
+      double turn = 0., slide = 0., find = 0.;
+    };
+    Safe safe_until;
+
+    /** How far each criterion is from being met, negative if it is; length. */
+    double
+    until_faces_turn(const NodeField &u, const NodeField &v, double step) const;
+    double
+    until_rows_slide(const ImpulseSolver                       &solver,
+                     const std::vector<dealii::Tensor<1, dim>> &moved) const;
+    double
+    until_partners_are_found(const NodeField &u, const NodeField &v, double step) const;
   };
 } // namespace Touchstone
 

@@ -144,19 +144,29 @@ namespace Touchstone
     mutable std::vector<dealii::Tensor<1, dim>> sent, received;
     mutable std::vector<MPI_Request>            requests;
 
-    /** The steps of reinit(); @p local are the local numbers by dof. */
-    std::map<Index, unsigned int>
+    /** The number of the node of each owned dof, in the order of the dofs; invalid for those that
+     * no row mentions. */
+    std::vector<unsigned int> numbers_of_owned;
+
+    /** The number of an owned node that a row mentions. */
+    unsigned int
+    number(const dealii::IndexSet &owned, const Index dof) const
+    {
+      return numbers_of_owned[owned.index_within_set(dof)];
+    }
+    /** The steps of reinit(); @p ghosts are the numbers of nodes of other ranks by dof. */
+    void
     number_owned(const dealii::IndexSet                      &owned,
                  const std::vector<std::pair<Index, RowKey>> &slots,
                  const Requests                              &asked);
     void
     number_ghosts(Neighbour                                   &neighbour,
                   const std::vector<std::pair<Index, RowKey>> &slots,
-                  std::map<Index, unsigned int>               &local);
+                  std::map<Index, unsigned int>               &ghosts);
     void
-    order_contributions(const std::vector<std::pair<Index, RowKey>> &slots,
-                        const Requests                              &asked,
-                        const std::map<Index, unsigned int>         &local);
+    order_contributions(const dealii::IndexSet                      &owned,
+                        const std::vector<std::pair<Index, RowKey>> &slots,
+                        const Requests                              &asked);
     void
     exchange(char *values, std::size_t size) const;
   };

@@ -36,6 +36,7 @@ namespace Touchstone
         for (const SurfaceNode &node : input.slave->owned_nodes())
           start.push_back(node.reference);
         present_faces.resize(start.size());
+        indices.resize(start.size());
       }
 
       void
@@ -77,6 +78,8 @@ namespace Touchstone
       std::vector<std::optional<ContactPartner>> partners;
       /** Keys of the faces that were the partners of the nodes in the last update. */
       std::vector<std::optional<std::uint64_t>> present_faces;
+      /** And their indices in the search, where they are most likely found again. */
+      std::vector<std::size_t> indices;
       /** Positions of the slave nodes at the start of the step. */
       std::vector<Point<dim>> start;
     };
@@ -101,21 +104,26 @@ namespace Touchstone
       partners.resize(nodes.size());
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
-          ContactRow &row     = rows[k];
-          const auto &partner = partners[k] = search.find({positions[k],
-                                                           start[k],
-                                                           input.slave->normal(nodes[k].node),
-                                                           row.was_active,
-                                                           present_faces[k]});
+          ContactRow      &row = rows[k];
+          const SlavePoint point{positions[k],
+                                 start[k],
+                                 input.slave->normal(nodes[k].node),
+                                 row.was_active,
+                                 present_faces[k],
+                                 indices[k]};
+          const auto      &partner = partners[k] = search.find(point);
           // The face of this update is preferred in the next one, also in the next step and after a
           // restart (memory()).
           present_faces[k] =
             partner ? std::optional<std::uint64_t>(partner->face->key) : std::nullopt;
+          if (partner)
+            indices[k] = search.exchange().index(*partner->face);
           row.stencil.clear();
           if (!partner)
             {
               row.has_partner = false;
               row.gap         = 0.;
+              row.away        = search.distance(point);
               continue;
             }
           row.has_partner = true;

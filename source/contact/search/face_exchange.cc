@@ -138,19 +138,66 @@ namespace Touchstone
   void
   FaceExchange::update(const std::vector<Point<dim>> &positions)
   {
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      keep_own_faces();
+    else
+      exchange_faces(positions);
+    measure_motion();
+  }
+
+
+
+  // On one rank all faces are kept in their order, without boxes. Faces are large: only what
+  // changes is copied.
+  void
+  FaceExchange::keep_own_faces()
+  {
+    const std::vector<Face> &own = surface.owned_faces();
+    if (known.size() != own.size())
+      {
+        known = own;
+        by_key.clear();
+      }
+    for (std::size_t f = 0; f < own.size(); ++f)
+      for (unsigned int m = 0; m < own[f].n_nodes(); ++m)
+        {
+          known[f].displacement[m] = own[f].displacement[m];
+          known[f].normals[m]      = own[f].normals[m];
+          known[f].edge_normals[m] = own[f].edge_normals[m];
+          known[f].own_normals[m]  = own[f].own_normals[m];
+          if (!committed.empty())
+            known[f].committed[m] = committed[f][m];
+        }
+  }
+
+
+
+  void
+  FaceExchange::measure_motion()
+  {
+    least_moved = most_moved = Tensor<1, dim>();
+    if (!has_committed)
+      return;
+    for (const Face &face : known)
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double moved = face.displacement[m][d] - face.committed[m][d];
+            least_moved[d]     = std::min(least_moved[d], moved);
+            most_moved[d]      = std::max(most_moved[d], moved);
+          }
+  }
+
+
+
+  void
+  FaceExchange::exchange_faces(const std::vector<Point<dim>> &positions)
+  {
     known.clear();
     by_key.clear();
     sent.clear();
     received.clear();
-    // On one rank all faces are kept in their order, without boxes.
-    const std::size_t n_own = surface.owned_faces().size();
-    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
-      {
-        for (std::size_t f = 0; f < n_own; ++f)
-          known.push_back(own_face(f));
-        return;
-      }
-
+    const std::size_t  n_own     = surface.owned_faces().size();
     const unsigned int this_rank = Utilities::MPI::this_mpi_process(communicator);
     // All ranks get the boxes of all (six numbers each) and each decides which of its own faces to
     // send: one collective and one sparse exchange.

@@ -3,6 +3,9 @@
 #include <touchstone/contact/search/face_tree.h>
 
 #include <algorithm>
+#include <array>
+#include <boost/iterator/function_output_iterator.hpp>
+#include <tuple>
 
 // R-trees of the boxes around the master faces that this rank knows. They reduce the candidates of
 // each search from all faces to a few; outlines (normal, sphere) exclude most of those before a
@@ -28,21 +31,41 @@ namespace Touchstone
   FaceTree::FaceTree(const FaceExchange &exchange)
     : exchange(exchange)
   {
-    std::vector<std::pair<Box, std::size_t>> boxes, swept_boxes;
+    std::vector<std::pair<Box, std::size_t>> boxes;
+    boxes.reserve(exchange.faces().size());
+    outlines.reserve(exchange.faces().size());
     for (const Face &face : exchange.faces())
       {
         boxes.emplace_back(exchange.box(face), boxes.size());
-        // Boxes over the whole step are larger, so they have a tree of their own and do not slow
-        // down the search for the closest face.
-        if (exchange.swept())
-          swept_boxes.emplace_back(exchange.swept_box(face), swept_boxes.size());
-        // The normal of the surface without patches: it only tells on which side the face is.
-        const FacePoint middle = evaluate(face, exchange.exact_surface(face), {{0., 0.}});
-        const Box      &box    = boxes.back().first;
-        outlines.push_back({middle.normal(), box.center(), half_diagonal(box)});
+        outlines.push_back(outline(face, boxes.back().first));
+        largest = std::max(largest, 2. * outlines.back().radius);
       }
-    tree       = pack_rtree(boxes);
-    swept_tree = pack_rtree(swept_boxes);
+    tree = pack_rtree(boxes);
+  }
+
+
+
+  FaceTree::Outline
+  FaceTree::outline(const Face &face, const Box &box) const
+  {
+    Outline result;
+    result.centre = box.center();
+    result.radius = half_diagonal(box);
+    if (!exchange.is_plane(face))
+      {
+        // The normal of the surface without patches: it only tells on which side the face is.
+        result.normal = evaluate(face, exchange.exact_surface(face), {{0., 0.}}).normal();
+        std::tie(result.lower, result.upper) = box.get_boundary_points();
+        return result;
+      }
+    const std::array<Point<dim>, 4> x = {
+      {face.position(0), face.position(1), face.position(2), face.position(3)}};
+    result.normal = cross_product_3d((x[1] - x[0]) + (x[3] - x[2]), (x[2] - x[0]) + (x[3] - x[1]));
+    result.normal /= result.normal.norm();
+    for (unsigned int d = 0; d < dim; ++d)
+      std::tie(result.lower[d], result.upper[d]) =
+        std::minmax({x[0][d], x[1][d], x[2][d], x[3][d]});
+    return result;
   }
 
 
@@ -56,6 +79,23 @@ namespace Touchstone
       result.emplace_back(bg::comparable_distance(x, it->first), it->second);
     std::sort(result.begin(), result.end());
     return result;
+  }
+
+
+
+  void
+  FaceTree::within(const Point<dim>                            &x,
+                   const double                                 radius,
+                   std::vector<std::pair<double, std::size_t>> &result) const
+  {
+    result.clear();
+    Box around({x, x});
+    around.extend(radius);
+    tree.query(bgi::intersects(around),
+               boost::make_function_output_iterator([&](const std::pair<Box, std::size_t> &entry) {
+                 result.emplace_back(bg::comparable_distance(x, entry.first), entry.second);
+               }));
+    std::sort(result.begin(), result.end());
   }
 
 
@@ -74,8 +114,24 @@ namespace Touchstone
   std::vector<std::size_t>
   FaceTree::meeting_in_step(const Box &box) const
   {
+    if (!exchange.swept())
+      return {};
+    // Faces that have moved by little are found with a larger box where they are now.
+    if (const double moved = exchange.largest_motion(); moved < 0.1 * largest)
+      {
+        Box wider = box;
+        wider.extend(moved);
+        return meeting(wider);
+      }
+    if (!swept_tree)
+      {
+        std::vector<std::pair<Box, std::size_t>> boxes;
+        for (const Face &face : exchange.faces())
+          boxes.emplace_back(exchange.swept_box(face), boxes.size());
+        swept_tree = pack_rtree(boxes);
+      }
     std::vector<std::size_t> result;
-    for (auto it = swept_tree.qbegin(bgi::intersects(box)); it != swept_tree.qend(); ++it)
+    for (auto it = swept_tree->qbegin(bgi::intersects(box)); it != swept_tree->qend(); ++it)
       result.push_back(it->second);
     return result;
   }

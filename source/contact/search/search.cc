@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The master point that belongs to a slave node: the closest point over the faces nearby, with
 // rules that make the choice unique and independent of the partition, keep it from alternating
@@ -60,6 +61,26 @@ namespace Touchstone
           }
       }
 
+      /** No face that is farther away than @p distance is the closest one. */
+      void
+      bound(const double distance)
+      {
+        farthest = distance;
+      }
+
+      /** Whether a face that is not closer than @p distance need not be offered. */
+      bool
+      is_beyond(const Face &face, const double distance)
+      {
+        const double keeps = Tolerances::keeps_face * diagonal(face);
+        if (distance <= std::min(farthest, std::sqrt(best_square)) + keeps ||
+            (point.in_contact && point.present_face == face.key))
+          return false;
+        if (point.in_contact && point.present_face)
+          margin = std::max(margin, keeps);
+        return true;
+      }
+
       /** Whether no face in a box at this distance (squared) can change the result. */
       bool
       excludes(const double box_square) const
@@ -90,6 +111,7 @@ namespace Touchstone
     private:
       const SlavePoint &point;
       double            best_square, margin = 0.;
+      double            farthest = std::numeric_limits<double>::max();
       FaceProjection    best, of_present_face;
     };
   } // namespace
@@ -145,6 +167,8 @@ namespace Touchstone
   FaceProjection
   Search::closest(const SlavePoint &point) const
   {
+    if (const auto found = closest_near_guess(point))
+      return *found;
     // The nearest boxes are requested a few at a time: an incremental query over all of them in
     // the order of their distance costs more the more boxes there are.
     constexpr unsigned int first_try = 16;
@@ -167,6 +191,42 @@ namespace Touchstone
         if (complete)
           return closest.result(received);
       }
+  }
+
+
+
+  // The distance of any face bounds how far the closest one can be, so all that may be it are
+  // within a small box. They are taken in the same order as without a guess, up to one that
+  // excludes the rest: the result is the same whatever the guess was.
+  std::optional<FaceProjection>
+  Search::closest_near_guess(const SlavePoint &point) const
+  {
+    if (!point.present_face)
+      return {};
+    const Face *const guess = received.face(*point.present_face, point.index_before);
+    if (guess == nullptr || tree().is_back_face(received.index(*guess), point.normal))
+      return {};
+    const FaceProjection projected = tree().project(point.x, *guess);
+    const double         distance  = std::sqrt(projected.projection.distance_squared);
+    // Beyond what the rules of ties and of the present face can ask for.
+    const double radius = distance + 3. * Tolerances::keeps_face * tree().largest_diagonal();
+    if (radius >= reach)
+      return {};
+    ClosestFace closest(point, reach);
+    closest.bound(distance);
+    tree().within(point.x, radius, boxes);
+    for (const auto &[square, i] : boxes)
+      {
+        if (closest.excludes(square))
+          break;
+        const Face &face = received.faces()[i];
+        if (&face == guess)
+          closest.offer(projected);
+        else if (!closest.is_beyond(face, tree().least_distance(point.x, i)) &&
+                 !tree().is_back_face(i, point.normal))
+          closest.offer(tree().project(point.x, face));
+      }
+    return closest.result(received);
   }
 
 
@@ -217,6 +277,14 @@ namespace Touchstone
     if (on_surface(found))
       result = partner(point, found);
     if (!received.swept())
+      return result;
+    // Nothing that is farther away than anything has moved has been passed, and back faces do not
+    // count in either search.
+    const double nearest =
+      found.face != nullptr ? std::sqrt(found.projection.distance_squared) : reach;
+    if (!received.smoothed() &&
+        nearest > (1. + Tolerances::touches_at_start) * received.approach(point.x - point.start) +
+                    10. * Tolerances::touches_at_start * tree().largest_diagonal())
       return result;
     const bool penetrates = result && (point.x - result->x) * result->normal < 0.;
     // A small motion within this step cannot have carried the node through another face: the

@@ -4,6 +4,8 @@
 #include <touchstone/contact/search/swept_search.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -19,15 +21,46 @@ namespace Touchstone
   {
     // In a frame that moves with the node, which is then the origin: the range of the box of the
     // face over the step must contain the origin in each direction.
-    const FaceExchange::Box before = tree.exchange.committed_box(face),
-                            after  = tree.exchange.box(face);
-    bool around                    = true;
+    if (!tree.exchange.is_plane(face))
+      {
+        const FaceExchange::Box before = tree.exchange.committed_box(face),
+                                after  = tree.exchange.box(face);
+        bool around                    = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          around = around &&
+                   std::min(before.lower_bound(d) - point.start[d],
+                            after.lower_bound(d) - point.x[d]) <= 0. &&
+                   std::max(before.upper_bound(d) - point.start[d],
+                            after.upper_bound(d) - point.x[d]) >= 0.;
+        return around;
+      }
+    // All positions of a bilinear face in the step are within the hull of its corners before and
+    // after: the origin must not be beyond it along an axis or along the normal.
+    std::array<Tensor<1, dim>, 4> normals;
+    const Tensor<1, dim>          diagonals[] = {face.position(3) - face.position(0),
+                                                 face.position(2) - face.position(1)};
     for (unsigned int d = 0; d < dim; ++d)
-      around =
-        around &&
-        std::min(before.lower_bound(d) - point.start[d], after.lower_bound(d) - point.x[d]) <= 0. &&
-        std::max(before.upper_bound(d) - point.start[d], after.upper_bound(d) - point.x[d]) >= 0.;
-    return around;
+      normals[d][d] = 1.;
+    normals[dim] = cross_product_3d(diagonals[0], diagonals[1]);
+    if (const double area = normals[dim].norm(); area > 0.)
+      normals[dim] /= area;
+    // More than crossing() allows at the start of the step and beside the face.
+    const double slack = 10. * Tolerances::touches_at_start * diagonals[0].norm();
+    for (const Tensor<1, dim> &normal : normals)
+      {
+        double least = std::numeric_limits<double>::max(), most = -least;
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          for (const double at :
+               {normal * Tensor<1, dim>(face.reference[m] + face.committed[m] - point.start),
+                normal * Tensor<1, dim>(face.position(m) - point.x)})
+            {
+              least = std::min(least, at);
+              most  = std::max(most, at);
+            }
+        if (least > slack || most < -slack)
+          return false;
+      }
+    return true;
   }
 
 

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/bounding_box.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <unordered_map>
@@ -84,6 +86,42 @@ namespace Touchstone
       return FaceGeometry(face, surface.exact_surface(face), kind);
     }
 
+    /** @brief Gaps to a face are measured to the bilinear surface of its nodes. */
+    bool
+    is_plane(const Face &face) const
+    {
+      return face.degree == 1 && kind != MasterNormal::smoothed && exact_surface(face) == nullptr;
+    }
+
+    /** @brief How far faces can have come towards a point since the start of the step, which itself
+     * has moved by @p motion: no point of a face has moved by more relative to it; length. */
+    double
+    approach(const dealii::Tensor<1, dim> &motion) const
+    {
+      double square = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double most =
+            std::max(std::abs(motion[d] - least_moved[d]), std::abs(most_moved[d] - motion[d]));
+          square += most * most;
+        }
+      return std::sqrt(square);
+    }
+
+    /** @brief The same for a point at rest. */
+    double
+    largest_motion() const
+    {
+      return approach(dealii::Tensor<1, dim>());
+    }
+
+    /** @brief Gaps are measured to patches. */
+    bool
+    smoothed() const
+    {
+      return kind == MasterNormal::smoothed;
+    }
+
     /** @brief The exact surface of a face, or null: facets. */
     const AnalyticSurface *
     exact_surface(const Face &face) const
@@ -123,6 +161,8 @@ namespace Touchstone
     const MPI_Comm     communicator;
     std::vector<Face>  known;
     SearchWork         counted;
+    /** Of the nodes of the known faces, the least and the most since the start of the step. */
+    dealii::Tensor<1, dim> least_moved, most_moved;
 
     /** Displacements of this rank's faces at the start of the step. */
     std::vector<Displacements> committed;
@@ -149,6 +189,15 @@ namespace Touchstone
     /** A face of this rank with its displacement at the start of the step. */
     Face
     own_face(std::size_t f) const;
+    /** The faces that ranks need of each other. Collective. */
+    void
+    exchange_faces(const std::vector<dealii::Point<dim>> &positions);
+    /** All faces of this rank, in their order, where it is the only one. */
+    void
+    keep_own_faces();
+    /** Set #least_moved and #most_moved. */
+    void
+    measure_motion();
   };
 } // namespace Touchstone
 

@@ -8,6 +8,9 @@
 
 #include <deal.II/numerics/rtree.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,12 +40,40 @@ namespace Touchstone
     std::vector<std::pair<double, std::size_t>>
     nearest(const dealii::Point<dim> &x, unsigned int n) const;
 
+    /** @brief The same for all faces whose boxes are within @p radius of a point, and perhaps some
+     * more: where it is known how far to look this is much faster. @param result Is overwritten. */
+    void
+    within(const dealii::Point<dim>                    &x,
+           double                                       radius,
+           std::vector<std::pair<double, std::size_t>> &result) const;
+
+    /** @brief A bound from below of the distance of a face from a point, length. */
+    double
+    least_distance(const dealii::Point<dim> &x, const std::size_t index) const
+    {
+      const Outline &face   = outlines[index];
+      double         square = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double outside = std::max({face.lower[d] - x[d], x[d] - face.upper[d], 0.});
+          square += outside * outside;
+        }
+      return std::sqrt(square);
+    }
+
+    /** @brief The longest diagonal of any face, at least; length. */
+    double
+    largest_diagonal() const
+    {
+      return largest;
+    }
+
     /** @brief Indices of the faces whose boxes meet a box. */
     std::vector<std::size_t>
     meeting(const Box &box) const;
 
-    /** @brief Indices of the faces whose boxes meet a box at any time of this step. Empty if steps
-     * are not committed. */
+    /** @brief Indices of the faces whose boxes meet a box at any time of this step, and perhaps
+     * some more. Empty if steps are not committed. */
     std::vector<std::size_t>
     meeting_in_step(const Box &box) const;
 
@@ -93,12 +124,19 @@ namespace Touchstone
       dealii::Tensor<1, dim> normal; // in the middle
       dealii::Point<dim>     centre; // of a sphere around the face
       double                 radius;
+      dealii::Point<dim>     lower, upper; // of a box around the face, without a margin if plane
     };
     std::vector<Outline> outlines;
-    /** Of the faces where they are, and of all positions that they had in this step. */
-    Tree tree, swept_tree;
+    double               largest = 0.;
+    Tree                 tree;
+    /** Of all positions that the faces had in this step; made when first needed, as small motions
+     * do without it. */
+    mutable std::optional<Tree> swept_tree;
 
     mutable std::uint64_t n_candidates = 0;
+
+    Outline
+    outline(const Face &face, const Box &box) const;
   };
 } // namespace Touchstone
 

@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/search/swept_search.h>
 
+#include <cmath>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -75,6 +76,14 @@ namespace Touchstone
     std::optional<ContactPartner>
     find(const SlavePoint &point) const;
 
+    /** @brief The distance of a node from the closest face, at most the reach; length. */
+    double
+    distance(const SlavePoint &point) const
+    {
+      const FaceProjection found = closest(point);
+      return found.face ? std::sqrt(found.projection.distance_squared) : reach;
+    }
+
     /** @brief The faces of the last update. */
     const FaceExchange &
     exchange() const
@@ -133,10 +142,16 @@ namespace Touchstone
     std::uint64_t candidates_before = 0;
     /** Of the last update, see tree(). */
     mutable std::optional<FaceTree> present_tree;
+    /** The boxes near a point; kept for its memory alone. */
+    mutable std::vector<std::pair<double, std::size_t>> boxes;
 
     /** The closest face within reach, or the present one if that is as close. */
     FaceProjection
     closest(const SlavePoint &point) const;
+    /** The same by means of the present face, whether in contact or not: nothing if it is not known
+     * here or too far away. */
+    std::optional<FaceProjection>
+    closest_near_guess(const SlavePoint &point) const;
     ContactPartner
     partner(const SlavePoint &point, const FaceProjection &candidate) const;
   };

@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/search/face_tree.h>
 
+#include <limits>
 #include <optional>
 
 namespace Touchstone
@@ -20,8 +21,11 @@ namespace Touchstone
     /** The node carried a contact force before: it leaves the end of the surface only at a multiple
      * of the distance beyond it up to which other nodes find a partner (hysteresis). */
     bool in_contact = false;
-    /** Key of the face that a node in contact had last. */
+    /** Key of the face that the node had last: one in contact may keep it, and the search begins
+     * there. */
     std::optional<std::uint64_t> present_face;
+    /** The index that this face had in FaceExchange::faces() then; any other only costs time. */
+    std::size_t index_before = std::numeric_limits<std::size_t>::max();
   };
 
   /**

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/impulse_contact.h>
+
+#include <algorithm>
+#include <limits>
+
+// What need not be looked at in a cycle: rows that cannot be in reach, and motions that are too
+// small for other rows (doc/explicit.md, section 9.5).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Sides that are farther apart than they come with so many times the highest velocity of their
+     * nodes do not meet in the cycle: twice that velocity they come from both sides, and an impact
+     * on other rows in the same cycle can double it. */
+    constexpr double beyond_reach = 4.;
+  } // namespace
+
+
+
+  // Most cycles need not look at the motion of single faces and rows: nodes of a surface cannot
+  // have moved by more, relative to each other, than the box of their velocities allows.
+  void
+  ImpulseContact::renew_if_moved(const NodeField &u,
+                                 const NodeField &before,
+                                 const NodeField &v,
+                                 const double     time,
+                                 const double     step)
+  {
+    if (!surfaces.needed())
+      return;
+    travelled.add(last_step, speeds_before);
+    const RowTravel ahead(step, speeds);
+    if (!motion.must_look(travelled, ahead))
+      return;
+    import(u, before, v);
+    for (unsigned int node = 0; node < solver.nodes.n(); ++node)
+      moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
+    if (motion.demands_rows(u, v, step, solver, moved, travelled, ahead, largest_weights))
+      renew(u, time);
+  }
+
+
+
+  double
+  ImpulseContact::reach(const double time, const double step) const
+  {
+    // Springs need the mobility of all rows, and rows with obstacles always take part.
+    if (rule.springs() || !surfaces.needed())
+      return std::numeric_limits<double>::max();
+    double way = step * std::max(speeds.highest, speeds_before.highest);
+    // An obstacle may drive a node that has rows with other bodies, too.
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const ContactPair &pair = contact.pair(p); !pair.master())
+        way = std::max(way, motion_of_obstacle(pair, time, step).norm());
+    return beyond_reach * way;
+  }
+
+
+
+  // A row that was distant stays so at least until its sides can have come together by what was
+  // beyond reach. It is as the last look left it, without an impulse.
+  void
+  ImpulseContact::find_near_rows(const double reach)
+  {
+    solver.near.clear();
+    const double needed = largest_weights * travelled.apart + reach;
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      if (!(asleep_until[k] > needed))
+        solver.near.push_back(k);
+  }
+
+
+
+  void
+  ImpulseContact::set_time_to_sleep(const std::size_t k)
+  {
+    // Round-off of gaps and travels.
+    constexpr double  safe = 1. - 1e-9;
+    const ContactRow &of   = contact.rows()[kept[k].index];
+    const bool        overlaps =
+      contact.pair(of).overlap(of.index - contact.pair(of).rows().front().index) != 0.;
+    asleep_until[k] = solver.rows[k].distant && !overlaps
+                        ? safe * kept[k].at_start + largest_weights * travelled.apart
+                        : 0.;
+  }
+
+
+
+  bool
+  ImpulseContact::all_asleep(const double time, const double step) const
+  {
+    return all_asleep_until > largest_weights * travelled.apart + reach(time, step);
+  }
+} // namespace Touchstone

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/impulse_contact.h>
+
+#include <algorithm>
+
+// Contact at the start of the run and of an output interval (doc/explicit.md, sections 9.1 and
+// 9.5).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  ImpulseContact::begin_interval()
+  {
+    renew_rows = true;
+    counted    = ImpulseWork();
+    fastest    = 0.;
+    // Everything from the committed state, which is what a checkpoint has: sweeps begin from no
+    // impulses.
+    for (const ContactRow &row : contact.rows())
+      {
+        history[row.index]         = RowHistory();
+        history[row.index].sliding = contact.state(row).status == ContactStatus::slip;
+      }
+  }
+
+
+
+  bool
+  ImpulseContact::start_interval(const NodeField &u, const double time)
+  {
+    if (!renew_rows)
+      return false;
+    interval_start = time;
+    // The rows of the committed state are those of the end of the interval before, and a checkpoint
+    // has them.
+    make_rows(u);
+    return true;
+  }
+
+
+
+  // Loads and stresses at the start that press closed sides together are balanced by contact then
+  // as later: without it the velocity half a cycle before would part the sides, and the first cycle
+  // would give the energy that brings them back. This is the projection of a cycle with time
+  // reversed: gaps half a cycle before were not negative, but for sides that part with the initial
+  // velocities.
+  void
+  ImpulseContact::project_before(const NodeField &u,
+                                 const NodeField &start,
+                                 NodeField       &v,
+                                 const double     time,
+                                 const double     step)
+  {
+    if (rule.springs())
+      return;
+    renew(u, time);
+    if (surfaces.needed())
+      surfaces.measure(start, v, speeds_before, speeds);
+    import(u, start, v);
+    set_geometry(time, step);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      {
+        ImpulseRow          &row = solver.rows[k];
+        const Tensor<1, dim> w   = solver.relative_velocity(row, v_before);
+        row.friction             = nullptr; // made anew with the first cycle
+        row.drive *= -1.;
+        row.allowed =
+          row.tied
+            ? w
+            : (std::max(0., kept[k].at_start) / step + std::max(0., w * row.normal)) * row.normal;
+      }
+    for (Tensor<1, dim> &velocity : solver.velocity)
+      velocity *= -1.;
+    solver.solve(control(time, step));
+    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+      v[local[node]] = -solver.velocity[node];
+  }
+} // namespace Touchstone
