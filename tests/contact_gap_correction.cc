@@ -162,11 +162,11 @@ main()
   print("the mean at the edge of a contact", std::abs(edge.row()) < round_off);
 
   // The same difference between node and mean, but made by displacements, or of surfaces that
-  // nearly fit: their arches are a hundred times as high.
+  // nearly fit: their arches are 250 times as high.
   CoverSums strained = line.sums(), fitting = line.sums();
   strained.own_moved = below * normal;
   fitting.shape_area = 1.;
-  fitting.arch       = 100. * below;
+  fitting.arch       = 250. * below;
   print("the mean where strain makes the difference",
         GapCorrection(strained, normal, line.mean(), size).value == 0.);
   print("the mean between surfaces that nearly fit",
