@@ -267,6 +267,13 @@ main(int argc, char **argv)
             0.,
             0.005);
     }
+  // Between surfaces that nearly fit the arches of patches matter, which follow normals at nodes.
+  check(
+    "averaged, smoothed, faceted tubes that nearly fit",
+    tubes,
+    {set("Master normal", "smoothed"), averaged, faceted, "Body inner/Geometry/Outer radius=0.97"},
+    0.,
+    0.002);
   check("smoothed, within the other body",
         tubes,
         {set("Master normal", "smoothed"), set("Pairing", "pointwise"), faceted},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/interruption.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/explicit_step.h>
 
@@ -126,8 +127,14 @@ namespace Touchstone
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       sum += now.v[i].norm_square();
     const bool broken = failed.valid() || !std::isfinite(sum);
-    if (Utilities::MPI::max(broken ? 1 : 0, solid.communicator) == 0)
+    // One message for both: numbers of signals are far below.
+    constexpr int is_broken = 1000;
+    const int     event =
+      Utilities::MPI::max(broken ? is_broken : Interruption::pending(), solid.communicator);
+    if (event == 0)
       return;
+    if (event < is_broken)
+      throw Interruption(event);
     // Mistakes of the input come first.
     boundary_conditions.all_formulas().check(solid.communicator);
     char time[60];

@@ -123,13 +123,38 @@ namespace Touchstone
     /** Part of a nodal area that may be missing by round-off where all is covered. */
     constexpr double fully_covered = 1e-10;
 
-    /** How deep a node must be, if it is the closest point, as a multiple of what the mean gap is
-     * deeper, for the mean to count alone; and by how much of the same length another point must
-     * be closer to count as another point. */
-    constexpr double deep_node = 2., elsewhere = 0.5;
+    /** Part of the sagitta of a row, weighted by area, from which on one face can decide alone
+     * whether surfaces are pressed flat: less than what one face has that is half as large as the
+     * three others, beside hanging nodes, 1/49. With less it counts less, so that faces come and
+     * go smoothly. */
+    constexpr double fair_part = 1. / 64.;
 
-    /** By the size of a face: from the first to the second the gap of another point than the node
-     * comes to bound the gap of the row. */
+    /** By how much the part of the curvature between two surfaces that is left on a face may be
+     * mistaken, because it is not constant, as on a coarse ball: bodies that only touch must have
+     * no force. */
+    constexpr double odd_curvature = 0.05;
+
+    /** How far the mean gap is below that of the node because of the shape of both surfaces, by how
+     * far the slave surface is from its facets, that is their relative difference of curvature:
+     * from the first to the second the gap of the node comes to count. Beside a plane it is one.
+     * Between surfaces that nearly fit the strain cannot be told from a difference of curvature,
+     * and with larger limits bodies that only touch overlap by as large a part of an arch: the
+     * first is about the strain of metals that are elastic. With larger strain rows depend on their
+     * neighbours and cost iterations, not accuracy: with 1 % prm/two_tubes.prm takes as many as
+     * with limits four times as large, with 3 % it takes 47 instead of 41 for the same force. */
+    constexpr double hardly_curved = 0.005, well_curved = 0.02;
+
+    /** Added to that distance by the size of a face, for slave surfaces that are flat: times the
+     * former it is twice touches_at_start. Differences of gaps that are smaller are no shape; the
+     * square of a strain makes such. */
+    constexpr double flat_arch = 4e-4;
+
+    /** One less the shape function of a node at the closest covered point, from which on the node
+     * does not count as covered. */
+    constexpr double beside_node = 0.5;
+
+    /** By the size of a face: from the first to the second the smallest gap comes to bound the gap
+     * of a row. */
     constexpr double hardly_open = 1e-4, well_open = 1e-2;
 
     /** By the size of a face: gaps are equal up to round-off, as mean and closest one are on flat

@@ -67,7 +67,7 @@ namespace Touchstone
         // What belongs to a master face alone (patch, derivatives of its control points) is
         // computed once, though several slave faces may meet it.
         const Master &master = masters.try_emplace(face, exchange.geometry(*face)).first->second;
-        auto         &part   = parts.emplace_back(slave.face(), master.geometry);
+        auto         &part   = parts.emplace_back(length, master.geometry);
         for (const auto &point : points)
           part.add(point, on_slave, master.differentiator);
       }

@@ -279,7 +279,7 @@ namespace Touchstone
 
       // Integrals over what each master face covers: M_jk and Q_jc of doc/theory.md 4.
       std::vector<OverlapIntegrals<n, double>> parts(
-        masters.size(), OverlapIntegrals<n, double>(face_length(slave)));
+        masters.size(), OverlapIntegrals<n, double>(input.slave->largest_face()));
       OverlapSample<n, double> sample;
       for (std::size_t f = 0; f < masters.size(); ++f)
         {
@@ -308,8 +308,15 @@ namespace Touchstone
           if (face.row[k] < 0)
             continue;
           RowSums &sum = sums[face.row[k]];
+          // Where the node hangs the row is that of another node, which is not on this face.
+          FaceShare *share = nullptr;
+          if (!face.basis || face.basis->nodes[k] == slave.nodes[k])
+            {
+              share      = &sum.faces.emplace_back();
+              share->key = slave.key;
+            }
           for (std::size_t f = 0; f < masters.size(); ++f)
-            sum.add<n>(k, dual, *masters[f].master, parts[f]);
+            sum.add<n>(k, dual, *masters[f].master, parts[f], share);
           // D_kk of equation (5), the area given to other nodes, and D_kk in the reference state,
           // for tractions are nominal (doc/theory.md 2.2).
           const double kept = dual.shares.share[k][k];
@@ -472,7 +479,10 @@ namespace Touchstone
     AveragedPairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
     {
       // All ranks must take part: finish() is collective.
-      AveragedDerivative derivative(search.exchange(), slave_exchange.get(), /*gradual=*/!tied);
+      AveragedDerivative derivative(search.exchange(),
+                                    slave_exchange.get(),
+                                    /*gradual=*/!tied,
+                                    input.slave->largest_face());
       for (const ContactRow &row : rows)
         if (row.was_active)
           derivative.add_row(row.slave,

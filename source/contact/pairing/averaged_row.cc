@@ -23,46 +23,150 @@ namespace Touchstone
 
 
 
-  GapCorrection::GapCorrection(const CoverSums &sums, const double mean, const double size)
+  namespace
   {
-    // phi of equation (7) and the correction of equation (6) with derivatives by the five
-    // quantities that they depend on: g mean, g_min, g_s, D_kk and a_k - D_kk.
-    using Number         = Sacado::Fad::SFad<double, 5>;
-    const double covered = sums.own < std::numeric_limits<double>::max() ? 1. : 0.;
-    const Number at_mean = Number(5, 0, mean), least(5, 1, sums.least), kept(5, 3, sums.kept),
-                 given   = Number(5, 4, sums.given);
-    // A node that is not covered has g_s infinite; a large finite value keeps the derivatives
-    // finite.
-    const Number own = covered > 0. ? Number(5, 2, sums.own) : Number(sums.least + 1e10 * size);
-    const Number difference = least - at_mean;
-    Number       result     = 0.;
-    // On plane faces the mean is the smallest gap up to round-off, and the quotients below would be
-    // noise.
-    if (difference > Tolerances::equal_gaps * size)
+    /** What the correction depends on, with derivatives. */
+    using Number = Sacado::Fad::SFad<double, 14>;
+    enum class Of
+    {
+      mean_gap,
+      least,
+      own,
+      beside,
+      kept,
+      given,
+      area,
+      moved,
+      arch,
+      face_mean,
+      face_positive,
+      face_own,
+      face_beside,
+      face_area
+    };
+
+    Number
+    variable(const Of which, const double value)
+    {
+      return Number(14, static_cast<int>(which), value);
+    }
+
+    /** Displacement at the node less the mean, and mean distance of the slave surface from its
+     * facets. */
+    Tensor<1, dim>
+    relative_motion(const CoverSums &sums)
+    {
+      return sums.own_moved - sums.moved / sums.area;
+    }
+
+    double
+    mean_arch(const CoverSums &sums)
+    {
+      return sums.shape_area > 0. ? sums.arch / sums.shape_area : 0.;
+    }
+
+
+
+    /** 1 - phi of equation (7) for one face.
+     * @param above g_s less the mean gap, of the row. @param whole Area of the row. */
+    Number
+    flattened(const FaceShare      &face,
+              const Tensor<1, dim> &normal,
+              const double          length,
+              const Number         &above,
+              const Number         &whole)
+    {
+      if (face.own == std::numeric_limits<double>::max() || face.shape_area <= 0. ||
+          face.area <= 0.)
+        return 0.;
+      const Number mean = variable(Of::face_mean, face.gap * normal / face.area),
+                   positive =
+                     variable(Of::face_positive, face.shape_gap * normal / face.shape_area),
+                   sagitta = variable(Of::face_own, face.own) -
+                             length * variable(Of::face_beside, face.beside) - mean;
+      // A face counts if it has a fair part of what the mean of the row is below its node.
+      Number weight =
+        variable(Of::face_area, face.area) * sagitta / (Tolerances::fair_part * whole * above);
+      if (weight <= 0.)
+        return 0.;
+      if (weight > 1.)
+        weight = 1.;
+      const Number left = 0.5 * (positive - mean) / sagitta + Tolerances::odd_curvature;
+      if (left >= 1.)
+        return 0.;
+      // 3/2 (1 - kappa)^2 up to the slope 3/2, and from there on straight to one.
+      if (left >= 0.5)
+        return weight * 1.5 * (1. - left) * (1. - left);
+      if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
+        return weight * straight;
+      return weight;
+    }
+  } // namespace
+
+
+
+  GapCorrection::GapCorrection(const CoverSums      &sums,
+                               const Tensor<1, dim> &normal,
+                               const double          mean,
+                               const double          size)
+  {
+    // The corrections of equations (6) and (7) with derivatives by all that they depend on.
+    const Number at_mean = variable(Of::mean_gap, mean), at_least = variable(Of::least, sums.least),
+                 at_kept  = variable(Of::kept, sums.kept),
+                 at_given = variable(Of::given, sums.given);
+    Number result         = 0.;
+    // chi of equation (7): whether the node itself is covered.
+    const Number from_node = variable(Of::beside, sums.beside);
+    const Number at_node   = 1. - smooth_step(from_node, 0., Tolerances::beside_node);
+    // On plane faces all gaps are the mean up to round-off, and the quotients below would be noise.
+    const double noise = Tolerances::equal_gaps * size;
+    if (const Number above = variable(Of::own, sums.own) - sums.length * from_node - at_mean;
+        at_node > 0. && above > noise)
       {
-        // omega of equation (7): 1 if another point than the node is the closest.
-        const Number other =
-          smooth_step(Number((own - least) / difference), 0., Tolerances::elsewhere);
-        Number part = 1. - other;
-        if (least < 0.)
-          part *= 1. - smooth_step(Number(-least / difference), 0., Tolerances::deep_node);
-        else
-          part += other *
-                  smooth_step(Number(least / size), Tolerances::hardly_open, Tolerances::well_open);
-        result = part * difference;
+        Number most = 0.;
+        for (const FaceShare &share : sums.faces)
+          if (const Number flat =
+                flattened(share, normal, sums.length, above, variable(Of::area, sums.area));
+              flat > most)
+            {
+              most = flat;
+              face = &share;
+            }
+        // How much of the difference is due to the shape of the surfaces: displacements, which
+        // meshes that do not match interpolate differently, make such differences all over a
+        // contact, and rows that followed them would depend on their neighbours there.
+        const Number shape = above - variable(Of::moved, normal * relative_motion(sums)),
+                     arch  = variable(Of::arch, mean_arch(sums)) + Tolerances::flat_arch * size;
+        const Number curved =
+          smooth_step(Number(shape / arch), Tolerances::hardly_curved, Tolerances::well_curved);
+        result += at_node * curved * (1. - most) * above;
       }
+    if (const Number above = at_least - at_mean - result; above > noise)
+      result +=
+        above *
+        smooth_step(Number(at_least / size), Tolerances::hardly_open, Tolerances::well_open);
     // 0.01 h r^4 of equation (6): the row opens before its area vanishes.
-    if (given > 0.)
+    if (at_given > 0.)
       {
-        const Number ratio = given / kept;
+        const Number ratio = at_given / at_kept;
         result += Tolerances::gap_growth * size * ratio * ratio * ratio * ratio;
       }
-    value    = result.val();
-    by_mean  = result.dx(0);
-    by_least = result.dx(1);
-    by_own   = result.dx(2);
-    by_kept  = result.dx(3);
-    by_given = result.dx(4);
+    const auto by    = [&result](const Of which) { return result.dx(static_cast<int>(which)); };
+    value            = result.val();
+    by_mean          = by(Of::mean_gap);
+    by_least         = by(Of::least);
+    by_own           = by(Of::own);
+    by_beside        = by(Of::beside);
+    by_kept          = by(Of::kept);
+    by_given         = by(Of::given);
+    by_area          = by(Of::area);
+    by_moved         = by(Of::moved);
+    by_arch          = by(Of::arch);
+    by_face_mean     = by(Of::face_mean);
+    by_face_positive = by(Of::face_positive);
+    by_face_own      = by(Of::face_own);
+    by_face_beside   = by(Of::face_beside);
+    by_face_area     = by(Of::face_area);
   }
 
 
@@ -72,9 +176,13 @@ namespace Touchstone
     , normal(sums.normal / sums.normal.norm())
     , area(sums.area)
     , kept(sums.kept)
+    , shape_area(sums.shape_area)
     , mean(sums.gap / sums.area)
     , normal_sum(sums.normal)
-    , correction(sums, mean * normal, size)
+    , own_moved(sums.own_moved)
+    , moved(relative_motion(sums))
+    , arch(mean_arch(sums))
+    , correction(sums, normal, mean * normal, size)
   {
     // Normalised by D_kk and not by D, like the weights of the stencil, so that gap and stencil
     // belong to the same constraint.
@@ -93,9 +201,36 @@ namespace Touchstone
     // Derivatives of the mean gap vector G/D, of the correction, and of the share D/D_kk by which
     // both are multiplied.
     const Tensor<2, dim> d_mean  = (d.gap - outer_product(mean, d.area)) / area;
-    const Tensor<1, dim> d_value = correction.by_mean * (normal * d_mean + mean * d_normal) +
-                                   correction.by_least * d.least + correction.by_own * d.own +
-                                   correction.by_kept * d.kept + correction.by_given * d.given;
+    Tensor<1, dim>       d_value = correction.by_mean * (normal * d_mean + mean * d_normal) +
+                             correction.by_least * d.least + correction.by_own * d.own +
+                             correction.by_beside * d.beside + correction.by_kept * d.kept +
+                             correction.by_given * d.given;
+    d_value += correction.by_area * d.area;
+    if (needs_shape())
+      {
+        const Tensor<1, dim> mean_moved = own_moved - moved;
+        d_value += correction.by_moved *
+                   (normal * (d.own_moved - (d.moved - outer_product(mean_moved, d.area)) / area) +
+                    moved * d_normal);
+        // Without a positive area the arch is taken as zero.
+        if (shape_area > 0.)
+          d_value += correction.by_arch * (d.arch - arch * d.shape_area) / shape_area;
+      }
+    if (const FaceShare *face = correction.face)
+      {
+        // Means of the face are quotients, too.
+        const Tensor<1, dim> of_face  = face->gap / face->area,
+                             positive = face->shape_gap / face->shape_area;
+        d_value += correction.by_face_mean *
+                   (normal * (d.face.gap - outer_product(of_face, d.face.area)) / face->area +
+                    of_face * d_normal);
+        d_value += correction.by_face_positive *
+                   (normal * (d.face.shape_gap - outer_product(positive, d.face.shape_area)) /
+                      face->shape_area +
+                    positive * d_normal);
+        d_value += correction.by_face_own * d.face.own + correction.by_face_beside * d.face.beside +
+                   correction.by_face_area * d.face.area;
+      }
     const Tensor<1, dim> d_share = (d.area - share * d.kept) / kept;
     d_gap_vector                 = outer_product(mean + correction.value * normal, d_share) +
                    share * (d_mean + outer_product(normal, d_value) + correction.value * d_normal);

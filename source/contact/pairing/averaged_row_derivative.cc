@@ -46,6 +46,56 @@ namespace Touchstone
   {
     add_positions<n>(k, face);
     add_normals<n>(k, face);
+    if (const FaceShare *deciding = row.deciding_face();
+        deciding && deciding->key == face.slave.face().key)
+      add_deciding<n>(k, face);
+  }
+
+
+
+  template <unsigned int n>
+  void
+  AveragedRowDerivative::add_deciding(const unsigned int k, const SlaveFaceDerivative<n> &face)
+  {
+    typename SlaveFaceDerivative<n>::Change change;
+    for (unsigned int i = 0; i < face.n_nodes(); ++i)
+      for (unsigned int e = 0; e < dim; ++e)
+        {
+          face.differentiate(k, i, e, change);
+          for (const auto &[node, weight] : face.carriers(i))
+            {
+              FaceShareDerivative &sum = sums[index(node)].face;
+              sum.area[e] += weight * change.integrals[OverlapColumns::area];
+              sum.shape_area[e] += weight * change.area;
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  sum.gap[c][e] += weight * change.integrals[OverlapColumns::gap + c];
+                  sum.shape_gap[c][e] += weight * change.shape_gap[c];
+                }
+            }
+        }
+    for (const OverlapDerivative<n> &part : face.parts)
+      {
+        for (unsigned int m = 0; m < n; ++m)
+          for (unsigned int j = 0; j < n; ++j)
+            {
+              // As in add_normals, with the shape function besides.
+              const double w = face.dual.weight(k, j), c = face.dual.shape(k, j);
+              if (part.master_smooth)
+                {
+                  auto &by_master = face_by_master[part.master];
+                  by_master[0][m] += w * part.gap_normal[j][m];
+                  by_master[1][m] += c * part.gap_normal[j][m];
+                }
+              if (face.slave.smooth())
+                {
+                  face_gap_by_slave[m] += w * part.gap_slave_normal[j][m];
+                  face_shape_gap_by_slave[m] += c * part.gap_slave_normal[j][m];
+                }
+            }
+        offer<n>(face_own, part.own[k], part.own_by_normals[k], face, *part.master);
+        offer<n>(face_beside, part.beside[k], {}, face, *part.master);
+      }
   }
 
 
@@ -88,12 +138,15 @@ namespace Touchstone
                 sum.kept[e] += weight * d.share[k];
                 // Given away is what is not kept of the area of the node.
                 sum.given[e] += weight * (d.area - d.share[k]);
+                sum.shape_area[e] += weight * d.area;
+                sum.arch[e] += weight * d.arch;
                 if (part)
                   sum.reference[e] += weight * d.reference;
                 for (unsigned int c = 0; c < dim; ++c)
                   {
                     sum.gap[c][e] += weight * d.integrals[OverlapColumns::gap + c];
                     sum.normal[c][e] += weight * d.integrals[OverlapColumns::normal + c];
+                    sum.moved[c][e] += weight * d.integrals[OverlapColumns::moved + c];
                   }
                 for (const auto &[column, m] : of_masters)
                   result.weights[m][to][e] += weight * d.integrals[column];
@@ -124,14 +177,29 @@ namespace Touchstone
               by_master.normal[m] += w * part.normal_normal[j][m];
               by_master.gap[m] += w * part.gap_normal[j][m];
               if (slave_smooth)
-                by_slave_normals[face.slave.face().key][m] += w * part.gap_slave_normal[j][m];
+                {
+                  const std::uint64_t key = face.slave.face().key;
+                  by_slave_normals[key][m] += w * part.gap_slave_normal[j][m];
+                  arch_by_slave_normals[key][m] +=
+                    face.dual.shape(k, j) * part.arch_slave_normal[j][m];
+                }
             }
         // Smallest gaps enter by equation (7). In most rows their derivative is zero, and the
         // search for the closest point is spared.
         if (row.needs_least())
           offer<n>(least, part.least, part.least_by_normals, face, *part.master);
+        if (face.own[k] != face.slave.face().nodes[k])
+          continue;
         if (row.needs_own())
-          offer<n>(own, part.own[k], part.own_by_normals[k], face, *part.master);
+          offer<n>(own,
+                   part.own[k],
+                   part.own_by_normals[k],
+                   face,
+                   *part.master,
+                   row.needs_shape() ? &part.own_moved[k] : nullptr);
+        // Shape functions of facets do not depend on normals.
+        if (row.needs_beside())
+          offer<n>(beside, part.beside[k], {}, face, *part.master);
       }
   }
 
@@ -143,13 +211,14 @@ namespace Touchstone
                                const PositionFad<n>                           &gap,
                                const typename OverlapDerivative<n>::ByNormals &by_normals,
                                const SlaveFaceDerivative<n>                   &face,
-                               const Face                                     &master)
+                               const Face                                     &master,
+                               const Vector3<PositionFad<n>>                  *moved)
   {
     // A minimum has the derivative of the point where it is attained; at a change of that point the
     // derivative is one-sided.
     if (gap.val() == std::numeric_limits<double>::max() || (closest && closest->gap <= gap.val()))
       return;
-    closest.emplace(ClosestPoint{gap.val(), &master, face.slave.face().key, {}, {}, {}});
+    closest.emplace(ClosestPoint{gap.val(), &master, face.slave.face().key, {}, {}, {}, {}});
     std::copy(by_normals.master, by_normals.master + n, closest->by_master_normals.begin());
     std::copy(by_normals.slave, by_normals.slave + n, closest->by_slave_normals.begin());
     for (unsigned int i = 0; i < 2 * n; ++i)
@@ -160,7 +229,16 @@ namespace Touchstone
                                       gap.fastAccessDx(dim * i + 2)});
         for (const auto &[node, weight] :
              face.carriers(i < n ? i : face.index_of_master(master.nodes[i - n])))
-          closest->by_nodes.emplace_back(node, weight * by_node);
+          {
+            closest->by_nodes.emplace_back(node, weight * by_node);
+            if (!moved)
+              continue;
+            Tensor<2, dim> &d_moved =
+              closest->moved_by_nodes.emplace_back(node, Tensor<2, dim>()).second;
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int e = 0; e < dim; ++e)
+                d_moved[c][e] = weight * (*moved)[c].fastAccessDx(dim * i + e);
+          }
       }
   }
 
@@ -178,15 +256,16 @@ namespace Touchstone
 
 
   void
-  AveragedRowDerivative::continue_closest(const ClosestPoint &point,
-                                          Tensor<1, dim> CoverSumsDerivative::*of_point,
-                                          const OfMaster                      &of_master,
-                                          const OfSlave                       &of_slave)
+  AveragedRowDerivative::continue_closest(
+    const ClosestPoint                                           &point,
+    const std::function<Tensor<1, dim> &(CoverSumsDerivative &)> &of_point,
+    const OfMaster                                               &of_master,
+    const OfSlave                                                &of_slave)
   {
     const auto add = [&](const Index node, const Tensor<1, dim> &value) {
       const std::size_t to = index(node);
-      // The member that is differentiated, CoverSumsDerivative::least or own, is a parameter.
-      sums[to].*of_point += value;
+      // The member that is differentiated, CoverSumsDerivative::least or another, is a parameter.
+      of_point(sums[to]) += value;
     };
     for (const auto &[node, value] : point.by_nodes)
       add(node, value);
@@ -201,6 +280,41 @@ namespace Touchstone
 
 
 
+  void
+  AveragedRowDerivative::finish_deciding(const OfMaster &of_master, const OfSlave &of_slave)
+  {
+    using Sums = CoverSumsDerivative;
+    if (face_own)
+      continue_closest(
+        *face_own,
+        [](Sums &of_node) -> Tensor<1, dim> & { return of_node.face.own; },
+        of_master,
+        of_slave);
+    if (face_beside)
+      continue_closest(
+        *face_beside,
+        [](Sums &of_node) -> Tensor<1, dim> & { return of_node.face.beside; },
+        of_master,
+        of_slave);
+    for (const auto &[face, by_normals] : face_by_master)
+      if (const auto *derivatives = of_master(face))
+        for (const NormalDerivative &d : *derivatives)
+          {
+            FaceShareDerivative &sum = sums[index(d.node)].face;
+            sum.gap += by_normals[0][d.m] * d.value;
+            sum.shape_gap += by_normals[1][d.m] * d.value;
+          }
+    if (const FaceShare *face = row.deciding_face(); face && by_slave_normals.count(face->key) > 0)
+      for (const NormalDerivative &d : *of_slave(face->key))
+        {
+          FaceShareDerivative &sum = sums[index(d.node)].face;
+          sum.gap += face_gap_by_slave[d.m] * d.value;
+          sum.shape_gap += face_shape_gap_by_slave[d.m] * d.value;
+        }
+  }
+
+
+
   std::shared_ptr<const RowDerivative>
   AveragedRowDerivative::finish(const OfMaster &of_master, const OfSlave &of_slave)
   {
@@ -210,6 +324,7 @@ namespace Touchstone
         {
           const std::size_t to = index(d.node);
           sums[to].gap += by_normals[d.m] * d.value;
+          sums[to].arch += arch_by_slave_normals[key][d.m] * d.value;
         }
     // Those of master faces change the normal, and the gap if the master is smoothed.
     for (const auto &[face, by_normals] : by_master_normals)
@@ -222,9 +337,16 @@ namespace Touchstone
               sums[to].gap += by_normals.gap[d.m] * d.value;
           }
     if (least)
-      continue_closest(*least, &CoverSumsDerivative::least, of_master, of_slave);
+      continue_closest(*least, std::mem_fn(&CoverSumsDerivative::least), of_master, of_slave);
     if (own)
-      continue_closest(*own, &CoverSumsDerivative::own, of_master, of_slave);
+      {
+        continue_closest(*own, std::mem_fn(&CoverSumsDerivative::own), of_master, of_slave);
+        for (const auto &[node, value] : own->moved_by_nodes)
+          sums[index(node)].own_moved += value;
+      }
+    if (beside)
+      continue_closest(*beside, std::mem_fn(&CoverSumsDerivative::beside), of_master, of_slave);
+    finish_deciding(of_master, of_slave);
 
     // The sums are complete: now the row.
     RowDerivative &result = *builder.result;

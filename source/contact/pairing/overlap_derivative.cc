@@ -60,6 +60,15 @@ namespace Touchstone
     // A corner takes part in the smallest gaps only.
     if (sample.weight.val() == 0.)
       return;
+    // A patch bulges with the normals of its nodes.
+    Tensor<1, dim> bulge;
+    if (slave_smooth && sample.arch.val() > 0.)
+      {
+        bulge = slave_point.point.x;
+        for (unsigned int m = 0; m < n; ++m)
+          bulge -= slave_point.shapes.value[m] * on_slave.geometry.face().position(m);
+        bulge /= sample.arch.val();
+      }
     for (unsigned int j = 0; j < n; ++j)
       {
         const double weight = sample.weight.val() * sample.slave_shape[j].val();
@@ -69,7 +78,10 @@ namespace Touchstone
             if (master_smooth)
               gap_normal[j][m] -= weight * master_point.x_normal[m];
             if (slave_smooth)
-              gap_slave_normal[j][m] += weight * slave_point.x_normal[m];
+              {
+                gap_slave_normal[j][m] += weight * slave_point.x_normal[m];
+                arch_slave_normal[j][m] += weight * bulge * slave_point.x_normal[m];
+              }
           }
       }
   }

@@ -38,15 +38,21 @@ namespace Touchstone
     // (doc/theory.md 1).
     const Tensor<1, dim> gap = x - on_master.x;
     sample.weight            = part * point.weight;
+    Tensor<1, dim> arch      = x, moved;
     for (unsigned int m = 0; m < n; ++m)
       {
         sample.slave_shape[m]  = shapes.value[m];
         sample.master_shape[m] = master_shapes.value[m];
+        moved += shapes.value[m] * slave.face().displacement[m] -
+                 master_shapes.value[m] * master.face().displacement[m];
+        arch -= shapes.value[m] * slave.face().position(m);
       }
+    sample.arch = arch.norm();
     for (unsigned int d = 0; d < dim; ++d)
       {
         sample.gap[d]    = gap[d];
         sample.normal[d] = normal[d];
+        sample.moved[d]  = moved[d];
       }
     return true;
   }
@@ -140,6 +146,46 @@ namespace Touchstone
         }
       return part.value > 0.;
     }
+
+
+
+    /** Displacement and arch of a sample whose shape functions are known. */
+    template <unsigned int n>
+    void
+    differentiate_shape(const OverlapPointDerivative<n>  &point,
+                        const Face                       &slave,
+                        const FacePosition               &on_slave,
+                        const Face                       &master,
+                        OverlapSample<n, PositionFad<n>> &sample)
+    {
+      PositionFad<n> square(0.);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          // The point on the surface itself, which moves on its face and with the nodes.
+          PositionFad<n> arch(on_slave.point.x[d]);
+          for (unsigned int v = 0; v < OverlapPointDerivative<n>::n_variables; ++v)
+            arch.fastAccessDx(v) = on_slave.point.tangents[0][d] * point.d_slave[0][v] +
+                                   on_slave.point.tangents[1][d] * point.d_slave[1][v];
+          for (unsigned int m = 0; m < n; ++m)
+            for (unsigned int e = 0; e < dim; ++e)
+              arch.fastAccessDx(dim * m + e) += on_slave.x_position[m][d][e];
+          sample.moved[d] = 0.;
+          for (unsigned int m = 0; m < n; ++m)
+            {
+              const auto at_node = [](const double value, const unsigned int variable) {
+                return PositionFad<n>(OverlapPointDerivative<n>::n_variables, variable, value);
+              };
+              // A node that moves changes its displacement by as much as its position.
+              sample.moved[d] +=
+                sample.slave_shape[m] * at_node(slave.displacement[m][d], dim * m + d) -
+                sample.master_shape[m] * at_node(master.displacement[m][d], dim * (n + m) + d);
+              arch -= sample.slave_shape[m] * at_node(slave.position(m)[d], dim * m + d);
+            }
+          square += arch * arch;
+        }
+      // Facets have no arch, and a root of zero no derivative.
+      sample.arch = square.val() > 0. ? PositionFad<n>(sqrt(square)) : PositionFad<n>(0.);
+    }
   } // namespace
 
 
@@ -199,6 +245,7 @@ namespace Touchstone
         sample.slave_shape[m]  = shape(on_slave.shapes, point.d_slave);
         sample.master_shape[m] = shape(on_master.shapes, point.d_master);
       }
+    differentiate_shape<n>(point, slave.face(), on_slave, master.face(), sample);
     return true;
   }
 

@@ -15,12 +15,17 @@ namespace Touchstone
   void
   RowSums::clear()
   {
+    faces.clear();
+    std::vector<FaceShare> list;
+    list.swap(faces);
     static_cast<CoverSums &>(*this) = CoverSums();
+    list.swap(faces);
     // Infinite until a point is added.
     least = own = std::numeric_limits<double>::max();
+    beside      = 1.;
     lever       = Tensor<1, dim>();
-    for (Stencil *list : {&stencil, &taken, &left})
-      list->clear();
+    for (Stencil *entries : {&stencil, &taken, &left})
+      entries->clear();
   }
 
 
@@ -30,7 +35,8 @@ namespace Touchstone
   RowSums::add(const unsigned int                 k,
                const DualBasis                   &dual,
                const Face                        &master,
-               const OverlapIntegrals<n, double> &part)
+               const OverlapIntegrals<n, double> &part,
+               FaceShare                         *face)
   {
     // r_k = W_k Q, see DualBasis.
     std::array<double, OverlapIntegrals<n, double>::n_columns> r{};
@@ -43,11 +49,39 @@ namespace Touchstone
       {
         gap[d] += r[OverlapColumns::gap + d];
         normal[d] += r[OverlapColumns::normal + d];
+        moved[d] += r[OverlapColumns::moved + d];
       }
     for (unsigned int m = 0; m < n; ++m)
       add(stencil, master.nodes[m], r[OverlapColumns::master + m]);
     least = std::min(least, part.least);
-    own   = std::min(own, part.own[k]);
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        arch += dual.shape(k, j) * part.q[j][OverlapColumns::arch];
+        shape_area += dual.shape(k, j) * part.q[j][OverlapColumns::area];
+      }
+    if (!face)
+      return;
+    if (part.own[k] < own)
+      {
+        own = part.own[k];
+        for (unsigned int d = 0; d < dim; ++d)
+          own_moved[d] = part.own_moved[k][d];
+      }
+    beside = std::min(beside, part.beside[k]);
+    length = part.length;
+    // The same of this face alone; and integrals of 1 and gap with the shape function itself.
+    face->own    = std::min(face->own, part.own[k]);
+    face->beside = std::min(face->beside, part.beside[k]);
+    face->area += r[OverlapColumns::area];
+    for (unsigned int d = 0; d < dim; ++d)
+      face->gap[d] += r[OverlapColumns::gap + d];
+    for (unsigned int j = 0; j < n; ++j)
+      if (const double c = dual.shape(k, j); c != 0.)
+        {
+          face->shape_area += c * part.q[j][OverlapColumns::area];
+          for (unsigned int d = 0; d < dim; ++d)
+            face->shape_gap[d] += c * part.q[j][OverlapColumns::gap + d];
+        }
   }
 
 
@@ -98,10 +132,12 @@ namespace Touchstone
   RowSums::add<4>(unsigned int,
                   const DualBasis &,
                   const Face &,
-                  const OverlapIntegrals<4, double> &);
+                  const OverlapIntegrals<4, double> &,
+                  FaceShare *);
   template void
   RowSums::add<9>(unsigned int,
                   const DualBasis &,
                   const Face &,
-                  const OverlapIntegrals<9, double> &);
+                  const OverlapIntegrals<9, double> &,
+                  FaceShare *);
 } // namespace Touchstone

@@ -149,6 +149,15 @@ namespace Touchstone
     if (i < n)
       change.reference -= dual.shares.share[k][k] / present[k] * d_present[i][e][k];
     change.reference *= whole[k] / present[k];
+    change.shape_gap = Tensor<1, dim>();
+    change.arch      = 0.;
+    for (unsigned int j = 0; j < n; ++j)
+      if (const double c = dual.shape(k, j); c != 0.)
+        {
+          change.arch += c * d_q(v, j, OverlapColumns::arch);
+          for (unsigned int d = 0; d < dim; ++d)
+            change.shape_gap[d] += c * d_q(v, j, OverlapColumns::gap + d);
+        }
     change.integrals.resize(OverlapColumns::master + masters.size());
     dual.differentiate(k,
                        solution,

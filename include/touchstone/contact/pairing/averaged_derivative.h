@@ -25,13 +25,16 @@ namespace Touchstone
     /** @param exchange       Of the master surface.
      * @param slave_exchange Of the slave surface; needed where its faces are smoothed,
      *                     or null. Both must live as long.
-     * @param gradual      Of the CoverShares. */
+     * @param gradual      Of the CoverShares.
+     * @param length       Of the OverlapIntegrals. */
     AveragedDerivative(const FaceExchange &exchange,
                        const FaceExchange *slave_exchange,
-                       const bool          gradual)
+                       const bool          gradual,
+                       const double        length)
       : exchange(exchange)
       , slave_exchange(slave_exchange)
       , gradual(gradual)
+      , length(length)
     {
     }
 
@@ -80,6 +83,7 @@ namespace Touchstone
     const FaceExchange                              &exchange;
     const FaceExchange                              *slave_exchange;
     const bool                                       gradual;
+    const double                                     length;
     std::unordered_map<Index, AveragedRowDerivative> rows;
     std::unordered_map<const Face *, Master>         masters;
 

@@ -7,11 +7,38 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <cstdint>
+#include <limits>
+#include <vector>
+
 namespace Touchstone
 {
+  /** @brief What a row takes of one slave face, from which the shape of the gap there follows. */
+  struct FaceShare
+  {
+    /** Face::key. */
+    std::uint64_t key = 0;
+    /** Integrals of psi'_k and of the gap with it, the same with the shape function N~_k; area,
+     * area times length. */
+    double                 area = 0., shape_area = 0.;
+    dealii::Tensor<1, dim> gap, shape_gap;
+    /** As in CoverSums, of this face; length, no unit. */
+    double own = std::numeric_limits<double>::max(), beside = 1.;
+  };
+
+  /** @brief Derivatives of a FaceShare with respect to the position of one node. */
+  struct FaceShareDerivative
+  {
+    dealii::Tensor<1, dim> area, shape_area, own, beside;
+    /** [i][e]: of component i with respect to component e of the position. */
+    dealii::Tensor<2, dim> gap, shape_gap;
+  };
+
   /** @brief Sums over the slave faces around a node, from which its row is made. */
   struct CoverSums
   {
+    /** The faces to which the node itself belongs. */
+    std::vector<FaceShare> faces;
     /** The integral of psi'_k, and the parts of it and of the area a_k of its own node
      * that are kept and given away; area. */
     double area = 0., kept = 0., given = 0.;
@@ -19,9 +46,18 @@ namespace Touchstone
     double reference = 0.;
     /** Integrals of gap and normal with psi'_k. */
     dealii::Tensor<1, dim> gap, normal;
+    /** The integral of the displacement of the slave relative to the master with psi'_k, area times
+     * length, and this displacement at the node, length. */
+    dealii::Tensor<1, dim> moved, own_moved;
+    /** Integrals of the distance of the slave surface from its facets with N~_k, and of N~_k; area
+     * times length, area. */
+    double arch = 0., shape_area = 0.;
     /** The smallest gap at any quadrature point or corner of what is covered, along the normal
-     * there, and that at the node itself, infinite if the node is not covered; length. */
-    double least = 0., own = 0.;
+     * there, length. */
+    double least = 0.;
+    /** OverlapIntegrals::own, ::beside and ::length: with them the gap at the node is own - length
+     * * beside; length, no unit, length. */
+    double own = 0., beside = 1., length = 0.;
 
     /** @brief Whether enough of the node is covered for a row.
      * @param whole Tributary area. */
@@ -32,9 +68,11 @@ namespace Touchstone
   /** @brief Derivatives of CoverSums with respect to the position of one node. */
   struct CoverSumsDerivative
   {
-    dealii::Tensor<1, dim> area, kept, given, reference, least, own;
+    dealii::Tensor<1, dim> area, kept, given, reference, least, own, beside, arch, shape_area;
     /** [i][e]: of component i with respect to component e of the position. */
-    dealii::Tensor<2, dim> gap, normal;
+    dealii::Tensor<2, dim> gap, normal, moved, own_moved;
+    /** Of GapCorrection::face. */
+    FaceShareDerivative face;
   };
 
   /**
@@ -42,19 +80,33 @@ namespace Touchstone
    * 3.1, equations (6) and (7)).
    *
    * A weight function that changes its sign can give a mean below the gap at every point:
-   * on a curved face by a part of its sagitta, on a part of a face by extrapolation. While
-   * surfaces are apart the gap of a row is not less than the smallest gap of its points:
-   * immediately if that point is the node itself, which the force of the row moves; for another
-   * point, which the force hardly moves, only where it is clearly open. As the node penetrates, the
-   * mean takes over. Besides, the gap of a node that gives away area grows with the part given, so
-   * that its row opens before its area vanishes and forces change smoothly.
+   * on a curved face by a part of its sagitta, on a part of a face by extrapolation. Where the
+   * surfaces part from each other towards all sides of the node, as undeformed ones do, the gap of
+   * a row is that of its node if it is higher; where they are pressed flat on any face it is the
+   * mean. Means with a weight that is positive tell them apart. A node that is not covered has the
+   * mean. Besides, a row is not less open than surfaces that are clearly apart, and the gap of a
+   * node that gives away area grows with the part given, so that its row opens before its area
+   * vanishes and forces change smoothly.
    */
   struct GapCorrection
   {
-    double value, by_mean, by_least, by_own, by_kept, by_given;
+    double value, by_mean, by_least, by_own, by_beside, by_kept, by_given, by_area;
+    /** By how far displacements have moved the node along the normal from the mean, and by the
+     * mean distance of the slave surface from its facets. */
+    double by_moved, by_arch;
+    /** The face that decides, or null if none does, and derivatives by what it contributes: its
+     * mean gaps along the normal with both weights, and own, beside and area of its FaceShare. */
+    const FaceShare *face = nullptr;
+    double           by_face_mean, by_face_positive, by_face_own, by_face_beside, by_face_area;
 
-    /** @param mean Mean gap along the mean normal. @param size Size of the faces. */
-    GapCorrection(const CoverSums &sums, double mean, double size);
+    /** @param sums   Must live as long.
+     * @param normal Mean normal.
+     * @param mean   Mean gap along the normal.
+     * @param size   Size of the faces. */
+    GapCorrection(const CoverSums              &sums,
+                  const dealii::Tensor<1, dim> &normal,
+                  double                        mean,
+                  double                        size);
   };
 
   /**
@@ -70,7 +122,8 @@ namespace Touchstone
   class AveragedRow
   {
   public:
-    /** @param sums Must suffice for a row. @param size Size of the faces, length. */
+    /** @param sums Must suffice for a row, and live as long. @param size Size of the faces, length.
+     */
     AveragedRow(const CoverSums &sums, double size);
 
     /** Area on all slave nodes of the row by that on its own one, D / D_kk. */
@@ -89,6 +142,24 @@ namespace Touchstone
     {
       return correction.by_own != 0.;
     }
+    bool
+    needs_beside() const
+    {
+      return correction.by_beside != 0.;
+    }
+    /** @brief Whether derivatives of these are used: CoverSums::moved, ::own_moved, ::arch and
+     * ::shape_area. */
+    bool
+    needs_shape() const
+    {
+      return correction.by_moved != 0. || correction.by_arch != 0.;
+    }
+    /** @brief The face whose derivative is used as well, or null. */
+    const FaceShare *
+    deciding_face() const
+    {
+      return correction.face;
+    }
 
     /** @brief d normal, d gap_vector for the derivatives of the sums. */
     void
@@ -104,8 +175,11 @@ namespace Touchstone
                       const CoverSumsDerivative    &d) const;
 
   private:
-    double                 area, kept;
+    double                 area, kept, shape_area;
     dealii::Tensor<1, dim> mean, normal_sum;
+    /** Displacement at the node, the same less the mean, and the mean arch; length. */
+    dealii::Tensor<1, dim> own_moved, moved;
+    double                 arch;
     GapCorrection          correction;
   };
 } // namespace Touchstone

@@ -62,11 +62,13 @@ namespace Touchstone
      * last two, by the averaged normals at the nodes of its two faces. */
     struct ClosestPoint
     {
-      double                                              gap;
-      const Face                                         *master;
-      std::uint64_t                                       slave;
-      NodalForm                                           by_nodes;
-      std::array<dealii::Tensor<1, dim>, Face::max_nodes> by_master_normals, by_slave_normals;
+      double        gap;
+      const Face   *master;
+      std::uint64_t slave;
+      NodalForm     by_nodes;
+      /** Of the displacement there, which does not depend on normals. */
+      std::vector<std::pair<Index, dealii::Tensor<2, dim>>> moved_by_nodes;
+      std::array<dealii::Tensor<1, dim>, Face::max_nodes>   by_master_normals, by_slave_normals;
     };
 
     const Stencil       &stencil;
@@ -76,7 +78,16 @@ namespace Touchstone
     RowDerivativeBuilder builder;
     /** By the index of the node in the builder. */
     std::vector<CoverSumsDerivative> sums;
-    std::optional<ClosestPoint>      least, own;
+    std::optional<ClosestPoint>      least, own, beside;
+    /** Of GapCorrection::face. */
+    std::optional<ClosestPoint> face_own, face_beside;
+    /** The integral of the arch by normals of slave faces. */
+    std::unordered_map<std::uint64_t, std::array<dealii::Tensor<1, dim>, Face::max_nodes>>
+      arch_by_slave_normals;
+    /** Its integrals of the gap with psi'_k and N~_k by the normals of its nodes. */
+    NodeMatrices face_gap_by_slave{}, face_shape_gap_by_slave{};
+    /** The same by the normals of master patches. */
+    std::unordered_map<const Face *, std::array<NodeMatrices, 2>> face_by_master;
 
     std::unordered_map<const Face *, ByNormals> by_master_normals;
     /** The integral of the gap by normals of slave faces, known by their keys. */
@@ -93,18 +104,26 @@ namespace Touchstone
     template <unsigned int n>
     void
     add_normals(unsigned int k, const SlaveFaceDerivative<n> &face);
+    /** @brief Add what the deciding face contributes besides. */
+    template <unsigned int n>
+    void
+    add_deciding(unsigned int k, const SlaveFaceDerivative<n> &face);
+    /** @brief Continue derivatives of the deciding face by normals to the nodes. */
+    void
+    finish_deciding(const OfMaster &of_master, const OfSlave &of_slave);
     template <unsigned int n>
     static void
     offer(std::optional<ClosestPoint>                    &closest,
           const PositionFad<n>                           &gap,
           const typename OverlapDerivative<n>::ByNormals &by_normals,
           const SlaveFaceDerivative<n>                   &face,
-          const Face                                     &master);
+          const Face                                     &master,
+          const Vector3<PositionFad<n>>                  *moved = nullptr);
     void
-    continue_closest(const ClosestPoint    &point,
-                     dealii::Tensor<1, dim> CoverSumsDerivative::*of_point,
-                     const OfMaster                              &of_master,
-                     const OfSlave                               &of_slave);
+    continue_closest(const ClosestPoint                                                   &point,
+                     const std::function<dealii::Tensor<1, dim> &(CoverSumsDerivative &)> &of_point,
+                     const OfMaster &of_master,
+                     const OfSlave  &of_slave);
   };
 } // namespace Touchstone
 

@@ -67,6 +67,13 @@ namespace Touchstone
       dealii::FullMatrix<double> of_basis, of_shapes;
     };
 
+    /** @brief The part of N_j in N~_k: C_jk, no unit. */
+    double
+    shape(const unsigned int k, const unsigned int j) const
+    {
+      return basis ? basis->weights[j][k] : (j == k ? 1. : 0.);
+    }
+
     /** @brief The Y of some integrals Q. */
     Solution
     solve(const dealii::FullMatrix<double> &q) const;

@@ -24,6 +24,8 @@ namespace Touchstone
      * that of N_j times the gap by the same and by the normal at slave node m, area times
      * length. */
     dealii::Tensor<2, dim> normal_normal[n][n], gap_normal[n][n], gap_slave_normal[n][n];
+    /** The same of the integral of N_j times the arch by the normal at slave node m. */
+    dealii::Tensor<1, dim> arch_slave_normal[n][n];
 
     /** Of a smallest gap by the normals at master and slave nodes, length. */
     struct ByNormals
@@ -32,8 +34,9 @@ namespace Touchstone
     };
     ByNormals least_by_normals, own_by_normals[n];
 
-    OverlapDerivative(const Face &slave, const FaceGeometry &master)
-      : OverlapIntegrals<n, PositionFad<n>>(face_length(slave))
+    /** @param length Of the OverlapIntegrals. */
+    OverlapDerivative(const double length, const FaceGeometry &master)
+      : OverlapIntegrals<n, PositionFad<n>>(length)
       , master(&master.face())
       , master_smooth(master.smooth())
     {

@@ -18,16 +18,18 @@ namespace Touchstone
   /** @brief The columns of OverlapIntegrals::q; those of the master nodes come last. */
   namespace OverlapColumns
   {
-    constexpr unsigned int area = 0, gap = 1, normal = gap + dim, master = normal + dim;
+    constexpr unsigned int area = 0, gap = 1, normal = gap + dim, moved = normal + dim,
+                           arch = moved + dim, master = arch + 1;
   }
 
   /**
    * @brief The integrals over the overlap of a slave face with one master face from which the rows
    * of the slave nodes are made (doc/theory.md 3 and 4, "Derivatives of rows"):
    *
-   *   M_jk = int N_j N_k ,   Q_jc = int N_j q_c ,   q = (1, x_s - x_m, n, N_1, ..., N_n) ,
+   *   M_jk = int N_j N_k ,   Q_jc = int N_j q_c ,   q = (1, x_s - x_m, n, u_s - u_m, b, N_1, ...,
+   * N_n) ,
    *
-   * N_j the slave shapes and N_1, ... those of the master face.
+   * N_j the slave shapes, N_1, ... those of the master face, and b OverlapSample::arch.
    * @tparam n Nodes of a face, 4 or 9.
    * @tparam Number double, or PositionFad<n>: the derivatives of the integrals come with them.
    */
@@ -38,21 +40,28 @@ namespace Touchstone
 
     /** M, area; only k <= j is set. */
     std::array<std::array<Number, n>, n> mass{};
-    /** Q: area, area times length for the gap. */
+    /** Q: area, area times length for gap, displacement and arch. */
     std::array<std::array<Number, n_columns>, n> q{};
-    /** The smallest gap along the normal at any point or corner of the overlap, and that at each
-     * slave node; length. Where a node is not covered, the closest corner stands for it, with a gap
-     * that is larger by the distance h (1 - N_j) from the node: a node that comes to lie on the
-     * other side of the edge of the cover, as it does by round-off beside a plane of symmetry, must
-     * not change its gap by a jump (doc/theory.md 3.1, equation (7)). */
-    Number                least = std::numeric_limits<double>::max();
-    std::array<Number, n> own;
+    /** The smallest gap along the normal at any point or corner of the overlap; length. */
+    Number least = std::numeric_limits<double>::max();
+    /** For each slave node the smallest of g + l (1 - N_j) and of 1 - N_j over the corners, from
+     * which the gap at the node follows (doc/theory.md 3.1, equation (7)). Where the node is not
+     * covered, the closest corner stands for it: a node that comes to lie on the other side of the
+     * edge of the cover, as it does by round-off beside a plane of symmetry, must not change its
+     * gap by a jump. */
+    std::array<Number, n> own, beside;
+    /** OverlapSample::moved where own is smallest, length. */
+    std::array<Vector3<Number>, n> own_moved{};
+    /** The length l, the same for all faces of the surface: otherwise the closest corner could
+     * change by a jump where faces of different sizes meet. */
+    double length;
 
-    /** @param length Size h of the slave face, reference state. */
+    /** @param length Longest diagonal of the faces of the slave surface. */
     explicit OverlapIntegrals(const double length)
       : length(length)
     {
       own.fill(Number(std::numeric_limits<double>::max()));
+      beside.fill(Number(1.));
     }
 
     /** @brief Add a quadrature point; one without weight counts only for the smallest gaps. */
@@ -66,9 +75,15 @@ namespace Touchstone
         {
           for (unsigned int j = 0; j < n; ++j)
             {
-              const Number from_node = distance + length * (1. - sample.slave_shape[j]);
+              const Number away = 1. - sample.slave_shape[j];
+              if (away < beside[j])
+                beside[j] = away;
+              const Number from_node = distance + length * away;
               if (from_node < own[j])
-                own[j] = from_node;
+                {
+                  own[j]       = from_node;
+                  own_moved[j] = sample.moved;
+                }
             }
           return;
         }
@@ -82,24 +97,14 @@ namespace Touchstone
             {
               q[j][OverlapColumns::gap + d] += weight * sample.gap[d];
               q[j][OverlapColumns::normal + d] += weight * sample.normal[d];
+              q[j][OverlapColumns::moved + d] += weight * sample.moved[d];
             }
+          q[j][OverlapColumns::arch] += weight * sample.arch;
           for (unsigned int m = 0; m < n; ++m)
             q[j][OverlapColumns::master + m] += weight * sample.master_shape[m];
         }
     }
-
-  private:
-    double length;
   };
-
-  /** @brief The length h by which distances on a slave face are measured: the mean of its
-   * diagonals, which does not depend on the order of its nodes. */
-  inline double
-  face_length(const Face &slave)
-  {
-    return 0.5 * (slave.reference[0].distance(slave.reference[3]) +
-                  slave.reference[1].distance(slave.reference[2]));
-  }
 
   /** @brief The mass matrix of what several master faces cover of a slave face.
    * @param parts Their OverlapIntegrals. */

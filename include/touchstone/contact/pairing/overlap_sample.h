@@ -36,6 +36,10 @@ namespace Touchstone
     std::array<Number, n> slave_shape, master_shape;
     /** x_s - x_m, length, and the unit outward normal of the master surface at x_m. */
     Vector3<Number> gap, normal;
+    /** u_s - u_m, length. */
+    Vector3<Number> moved;
+    /** Distance of x_s from the facet over the nodes of the slave face, length. */
+    Number arch;
   };
 
   /** @brief The values at a point.

@@ -25,13 +25,16 @@ namespace Touchstone
     void
     clear();
 
-    /** @brief Add what row @p k takes of what one master face covers. */
+    /** @brief Add what row @p k takes of what one master face covers.
+     * @param face The entry of the slave face in `faces`, or null where the node of the row does
+     * not belong to the face. */
     template <unsigned int n>
     void
     add(unsigned int                       k,
         const DualBasis                   &dual,
         const Face                        &master,
-        const OverlapIntegrals<n, double> &part);
+        const OverlapIntegrals<n, double> &part,
+        FaceShare                         *face);
 
     /** @brief All faces have been added: the stencil gets what is taken from other nodes. */
     void

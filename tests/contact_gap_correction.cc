@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// The gap of an averaged row over a curved face (doc/theory.md 3.1, equations (6) and (7)): it is
+// not negative while nothing overlaps, it is that of the node where surfaces touch on a line of
+// nodes and the mean where they are pressed together, it grows with all nodes and with its own
+// most, and with all together as much as they move. Derivatives are compared with differences.
+
+#include <touchstone/contact/pairing/averaged_row.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  /** A tube of radius 1/2 over a plane, faces of size 1 on both sides of a node: means are below
+   * those of the interpolated gaps at the nodes by 1/6. */
+  constexpr double radius = 0.5, size = 1., below = 1. / (12. * radius);
+
+  const Tensor<1, dim> normal({0., 0., 1.});
+
+  /** Gaps at a node and its two neighbours. */
+  struct Gaps
+  {
+    double node, neighbour[2];
+
+    /** The smallest gap. */
+    double
+    least() const
+    {
+      double result = node;
+      for (const double other : neighbour)
+        for (unsigned int i = 0; i <= 32; ++i)
+          {
+            const double x = i / 32.;
+            result = std::min(result, (1. - x) * node + x * other - x * (1. - x) / (2. * radius));
+          }
+      return result;
+    }
+
+    double
+    mean() const
+    {
+      return node - below;
+    }
+
+    CoverSums
+    sums() const
+    {
+      CoverSums result;
+      result.area = result.kept = 1.;
+      // Not clearly apart.
+      result.least  = -1.;
+      result.own    = node;
+      result.beside = 0.;
+      result.length = 1.;
+      for (const double other : neighbour)
+        {
+          FaceShare face;
+          face.area = face.shape_area = 0.5;
+          face.gap                    = 0.5 * mean() * normal;
+          face.shape_gap              = 0.5 * (2. / 3. * node + 1. / 3. * other - below) * normal;
+          face.own                    = node;
+          face.beside                 = 0.;
+          result.faces.push_back(face);
+        }
+      return result;
+    }
+
+    double
+    row() const
+    {
+      return mean() + GapCorrection(sums(), normal, mean(), size).value;
+    }
+  };
+
+  void
+  print(const char *what, const bool holds)
+  {
+    std::cout << what << ": " << (holds ? "yes" : "no") << std::endl;
+  }
+
+  /** Whether the derivatives by all quantities are those of the value, with the face @p deciding.
+   */
+  bool
+  derivatives(CoverSums sums, double mean, const int deciding)
+  {
+    constexpr double    step = 1e-6;
+    const GapCorrection correction(sums, normal, mean, size);
+    double              error = 0.;
+    const auto          check = [&](double &x, const double derivative) {
+      const double before = x;
+      x                   = before + step;
+      const double above  = GapCorrection(sums, normal, mean, size).value;
+      x                   = before - step;
+      const double under  = GapCorrection(sums, normal, mean, size).value;
+      x                   = before;
+      error = std::max(error, std::abs(derivative - (above - under) / (2. * step)));
+    };
+    check(mean, correction.by_mean);
+    check(sums.least, correction.by_least);
+    check(sums.own, correction.by_own);
+    check(sums.beside, correction.by_beside);
+    check(sums.kept, correction.by_kept);
+    check(sums.given, correction.by_given);
+    check(sums.area, correction.by_area);
+    if (deciding < 0)
+      return error < 1e-6 && correction.face == nullptr;
+    FaceShare &face = sums.faces[deciding];
+    check(face.gap[2], correction.by_face_mean / face.area);
+    check(face.shape_gap[2], correction.by_face_positive / face.shape_area);
+    check(face.own, correction.by_face_own);
+    check(face.beside, correction.by_face_beside);
+    // The mean of the face changes with its area as well.
+    check(face.area,
+          correction.by_face_area -
+            correction.by_face_mean * face.gap[2] / (face.area * face.area));
+    return error < 1e-6 && correction.face == &face;
+  }
+} // namespace
+
+
+
+int
+main()
+{
+  std::mt19937                           random(1);
+  std::uniform_real_distribution<double> gap(-0.5, 1.), place(-0.5, 0.5);
+  constexpr double                       step = 1e-4, round_off = 1e-12;
+  bool apart = true, touching = true, between = true, own = true, others = true, together = true;
+  for (unsigned int i = 0; i < 20000; ++i)
+    {
+      const Gaps   gaps{gap(random), {gap(random), gap(random)}};
+      const double row = gaps.row();
+      const Gaps   higher{gaps.node + step, {gaps.neighbour[0], gaps.neighbour[1]}};
+      const Gaps   beside{gaps.node, {gaps.neighbour[0] + step, gaps.neighbour[1]}};
+      const Gaps   all{gaps.node + step, {gaps.neighbour[0] + step, gaps.neighbour[1] + step}};
+      between  = between && row <= gaps.node + round_off && row >= gaps.mean() - round_off;
+      own      = own && higher.row() - row >= 0.5 * step - round_off;
+      others   = others && beside.row() >= row - round_off;
+      together = together && std::abs(all.row() - row - step) < round_off;
+      apart    = apart && (gaps.least() < 0. || row >= -round_off);
+      // Undeformed and pressed by nothing; the lowest point is beside the node.
+      const double x        = place(random);
+      const auto undeformed = [&](const double at) { return (at - x) * (at - x) / (2. * radius); };
+      touching =
+        touching && Gaps{undeformed(0.), {undeformed(-1.), undeformed(1.)}}.row() >= -round_off;
+    }
+  print("no overlap, no negative gap", apart);
+  print("touching bodies: no negative gap", touching);
+  print("between the mean and the gap at the node", between);
+  print("grows with its node by half of the motion at least", own);
+  print("does not fall with its neighbours", others);
+  print("changes as much as all nodes together", together);
+  // On a line of contact; pressed flat; and so on one side, at the edge of a contact.
+  const Gaps line{0., {1., 1.}}, flat{below, {below, below}}, edge{below, {below, below + 1.}};
+  print("the gap at the node where one line of nodes touches", std::abs(line.row()) < round_off);
+  print("the mean where the surfaces are pressed together", std::abs(flat.row()) < round_off);
+  print("the mean at the edge of a contact", std::abs(edge.row()) < round_off);
+
+  // The same difference between node and mean, but made by displacements, or of surfaces that
+  // nearly fit: their arches are 250 times as high.
+  CoverSums strained = line.sums(), fitting = line.sums();
+  strained.own_moved = below * normal;
+  fitting.shape_area = 1.;
+  fitting.arch       = 250. * below;
+  print("the mean where strain makes the difference",
+        GapCorrection(strained, normal, line.mean(), size).value == 0.);
+  print("the mean between surfaces that nearly fit",
+        GapCorrection(fitting, normal, line.mean(), size).value == 0.);
+
+  const Gaps hardly{0.05, {0.8, 0.9}}, half{0.05, {0.6, 0.4}}, open{0.05, {1.3, 1.2}};
+  print("derivatives, hardly flattened", derivatives(hardly.sums(), hardly.mean(), 0));
+  print("derivatives, half flattened", derivatives(half.sums(), half.mean(), 1));
+  print("derivatives, not flattened", derivatives(open.sums(), open.mean(), -1));
+  CoverSums sums = half.sums();
+  sums.beside    = 0.2;
+  sums.own += 0.2;
+  print("derivatives, beside the cover", derivatives(sums, half.mean(), 1));
+  sums.faces[1].area = 0.01;
+  sums.faces[1].gap *= 0.02;
+  print("derivatives, a small part of a face", derivatives(sums, half.mean(), 1));
+  sums.least = 0.004;
+  sums.given = 0.3;
+  print("derivatives, apart and area given away", derivatives(sums, half.mean(), 1));
+  return 0;
+}
