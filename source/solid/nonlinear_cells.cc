@@ -93,13 +93,18 @@ namespace Touchstone
           const CellKernel &kernel = *kernels[cell->material_id()];
           set_position(cell);
           positions.insert(positions.end(), position.begin(), position.end());
+          // Only nodes of cells that have a row of this rank are known to the matrix; nothing is
+          // added for others.
+          bool any = false;
+          for (unsigned int a = 0; a < n_nodes; ++a)
+            any = any || stiffness.row(cell_dofs[fe.component_to_system_index(0, a)]) >= 0;
           for (unsigned int a = 0; a < n_nodes; ++a)
             {
               const Index first = cell_dofs[fe.component_to_system_index(0, a)];
               const int   row   = stiffness.row(first);
               dofs.push_back(first);
               rows.push_back(row);
-              nodes.push_back(stiffness.node(first));
+              nodes.push_back(any ? stiffness.node(first) : numbers::invalid_unsigned_int);
               if (row < 0)
                 continue;
               if (!known[row])
