@@ -123,7 +123,7 @@ namespace Touchstone
             {
               row.has_partner = false;
               row.gap         = 0.;
-              row.away        = search.distance(point);
+              row.away        = search.distance();
               continue;
             }
           row.has_partner = true;

@@ -263,6 +263,7 @@ namespace Touchstone
   std::optional<ContactPartner>
   Search::find(const SlavePoint &point) const
   {
+    last_distance = reach;
     if (received.faces().empty())
       return {};
     // Beyond the end of the master surface there is no contact, up to a tolerance. It is larger for
@@ -272,7 +273,8 @@ namespace Touchstone
              candidate.projection.beyond_outer <=
                (point.in_contact ? Tolerances::edge_hysteresis : 1.) * tolerance;
     };
-    const FaceProjection          found = closest(point);
+    const FaceProjection found = closest(point);
+    last_distance = found.face != nullptr ? std::sqrt(found.projection.distance_squared) : reach;
     std::optional<ContactPartner> result;
     if (on_surface(found))
       result = partner(point, found);
@@ -280,11 +282,10 @@ namespace Touchstone
       return result;
     // Nothing that is farther away than anything has moved has been passed, and back faces do not
     // count in either search.
-    const double nearest =
-      found.face != nullptr ? std::sqrt(found.projection.distance_squared) : reach;
     if (!received.smoothed() &&
-        nearest > (1. + Tolerances::touches_at_start) * received.approach(point.x - point.start) +
-                    10. * Tolerances::touches_at_start * tree().largest_diagonal())
+        last_distance >
+          (1. + Tolerances::touches_at_start) * received.approach(point.x - point.start) +
+            10. * Tolerances::touches_at_start * tree().largest_diagonal())
       return result;
     const bool penetrates = result && (point.x - result->x) * result->normal < 0.;
     // A small motion within this step cannot have carried the node through another face: the

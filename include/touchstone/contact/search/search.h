@@ -5,7 +5,6 @@
 
 #include <touchstone/contact/search/swept_search.h>
 
-#include <cmath>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -76,12 +75,12 @@ namespace Touchstone
     std::optional<ContactPartner>
     find(const SlavePoint &point) const;
 
-    /** @brief The distance of a node from the closest face, at most the reach; length. */
+    /** @brief The distance of the node of the last find() from the closest face, at most the reach;
+     * length. */
     double
-    distance(const SlavePoint &point) const
+    distance() const
     {
-      const FaceProjection found = closest(point);
-      return found.face ? std::sqrt(found.projection.distance_squared) : reach;
+      return last_distance;
     }
 
     /** @brief The faces of the last update. */
@@ -142,6 +141,8 @@ namespace Touchstone
     std::uint64_t candidates_before = 0;
     /** Of the last update, see tree(). */
     mutable std::optional<FaceTree> present_tree;
+    /** See distance(). */
+    mutable double last_distance = 0.;
     /** The boxes near a point; kept for its memory alone. */
     mutable std::vector<std::pair<double, std::size_t>> boxes;
 
