@@ -12,7 +12,8 @@ from touchstone_test import (GAP, RESIDUAL, STEPS, Run, check, checks, finish, f
                              processors, program, run, same, session, settings_options)
 
 IMPLICIT = checks / "restart.prm", {STEPS: 12, RESIDUAL: 1e-12, GAP: 1e-11}
-EXPLICIT = checks / "explicit_blocks.prm", {STEPS: 30, "Load stepping/End time": 1.5}
+# Of elastic cells, whose stable step is known at once: others find theirs on the way.
+EXPLICIT = checks / "explicit_bars.prm", {STEPS: 60}
 INTERRUPTED = 5
 
 
