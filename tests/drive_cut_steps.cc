@@ -2,7 +2,8 @@
 // A step that fails leaves no trace: a scene with friction whose every step is first tried
 // at twice its size, with too few Newton iterations, rolled back and then made in
 // halves gives what those halves give alone, for each enforcement: displacements,
-// forces, slip, friction work and status of each node.
+// forces, slip, friction work and status of each node. Rolled back, contact has the bits that it
+// had before.
 
 #include <touchstone/base/non_convergence.h>
 
@@ -19,7 +20,9 @@ namespace
     /** Attempts that failed, and numbers at the end of all steps. */
     unsigned int        failures = 0;
     std::vector<double> record;
-    unsigned int        slipping = 0, sticking = 0;
+    /** Nothing of the attempts that failed was left. */
+    bool         clean    = true;
+    unsigned int slipping = 0, sticking = 0;
 
     StepRun(const std::vector<std::string> &overrides, const bool fail)
       : Run(blocks, overrides, MPI_COMM_WORLD)
@@ -38,8 +41,9 @@ namespace
     void
     try_in_vain(const double time)
     {
-      NewtonParameters hasty   = scene.newton;
-      hasty.maximum_iterations = 2;
+      const std::vector<double> before = figures();
+      NewtonParameters          hasty  = scene.newton;
+      hasty.maximum_iterations         = 2;
       try
         {
           solve(hasty, time);
@@ -49,27 +53,41 @@ namespace
           ++failures;
         }
       problem.rollback();
+      clean = clean && figures() == before;
+    }
+
+    /** Displacements, and what contact has at each node. */
+    std::vector<double>
+    figures()
+    {
+      const auto         &u = problem.state().displacement;
+      std::vector<double> result(u.begin(), u.end());
+      for (const ContactPoint &point : contact_points(problem.state().contact, u))
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              result.push_back(point.traction[d] / 1000.);
+              result.push_back(point.slip[d]);
+            }
+          result.insert(result.end(),
+                        {point.pressure / 1000.,
+                         point.gap,
+                         point.slip_length,
+                         point.friction_work,
+                         static_cast<double>(point.status)});
+        }
+      return result;
     }
 
     /** Take note of the committed state. */
     void
     note()
     {
-      const auto &u = problem.state().displacement;
-      record.insert(record.end(), u.begin(), u.end());
-      for (const ContactPoint &point : contact_points(problem.state().contact, u))
+      const std::vector<double> now = figures();
+      record.insert(record.end(), now.begin(), now.end());
+      for (const ContactPoint &point :
+           contact_points(problem.state().contact, problem.state().displacement))
         {
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              record.push_back(point.traction[d] / 1000.);
-              record.push_back(point.slip[d]);
-            }
-          record.insert(record.end(),
-                        {point.pressure / 1000.,
-                         point.gap,
-                         point.slip_length,
-                         point.friction_work,
-                         static_cast<double>(point.status)});
           slipping += (point.status == ContactStatus::slip);
           sticking += (point.status == ContactStatus::stick);
         }
@@ -85,14 +103,16 @@ namespace
     double        difference = halves.record.size() == cut.record.size() ? 0. : 1.;
     for (std::size_t k = 0; k < std::min(halves.record.size(), cut.record.size()); ++k)
       difference = std::max(difference, std::abs(halves.record[k] - cut.record[k]));
-    difference      = Utilities::MPI::max(difference, MPI_COMM_WORLD);
-    const bool both = Utilities::MPI::sum(halves.slipping, MPI_COMM_WORLD) > 10 &&
+    difference       = Utilities::MPI::max(difference, MPI_COMM_WORLD);
+    const bool clean = Utilities::MPI::min(static_cast<int>(cut.clean), MPI_COMM_WORLD) == 1;
+    const bool both  = Utilities::MPI::sum(halves.slipping, MPI_COMM_WORLD) > 10 &&
                       Utilities::MPI::sum(halves.sticking, MPI_COMM_WORLD) > 10;
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         for (const std::string &text : overrides)
           std::cout << text.substr(text.find('=') + 1) << ", ";
-        std::cout << cut.failures << " steps failed, slip and stick: " << (both ? "yes" : "NO");
+        std::cout << cut.failures << " steps failed, slip and stick: " << (both ? "yes" : "NO")
+                  << ", rolled back to the bit: " << (clean ? "yes" : "NO");
         print_agreement(difference, 1e-9);
       }
   }
