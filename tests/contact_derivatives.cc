@@ -271,7 +271,7 @@ main(int argc, char **argv)
   check(
     "averaged, smoothed, faceted tubes that nearly fit",
     tubes,
-    {set("Master normal", "smoothed"), averaged, faceted, "Body inner/Geometry/Outer radius=0.97"},
+    {set("Master normal", "smoothed"), averaged, faceted, "Body inner/Geometry/Outer radius=0.99"},
     0.,
     0.002);
   check("smoothed, within the other body",

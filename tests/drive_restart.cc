@@ -140,6 +140,16 @@ namespace
                      pair.friction_work,
                      double(pair.active),
                      double(pair.slip)});
+    const Energies &energies = run.problem.state().time_integration.committed_energies();
+    result.insert(result.end(),
+                  {energies.kinetic,
+                   energies.plastic,
+                   energies.contact,
+                   energies.friction,
+                   energies.damping,
+                   energies.external,
+                   energies.initial,
+                   energies.largest});
     return result;
   }
 
