@@ -54,7 +54,10 @@ namespace
       }
     search.update(points);
     double       farther = 0.;
-    unsigned int found   = 0;
+    unsigned int found = 0, others = 0;
+    // The face that a point before had, to begin the search at: mostly a wrong one.
+    std::optional<std::uint64_t> guess;
+    std::size_t                  index = std::numeric_limits<std::size_t>::max();
     for (const Point<dim> &x : points)
       {
         const auto partner = search.find({x, x, down, false, {}});
@@ -70,11 +73,17 @@ namespace
         if (!partner)
           continue;
         ++found;
+        const auto guessed = search.find({x, x, down, false, guess, index});
+        others += !guessed || guessed->face->key != partner->face->key ||
+                  guessed->x.distance(partner->x) > 0.;
+        guess   = partner->face->key;
+        index   = search.exchange().index(*partner->face);
         farther = std::max(farther, x.distance(partner->x) - std::sqrt(best));
       }
     if (first())
       std::cout << name << ": " << found << " points, farther than the closest face "
-                << small(std::max(farther, 0.), 1e-9) << std::endl;
+                << small(std::max(farther, 0.), 1e-9) << ", others from a guess: " << others
+                << std::endl;
   }
 
 
