@@ -50,7 +50,7 @@ namespace
     std::vector<unsigned int> extra_of_rank;
     /** The matrices must differ. */
     bool break_it = false;
-    /** The stretch of springs for unknowns. */
+    /** Elongations of springs are dofs, in place of a displacement each. */
     bool springs = false;
     /** Of two transposed blocks one is stored. */
     bool half = true;
@@ -221,7 +221,7 @@ namespace
 
 
 
-  /** Scale the unknowns of springs, stretches, as the condensed system does. */
+  /** Scale the elongations of springs as the condensed system does. */
   void
   scale_springs(const Case &c, Dense &dense)
   {
@@ -518,9 +518,9 @@ main(int argc, char **argv)
       check(name + ", contact terms", Case(constraints, contact, false, {}));
       check(name + ", multipliers", Case(constraints, multipliers, true, {2, 1}));
       check(name + ", another matrix", Case(constraints, contact, false, {}, true));
-      // Stiff springs: their stretch is the only unknown that they act on.
-      const LinearForm               stretch = {{12, 1.}, {13, -0.5}, {22, -0.5}};
-      const std::vector<RankOneTerm> stiff   = {{{{12, 4e4}, {13, -2e4}, {22, -2e4}}, stretch}};
+      // Stiff springs: their elongation is the only dof that they act on.
+      const LinearForm               elongation = {{12, 1.}, {13, -0.5}, {22, -0.5}};
+      const std::vector<RankOneTerm> stiff = {{{{12, 4e4}, {13, -2e4}, {22, -2e4}}, elongation}};
       check(name + ", stiff spring", Case(constraints, stiff, false, {}, false, true));
       check(name + ", all blocks stored", Case(constraints, stiff, false, {}, false, true, false));
     }
