@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <malloc.h>
 #include <map>
 #include <random>
 #include <string>
@@ -57,9 +58,9 @@ namespace Touchstone
   inline dealii::Point<dim>
   crumpled(const double u, const double v)
   {
-    return {fold(7. * u + 2.1 * v) + 0.13 * fold(31. * v + 3. * u),
-            fold(6. * v - 3.3 * u) + 0.11 * fold(37. * u - 5. * v),
-            fold(4.1 * u + 4.7 * v + 0.6) + 0.12 * fold(29. * u + 23. * v)};
+    return {fold(7. * u + 2.1 * v) + 0.13 * fold(13. * v + 3. * u),
+            fold(6. * v - 3.3 * u) + 0.11 * fold(15. * u - 5. * v),
+            fold(4.1 * u + 4.7 * v + 0.6) + 0.12 * fold(9. * u + 11. * v)};
   }
 
   /** About @p n faces. 'uniform': two square sheets of equal faces, one on the other; 'sizes':
@@ -125,25 +126,10 @@ namespace Touchstone
       }
   }
 
-  /** Peak memory of this process since it was reset, in bytes; 0 where the system is not Linux. */
-  inline double
-  peak_memory(const bool reset)
-  {
-    if (reset)
-      std::ofstream("/proc/self/clear_refs") << "5";
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-      if (line.compare(0, 6, "VmHWM:") == 0)
-        return 1024. * std::atof(line.c_str() + 6);
-    return 0.;
-  }
-
   struct SearchCost
   {
     /** Nanoseconds per face of the first call, and of one after boxes have moved. */
     double first, next;
-    /** Bytes per face. */
-    double memory;
     /** Pairs per face. */
     double pairs;
   };
@@ -167,7 +153,6 @@ namespace Touchstone
     // The first call of an object, thrice; and ten further ones of the last, of which the mean
     // counts: what is renewed in some of them must be paid for.
     std::shared_ptr<BroadPhase> search;
-    const double                before = peak_memory(true);
     for (unsigned int k = 0; k < 3; ++k)
       {
         search = BroadPhaseRegistry::make(method);
@@ -180,8 +165,34 @@ namespace Touchstone
         drift(boxes, size);
         cost.next += 1e8 / n * seconds_of([&] { search->find(boxes); });
       }
-    cost.memory = (peak_memory(false) - before) / n;
     return cost;
+  }
+
+  /** A value of this process in bytes, from Linux's /proc/self/status. */
+  inline double
+  memory_status(const std::string &key)
+  {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+      if (line.compare(0, key.size(), key) == 0)
+        return 1024. * std::atof(line.c_str() + key.size());
+    return 0.;
+  }
+
+  /** Bytes per face at the peak of two calls, without the boxes of the caller. */
+  inline double
+  memory_of_search(const std::string &method, std::vector<dealii::BoundingBox<dim>> boxes)
+  {
+    // What is freed goes back to the system.
+    mallopt(M_MMAP_THRESHOLD, 1 << 16);
+    malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5";
+    const double before = memory_status("VmRSS:");
+    const auto   search = BroadPhaseRegistry::make(method);
+    search->find(boxes);
+    drift(boxes, boxes[0].side_length(0));
+    search->find(boxes);
+    return (memory_status("VmHWM:") - before) / boxes.size();
   }
 
   /** @param argv Numbers of faces from the second on; 5 to 320 thousand if there are none. */
@@ -193,14 +204,8 @@ namespace Touchstone
       numbers.push_back(std::lround(std::atof(argv[a])));
     if (numbers.empty())
       numbers = {5000, 20000, 80000, 320000};
-    std::printf("%-9s %-20s %8s %7s %8s %8s %8s\n",
-                "scene",
-                "method",
-                "faces",
-                "pairs",
-                "first ns",
-                "next ns",
-                "bytes");
+    std::printf(
+      "%-9s %-20s %8s %7s %8s %8s\n", "scene", "method", "faces", "pairs", "first ns", "next ns");
     for (const std::string kind : {"uniform", "sizes", "crumpled"})
       for (const std::string &method : BroadPhaseRegistry::names())
         {
@@ -212,14 +217,13 @@ namespace Touchstone
               last = measure_search(method, scene_of_costs(kind, n));
               if (n == numbers[0])
                 smallest = last;
-              std::printf("%-9s %-20s %8u %7.1f %8.0f %8.0f %8.0f\n",
+              std::printf("%-9s %-20s %8u %7.1f %8.0f %8.0f\n",
                           kind.c_str(),
                           method.c_str(),
                           n,
                           last.pairs,
                           last.first,
-                          last.next,
-                          last.memory);
+                          last.next);
               std::fflush(stdout);
             }
           if (numbers.size() > 1)
@@ -232,6 +236,14 @@ namespace Touchstone
                           1. + std::log(last.next / smallest.next) / by);
             }
         }
+    std::printf("bytes per face, %u faces\n", numbers.back());
+    for (const std::string kind : {"uniform", "sizes", "crumpled"})
+      for (const std::string &method : BroadPhaseRegistry::names())
+        if (method != "every pair")
+          std::printf("%-9s %-20s %8.0f\n",
+                      kind.c_str(),
+                      method.c_str(),
+                      memory_of_search(method, scene_of_costs(kind, numbers.back())));
   }
 } // namespace Touchstone
 

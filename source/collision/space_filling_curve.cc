@@ -24,7 +24,14 @@ namespace Touchstone
       next(const std::uint64_t code, std::uint64_t first, std::uint64_t last)
       {
         std::uint64_t result = std::numeric_limits<std::uint64_t>::max();
-        for (unsigned int bit = 3 * SearchGrid::n_bits; bit-- > 0;)
+        // Above the first bit in which the three differ nothing happens.
+        unsigned int end = 0;
+        for (std::uint64_t differing = (code ^ first) | (code ^ last); differing != 0;)
+          {
+            differing >>= 3;
+            end += 3;
+          }
+        for (unsigned int bit = end; bit-- > 0;)
           {
             const std::uint64_t here = std::uint64_t(1) << bit;
             // Lower bits of the same direction.
