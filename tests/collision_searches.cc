@@ -160,7 +160,7 @@ namespace
       for (const std::string &kind : kinds)
         {
           // Small numbers, none and one among them; two rounds in which hierarchies have levels.
-          const double most = round < 6 ? 2.5 * round : round < 18 ? 100. : 400.;
+          const double most = round < 6 ? 2.5 * round : round < 18 ? 80. : 400.;
           Boxes        a    = scene(kind, std::floor(random(0., most)), random),
                 b           = scene(kind, std::floor(random(0., most)), random);
           comparison.compare(a, b, kind);

@@ -20,7 +20,8 @@ namespace Touchstone
       std::vector<FlatBox> last;
       unsigned int         n_first = 0;
 
-      /** @brief Whether at least 7 of 8 boxes have moved by less than a twentieth of their size. */
+      /** @brief Whether at least 7 of 8 boxes have moved by less than a fifteenth of their size:
+       * a third of the room that tracking gives them. */
       bool
       moved_little(const SearchBoxes &boxes) const
       {
@@ -28,7 +29,7 @@ namespace Touchstone
           return false;
         unsigned int n_far = 0;
         for (unsigned int k = 0; k < boxes.n(); ++k)
-          n_far += !last[k].grown(0.05 * last[k].size()).contains(boxes.boxes[k]);
+          n_far += !last[k].grown(0.07 * last[k].size()).contains(boxes.boxes[k]);
         return n_far <= boxes.n() / 8;
       }
 

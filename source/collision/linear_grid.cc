@@ -10,25 +10,27 @@ namespace Touchstone
     /**
      * @brief Grids with linked lists and no sort (Munjiza and Andrews 1998), one for each size.
      *
-     * Each level has cells of twice the size of the one below. A box belongs to the lowest level
-     * on which it is in at most two cells in each direction. Levels are filled from the largest
-     * down, and a box is compared with those that are in its cells of its own and of larger
+     * Each level has cells of four times the size of the one below. A box belongs to the lowest
+     * level on which it is in at most two cells in each direction. Levels are filled from the
+     * largest down, and a box is compared with those that are in its cells of its own and of larger
      * levels; so small boxes are not in the cells of large ones, and the cost is linear whatever
      * the sizes are.
      */
     class LinearGrid : public BroadPhase
     {
-      static constexpr unsigned int n_levels = SearchGrid::n_bits + 1, none = -1;
+      static constexpr unsigned int spacing = 2, n_levels = SearchGrid::n_bits + spacing, none = -1;
 
       struct Entry
       {
         std::uint64_t cell;
-        unsigned int  level, box, next;
+        unsigned int  box, next;
       };
       std::vector<GridCell>     lower, upper;
       std::vector<unsigned int> level_of, order, heads;
       std::vector<Entry>        entries;
-      unsigned int              n_hash_bits = 0;
+      /** Of each level: where its part of the hash table begins, and 64 minus its bits. */
+      std::array<std::size_t, n_levels>  begin;
+      std::array<unsigned int, n_levels> shift;
 
       static std::uint64_t
       number(const std::uint64_t x, const std::uint64_t y, const std::uint64_t z)
@@ -39,7 +41,7 @@ namespace Touchstone
       unsigned int &
       head(const std::uint64_t cell, const unsigned int level)
       {
-        return heads[(cell + level) * 0x9e3779b97f4a7c15ull >> (64 - n_hash_bits)];
+        return heads[begin[level] + (cell * 0x9e3779b97f4a7c15ull >> shift[level])];
       }
 
       /** @brief Call @p action with the cells of a box on a level, eight at most if it is its own
@@ -72,13 +74,24 @@ namespace Touchstone
             unsigned int level = 0;
             for (unsigned int d = 0; d < dim; ++d)
               while ((upper[k][d] >> level) - (lower[k][d] >> level) > 1)
-                ++level;
+                level += spacing;
             level_of[k] = level;
             ++count[n_levels - level];
           }
+        std::size_t n_heads = 0;
         for (unsigned int level = n_levels; level-- > 0;)
           if (count[n_levels - level] > 0)
-            occupied.push_back(level);
+            {
+              // Tables of large boxes are small and stay in the cache.
+              unsigned int n_bits = 2;
+              while ((std::size_t(1) << n_bits) < 4 * std::size_t(count[n_levels - level]))
+                ++n_bits;
+              begin[level] = n_heads;
+              shift[level] = 64 - n_bits;
+              n_heads += std::size_t(1) << n_bits;
+              occupied.push_back(level);
+            }
+        heads.assign(n_heads, none);
         for (unsigned int l = 1; l <= n_levels; ++l)
           count[l] += count[l - 1];
         for (unsigned int k = 0; k < boxes.n(); ++k)
@@ -96,8 +109,7 @@ namespace Touchstone
         for (unsigned int e = head(cell, level); e != none; e = entries[e].next)
           {
             const unsigned int j = entries[e].box;
-            if (entries[e].cell != cell || entries[e].level != level ||
-                !boxes.boxes[i].meets(boxes.boxes[j]))
+            if (entries[e].cell != cell || !boxes.boxes[i].meets(boxes.boxes[j]))
               continue;
             // Of the cells that both are in, the first one counts.
             const GridCell &a = lower[i], &b = lower[j];
@@ -115,10 +127,6 @@ namespace Touchstone
         if (boxes.n() == 0)
           return;
         const std::vector<unsigned int> occupied = choose_levels(boxes);
-        n_hash_bits                              = 4;
-        while ((std::size_t(1) << n_hash_bits) < 2 * std::size_t(boxes.n()))
-          ++n_hash_bits;
-        heads.assign(std::size_t(1) << n_hash_bits, none);
         entries.clear();
         for (const unsigned int i : order)
           {
@@ -129,7 +137,7 @@ namespace Touchstone
                 });
             for_cells(i, level_of[i], [&](const std::uint64_t cell) {
               unsigned int &first = head(cell, level_of[i]);
-              entries.push_back({cell, level_of[i], i, first});
+              entries.push_back({cell, i, first});
               first = entries.size() - 1;
             });
           }
