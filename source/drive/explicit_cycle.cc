@@ -32,12 +32,24 @@ namespace Touchstone
 
 
   void
-  ExplicitStep::cycle(const double length)
+  ExplicitStep::cycle(const double length, const unsigned int halved)
   {
+    constexpr unsigned int most_halvings = 12;
     kick(length);
     map.update_ghosts(now.v);
-    if (impulses)
-      press(length);
+    if (impulses && !press(length))
+      {
+        if (halved == most_halvings)
+          throw ExplicitFailure(impulses->general_contact()->failure(now.time));
+        now.v       = v_before;
+        now.support = support_before;
+        cycle(0.5 * length, halved + 1);
+        cycle(0.5 * length, halved + 1);
+        return;
+      }
+    ++counts.cycles;
+    counts.smallest_step = std::min(counts.smallest_step, length);
+    add_support_work(length);
     for (std::size_t k = 0; k < now.support.size(); ++k)
       support_impulse[k] += 0.5 * (now.length + length) * now.support[k];
     for (unsigned int i = 0; i < map.n_local(); ++i)
@@ -59,10 +71,9 @@ namespace Touchstone
     // Central differences with cycles of different length: the velocities are those in the middle.
     const double between = 0.5 * (now.length + length);
     v_before             = now.v;
+    support_before       = now.support;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
-      {
-        now.v[i] += between / cells.masses()[i] * now.force(i);
-      }
+      now.v[i] += between / cells.masses()[i] * now.force(i);
     // Damping with the mean of the velocities before and after, which is stable for any factor.
     for (unsigned int i = 0; i < damping.size(); ++i)
       {
@@ -79,31 +90,46 @@ namespace Touchstone
         // As an impulse of contact it acts together with the damping, see damped_mass().
         const unsigned int i = supports.nodes()[k];
         now.support[k]       = damped_mass(i, between) / between * (now.v[i] - now.support[k]);
+      }
+  }
+
+
+
+  // Supports fix the motion along the directions in which they act: contact does not change it.
+  void
+  ExplicitStep::add_support_work(const double length)
+  {
+    const double between = 0.5 * (now.length + length);
+    for (std::size_t k = 0; k < now.support.size(); ++k)
+      {
+        const unsigned int i = supports.nodes()[k];
         work[i].external += 0.5 * between * (now.support[k] * (v_before[i] + now.v[i]));
       }
   }
 
 
 
-  void
+  bool
   ExplicitStep::press(const double length)
   {
     const double between = 0.5 * (now.length + length);
     if (!damping.empty() && between != mobile_for)
       set_mobilities(between);
     const auto began = std::chrono::steady_clock::now();
-    impulses->project(now.u, v_before, now.v, now.time, length, between);
+    const bool possible = impulses->project(now.u, v_before, now.v, now.time, length, between);
     counts.contact_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+    if (!possible)
+      return false;
     // What contact exerts along supported directions the supports take.
     impulses->for_each_impulse([&](const unsigned int i, const Tensor<1, dim> &impulse) {
       if (!supports.supported(i))
         return;
       const Tensor<1, dim> taken = impulse - supports.free_part(i, impulse);
       now.support[supports.place(i)] -= taken / between;
-      work[i].external -= 0.5 * (taken * (v_before[i] + now.v[i]));
     });
     map.update_ghosts(now.v);
+    return true;
   }
 
 

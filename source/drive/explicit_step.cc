@@ -52,8 +52,17 @@ namespace Touchstone
                        parameters.stable_step.word(),
                        "is for laws without history: unloading is stiffer than what it could find",
                        "set it to 'cells'");
-    if (!scene.pairs.empty())
-      impulses = std::make_unique<ImpulseContact>(contact, scene.contact, map, scene.bodies);
+    if (scene.has_contact())
+      {
+        std::unique_ptr<GeneralContact> general;
+        if (!scene.general.empty())
+          general = std::make_unique<GeneralContact>(scene.general.front(),
+                                                     general_contact_input(scene, forest),
+                                                     solid,
+                                                     map);
+        impulses = std::make_unique<ImpulseContact>(
+          contact, scene.contact, map, scene.bodies, std::move(general));
+      }
     for (NodeField *field : {&now.u, &now.v, &now.internal, &now.viscous, &v_before})
       field->resize(map.n_local());
     now.support.resize(supports.nodes().size());
@@ -148,6 +157,13 @@ namespace Touchstone
                          "take smaller initial displacements, or another mesh or law");
       }
     boundary_conditions.all_formulas().check(solid.communicator);
+    if (impulses && impulses->general_contact() != nullptr)
+      {
+        std::vector<std::string> bodies;
+        for (const BodyParameters &body : scene.bodies)
+          bodies.push_back(body.name);
+        impulses->general_contact()->check_start(now.u, bodies);
+      }
     // The velocity half a cycle before time 0, so that all cycles are alike.
     const NodeField at_start = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
@@ -194,8 +210,8 @@ namespace Touchstone
             left   = plan_cycles(t);
             length = (t - now.time) / left;
           }
-        counts.smallest_step = done == 0 ? length : std::min(counts.smallest_step, length);
-        ++counts.cycles;
+        if (done == 0)
+          counts.smallest_step = length;
         cycle(length);
         if (left == 1)
           now.time = t;

@@ -117,7 +117,7 @@ namespace Touchstone
                         cycles->cell,
                         1e9 * cycles->seconds * Utilities::MPI::n_mpi_processes(communicator) /
                           (double(summary.cells) * cycles->cycles),
-                        scene.pairs.empty() || cycles->seconds == 0.
+                        !scene.has_contact() || cycles->seconds == 0.
                           ? 0.
                           : cycles->contact_seconds / cycles->seconds);
     else

@@ -118,7 +118,7 @@ namespace Touchstone
             record.energies["viscous"]   = energies.viscous;
             record.cycles.emplace(cycles->cycles, cycles->smallest_step);
             summary.cycles += cycles->cycles;
-            if (!scene.pairs.empty())
+            if (scene.has_contact())
               {
                 record.contact_work = cycles->contact;
                 summary.contact_work.add(cycles->contact);

@@ -30,7 +30,8 @@ namespace Touchstone
   ImpulseContact::ImpulseContact(Contact                           &contact,
                                  const ContactParameters           &parameters,
                                  const NodeMap                     &nodes,
-                                 const std::vector<BodyParameters> &bodies)
+                                 const std::vector<BodyParameters> &bodies,
+                                 std::unique_ptr<GeneralContact>    general)
     : contact(contact)
     , rule(rule_of(contact.enforcement()))
     , parameters(parameters)
@@ -39,6 +40,7 @@ namespace Touchstone
     , motion(contact, nodes)
     , surfaces(contact, nodes)
     , displacement(contact.solid_model().owned, contact.communicator())
+    , general(std::move(general))
     , history(contact.rows().size())
     , inverse_masses(nodes.n_owned())
   {
@@ -75,11 +77,14 @@ namespace Touchstone
     solver.nodes.forward(u_nodes);
     solver.nodes.forward(v_before);
     solver.nodes.forward(solver.velocity);
+    for (unsigned int node = 0; node < solver.nodes.n(); ++node)
+      x_nodes[node] = reference[node] + u_nodes[node];
+    v_free = solver.velocity;
   }
 
 
 
-  void
+  bool
   ImpulseContact::project(const NodeField &u,
                           const NodeField &before,
                           NodeField       &v,
@@ -94,16 +99,30 @@ namespace Touchstone
     if (!start_interval(u, time))
       renew_if_moved(u, before, v, time, step);
     last_step = step;
-    if (all_asleep(time, step))
+    if (general)
+      {
+        general->begin_cycle(u, v, step);
+        if (general->must_lay_out())
+          lay_out(u);
+      }
+    if (all_asleep(time, step) && !(general && general->any()))
       {
         ++counted.cycles;
         end_of_action();
-        return;
+        return true;
       }
     import(u, before, v);
     set_geometry(time, step);
-    const ImpulseCounts counts =
+    ImpulseCounts counts =
       rule.springs() ? push(time, step, acting > 0. ? acting : step) : solve(time, step);
+    if (general && !keep_apart(u, before, v, time, step, counts))
+      {
+        ++counted.halvings;
+        return false;
+      }
+    if (counts.rounds > 0 && !rule.springs())
+      check_feasible(step, counts.converged || rule.method == ImpulseRule::Method::one_sweep);
+    keep_drives();
     ++counted.cycles;
     counted.sweeps += counts.sweeps;
     counted.rounds += counts.rounds;
@@ -119,7 +138,7 @@ namespace Touchstone
               all_asleep_until = std::min(all_asleep_until, until);
             all_asleep_until = Utilities::MPI::min(all_asleep_until, nodes.communicator());
           }
-        return;
+        return true;
       }
     acted            = true;
     all_asleep_until = 0.;
@@ -128,6 +147,62 @@ namespace Touchstone
     keep_results(step);
     if (rule.springs())
       keep_springs(step);
+    return true;
+  }
+
+
+
+  // Rows that keep surfaces from crossing change the motion of others: until none crosses.
+  bool
+  ImpulseContact::keep_apart(const NodeField &u,
+                             const NodeField &before,
+                             NodeField       &v,
+                             const double     time,
+                             const double     step,
+                             ImpulseCounts   &counts)
+  {
+    constexpr unsigned int most_rounds = 10;
+    for (unsigned int round = 1; general->any(); ++round)
+      {
+        for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+          v[local[node]] = solver.velocity[node];
+        const auto found = general->find_crossings(u, v, step);
+        if (found == GeneralContact::Crossings::none)
+          {
+            counted.crossing_rounds += round;
+            counted.most_crossing_rounds =
+              std::max<std::uint64_t>(counted.most_crossing_rounds, round);
+            counted.many_crossing_rounds += round > 5;
+            break;
+          }
+        for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+          v[local[node]] = v_free[node];
+        if (found == GeneralContact::Crossings::too_far || round == most_rounds)
+          return false;
+        if (general->must_lay_out())
+          lay_out(u);
+        import(u, before, v);
+        set_geometry(time, step);
+        const ImpulseCounts more = solve(time, step);
+        counts.sweeps += more.sweeps;
+        counts.rounds += more.rounds;
+        counts.converged = more.converged;
+      }
+    return true;
+  }
+
+
+
+  void
+  ImpulseContact::keep_drives()
+  {
+    for (const std::size_t k : solver.near)
+      if (k < kept.size() && solver.rows[k].n_nodes == 1) // of an obstacle
+        {
+          RowHistory &h = history[kept[k].index];
+          h.drive       = solver.rows[k].drive;
+          h.driven      = true;
+        }
   }
 
 
@@ -143,6 +218,8 @@ namespace Touchstone
           row.energy.ahead  = 0.;
           row.energy.stored = 0.;
         }
+    if (acted && general)
+      general->forget();
     acted = false;
   }
 
@@ -170,8 +247,6 @@ namespace Touchstone
     const bool          one_sweep = rule.method == ImpulseRule::Method::one_sweep;
     const ImpulseCounts counts    = solver.solve(control(time, step));
     counted.unconverged += !counts.converged && !one_sweep;
-    if (counts.rounds > 0)
-      check_feasible(step, counts.converged || one_sweep);
     return counts;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/explicit/impulse_contact.h>
+#include <touchstone/explicit/row_geometry.h>
 
 #include <algorithm>
 
@@ -12,17 +13,6 @@ namespace Touchstone
 
   namespace
   {
-    /** An overlap that contact has not caused, of bodies as they are placed or after a change of
-     * partners, is undone by at most this part of a face in a cycle: the wave that this sends has
-     * a strain of as much. */
-    constexpr double undone = 1e-3;
-
-    /** And no more than this part of it: what a change of weights or normals makes of a gap that
-     * was closed is undone over many cycles, so that the work is no matter of one of them. */
-    constexpr double undone_of_overlap = 0.05;
-
-
-
     /** The directions that friction acts along: tangential, and in planes of symmetry
      * (doc/theory.md 6). */
     Tensor<2, dim>
@@ -63,6 +53,8 @@ namespace Touchstone
             row.slip_length = row.friction->history.slip_length + h.path;
           }
       }
+    if (general)
+      general->set_geometry(solver, kept.size(), x_nodes, v_before, step);
   }
 
 
@@ -76,12 +68,6 @@ namespace Touchstone
 
 
 
-  // The gap that the end of the cycle may have, from that at its start: zero, or what is left of an
-  // overlap. As far as the sides were closing, along the present normal, undoing it takes no work:
-  // an impulse does work on the mean of the velocities before and after. So a node that slides in a
-  // hollow comes back to its surface for nothing.
-  // Where sides move apart by more than the gap has grown, as its normal has turned, the gap may
-  // end as far within as takes no work, and comes back in this way.
   double
   ImpulseContact::gap_allowed(const ImpulseRow &row,
                               const ContactRow &of,
@@ -89,10 +75,20 @@ namespace Touchstone
                               const double      step) const
   {
     const double closing = -step * (velocity_before(row, history[of.index]) * row.normal);
-    if (gap >= 0.)
-      return std::min(0., gap + std::min(0., closing));
-    const double pressed = std::min(undone * of.size, -undone_of_overlap * gap);
-    return std::min(0., gap + std::max(pressed, closing));
+    return allowed_gap(gap, closing, of.size);
+  }
+
+
+
+  // With small sliding partners stay as they were in the reference state, and the line from the
+  // contact point to the slave node grows with the sliding: such a lever would turn the rate of the
+  // gap into something else. These pairs keep linear momentum alone, as in implicit runs.
+  void
+  ImpulseContact::set_lever(ImpulseRow &row, const ContactRow &of)
+  {
+    row.levered = false;
+    if (!contact.pair(of).small_sliding() || row.tied)
+      Touchstone::set_lever(solver, row, x_nodes, of.normal, of.size);
   }
 
 

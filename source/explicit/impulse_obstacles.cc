@@ -74,8 +74,6 @@ namespace Touchstone
     row.drive                  = motion_of_obstacle(pair, time, step) / step;
     RowHistory &h              = history[of.index];
     h.drive_before             = h.driven ? h.drive : row.drive;
-    h.drive                    = row.drive;
-    h.driven                   = true;
     row.normal                 = here->normal;
     if (row.tied)
       {

@@ -21,6 +21,8 @@ namespace Touchstone
     unsigned int     pair = contact.n_pairs();
     for (const std::size_t k : solver.near)
       {
+        if (k >= kept.size())
+          break; // of general contact, whose check of crossings follows
         const ImpulseRow &row  = solver.rows[k];
         const ContactRow &from = contact.rows()[kept[k].index];
         const double      gap  = step * ((row.velocity + row.allowed) * row.normal);
@@ -62,6 +64,8 @@ namespace Touchstone
     ExactSum given;
     for (const std::size_t k : solver.near)
       {
+        if (k >= kept.size())
+          break;
         const ImpulseRow &row = solver.rows[k];
         RowHistory       &h   = history[kept[k].index];
         h.impulse             = row.impulse;
@@ -82,6 +86,8 @@ namespace Touchstone
         h.friction_work -= p_t * slip / step;
         h.slipped = h.slipped || row.sliding;
       }
+    if (general)
+      general->keep_results(solver, kept.size(), v_before, given);
     if (!rule.springs())
       counted.most_given = std::max(counted.most_given, given.value(nodes.communicator()));
   }
@@ -100,11 +106,35 @@ namespace Touchstone
         ahead.add(row.energy.ahead);
         stored.add(row.energy.stored);
       }
+    if (general)
+      {
+        normal.add(general->energy().normal);
+        friction.add(general->energy().friction);
+        obstacles.add(general->energy().obstacles);
+      }
     return {normal.value(nodes.communicator()),
             friction.value(nodes.communicator()),
             obstacles.value(nodes.communicator()),
             ahead.value(nodes.communicator()),
             stored.value(nodes.communicator())};
+  }
+
+
+
+  ImpulseWork
+  ImpulseContact::work() const
+  {
+    ImpulseWork result = counted;
+    if (general)
+      {
+        const CandidateCounts &counts = general->counts();
+        result.candidates             = counts.candidates;
+        result.searches               = counts.searches;
+        result.faces_sent             = counts.faces_sent;
+        result.messages               = counts.messages;
+        result.imbalance              = counts.imbalance;
+      }
+    return result;
   }
 
 

@@ -80,15 +80,11 @@ namespace Touchstone
   void
   ImpulseContact::make_rows(const NodeField &u)
   {
-    nodes.to_vector(u, displacement);
-    std::vector<std::pair<Index, RowKey>> slots;
-    solver.rows.clear();
     kept.clear();
     kept_rows.clear();
     for (const ContactRow &from : contact.rows())
       if (from.has_partner)
         {
-          add_row(from, slots);
           kept.push_back({from.index,
                           from.gap,
                           from.gap_vector,
@@ -98,12 +94,11 @@ namespace Touchstone
         }
       else
         lose_partner(from);
-    solver.nodes.reinit(contact.solid_model().owned, slots);
-    solver.resize();
-    set_nodes();
+    made_at_nodes   = u;
     largest_weights = 1.;
+    lay_out(u);
     for (std::size_t k = 0; k < kept.size(); ++k)
-      set_weights(k);
+      take_out_motion(k);
     if (surfaces.needed())
       largest_weights = Utilities::MPI::max(largest_weights, nodes.communicator());
     asleep_until.assign(kept.size(), 0.);
@@ -112,9 +107,24 @@ namespace Touchstone
     fresh            = true;
     renew_rows       = false;
     motion.restart(u, kept_rows);
-    made_at = u_nodes;
-    moved.resize(u_nodes.size());
-    v_before.resize(u_nodes.size());
+  }
+
+
+
+  void
+  ImpulseContact::lay_out(const NodeField &u)
+  {
+    std::vector<std::pair<Index, RowKey>> slots;
+    solver.rows.clear();
+    for (const KeptRow &row : kept)
+      add_row(contact.rows()[row.index], slots);
+    if (general)
+      general->lay_out(solver.rows, slots);
+    solver.nodes.reinit(contact.solid_model().owned, slots);
+    solver.resize();
+    set_nodes(u);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      set_weights(k);
   }
 
 
@@ -158,21 +168,21 @@ namespace Touchstone
 
 
   void
-  ImpulseContact::set_nodes()
+  ImpulseContact::set_nodes(const NodeField &u)
   {
     const RowNodes &on = solver.nodes;
     local.resize(on.n_owned());
-    reference.resize(on.n());
-    u_nodes.resize(on.n());
+    for (auto *field : {&reference, &u_nodes, &x_nodes, &made_at, &moved, &v_before})
+      field->resize(on.n());
     std::vector<std::uint64_t> keys(on.n());
     for (unsigned int node = 0; node < on.n_owned(); ++node)
       {
         local[node]           = nodes.local(on.dof(node));
         keys[node]            = nodes.key(local[node]);
         reference[node]       = nodes.positions()[local[node]];
+        u_nodes[node]         = u[local[node]];
+        made_at[node]         = made_at_nodes[local[node]];
         solver.mobility[node] = inverse_masses[local[node]];
-        for (unsigned int d = 0; d < dim; ++d)
-          u_nodes[node][d] = displacement(on.dof(node) + d);
       }
     if (rule.method == ImpulseRule::Method::bulk_springs)
       {
@@ -184,6 +194,7 @@ namespace Touchstone
     on.forward(keys);
     on.forward(reference);
     on.forward(u_nodes);
+    on.forward(made_at);
     on.forward(solver.mobility);
     solver.sort_slots(keys);
   }
@@ -207,9 +218,18 @@ namespace Touchstone
         sum -= solver.weights[solver.slot(row, i)];
     for (std::size_t of_master = row.first + 1; of_master < s; ++of_master)
       solver.weights[of_master] /= sum;
-    // The gaps that the row would have at zero displacements.
-    Tensor<1, dim> by_motion;
-    double         absolute = 0.;
+  }
+
+
+
+  // The gaps that the row would have at zero displacements.
+  void
+  ImpulseContact::take_out_motion(const std::size_t k)
+  {
+    const ContactRow &from = contact.rows()[kept[k].index];
+    const ImpulseRow &row  = solver.rows[k];
+    Tensor<1, dim>    by_motion;
+    double            absolute = 0.;
     for (unsigned int i = 0; i < row.n_nodes; ++i)
       {
         const std::size_t slot = solver.slot(row, i);

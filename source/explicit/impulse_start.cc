@@ -15,6 +15,8 @@ namespace Touchstone
   {
     renew_rows = true;
     counted    = ImpulseWork();
+    if (general)
+      general->begin_interval();
     fastest    = 0.;
     // Everything from the committed state, which is what a checkpoint has: sweeps begin from no
     // impulses.
@@ -55,21 +57,28 @@ namespace Touchstone
   {
     if (rule.springs())
       return;
+    if (general)
+      {
+        general->begin_interval();
+        general->begin_cycle(u, v, step, /*only_touching=*/true);
+      }
     renew(u, time);
     if (surfaces.needed())
       surfaces.measure(start, v, speeds_before, speeds);
     import(u, start, v);
     set_geometry(time, step);
-    for (std::size_t k = 0; k < kept.size(); ++k)
+    for (const std::size_t k : solver.near)
       {
         ImpulseRow          &row = solver.rows[k];
         const Tensor<1, dim> w   = solver.relative_velocity(row, v_before);
+        // Rows of general contact touch.
+        const double gap = k < kept.size() ? kept[k].at_start : 0.;
         row.friction             = nullptr; // made anew with the first cycle
         row.drive *= -1.;
         row.allowed =
           row.tied
             ? w
-            : (std::max(0., kept[k].at_start) / step + std::max(0., w * row.normal)) * row.normal;
+            : (std::max(0., gap) / step + std::max(0., w * row.normal)) * row.normal;
       }
     for (Tensor<1, dim> &velocity : solver.velocity)
       velocity *= -1.;

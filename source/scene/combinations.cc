@@ -264,7 +264,22 @@ namespace Touchstone
       const ImpulseRule *const rule     = enforcement->impulse_rule();
       const bool               diverges = in_cycles && rule != nullptr &&
                             rule->method == ImpulseRule::Method::augmentation && rule->factor >= 2.;
-      return {{in_cycles ? rule == nullptr : !enforcement->solves_systems(),
+      return {{!in_cycles && !scene.general.empty(),
+               "",
+               "Contact pairs",
+               "all",
+               "is for explicit dynamics, but 'Time integration/Scheme' is '" +
+                 scene.time_integration.scheme.word() + "'",
+               "name a pair with a slave and a master body, or set the scheme to "
+               "'central_differences'"},
+              {!scene.general.empty() && rule != nullptr &&
+                 rule->method != ImpulseRule::Method::projection,
+               "Contact",
+               "Enforcement",
+               contact.enforcement.name,
+               "leaves surfaces that cross, which general contact does not allow",
+               "set it to 'automatic', or give each contact pair a master body or an obstacle"},
+              {in_cycles ? rule == nullptr : !enforcement->solves_systems(),
                "Contact",
                "Enforcement",
                contact.enforcement.name,

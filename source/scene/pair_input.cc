@@ -43,4 +43,39 @@ namespace Touchstone
       result.push_back(pair_input(scene, forest, solid, p));
     return result;
   }
+
+
+
+  ImpactSurfaceInput
+  general_contact_input(const Scene &scene, const Forest &forest)
+  {
+    const GeneralContactParameters &general = scene.general.front();
+    ImpactSurfaceInput              input;
+    input.bodies.resize(scene.bodies.size());
+    for (unsigned int b = 0; b < scene.bodies.size(); ++b)
+      {
+        const BodyParameters &body = scene.bodies[b];
+        if (!general.all_bodies() &&
+            std::find(general.bodies.begin(), general.bodies.end(), body.name) ==
+              general.bodies.end())
+          continue;
+        ImpactSurfaceInput::Boundaries &of = input.bodies[b];
+        of.all_but                         = general.all_boundaries();
+        // What lies beyond a plane of symmetry is the mirrored half of the body.
+        of.ids = of.all_but
+                   ? forest.boundary_ids(b, body.symmetry, body.section(), "Symmetry")
+                   : forest.boundary_ids(b, general.boundaries, general.section(), "Slave boundaries");
+      }
+    for (const ContactPairParameters &pair : scene.pairs)
+      if (pair.obstacle.empty())
+        input.declared.emplace_back(forest.boundary_ids(scene.body_index(pair.slave_body),
+                                                        pair.slave_boundaries,
+                                                        pair.section(),
+                                                        "Slave boundaries"),
+                                    forest.boundary_ids(scene.body_index(pair.master_body),
+                                                        pair.master_boundaries,
+                                                        pair.section(),
+                                                        "Master boundaries"));
+    return input;
+  }
 } // namespace Touchstone

@@ -111,11 +111,27 @@ namespace Touchstone
         obstacles.emplace_back();
         obstacles.back().name = name;
       }
-    for (const std::string &name : names_of_list(text, "", "Contact pairs", "Contact pair "))
+    // "all" needs no subsection: everything touches everything without friction.
+    if (text.value("", "Contact pairs", "") == "all" &&
+        text.sections().count("Contact pair all") == 0)
       {
-        pairs.emplace_back();
-        pairs.back().name = name;
+        general.emplace_back();
+        general.back().name = "all";
+        return;
       }
+    for (const std::string &name : names_of_list(text, "", "Contact pairs", "Contact pair "))
+      if (const std::string section = "Contact pair " + name;
+          text.value("Time integration", "Scheme", "") == "central_differences" &&
+          !text.is_set(section, "Master body") && !text.is_set(section, "Obstacle"))
+        {
+          general.emplace_back();
+          general.back().name = name;
+        }
+      else
+        {
+          pairs.emplace_back();
+          pairs.back().name = name;
+        }
   }
 
 
@@ -170,6 +186,8 @@ namespace Touchstone
       declare_choices_in(obstacle.section(), obstacle);
     for (ContactPairParameters &pair : pairs)
       declare_choices_in(pair.section(), pair);
+    for (GeneralContactParameters &one : general)
+      declare_choices_in(one.section(), one);
     declare_choices_in("Contact", contact);
     declare_in("Discretisation", discretisation);
     declare_in("Refinement", refinement);
@@ -292,8 +310,8 @@ namespace Touchstone
   bool
   Scene::has_friction() const
   {
-    return std::any_of(pairs.begin(), pairs.end(), [](const ContactPairParameters &pair) {
-      return pair.friction != nullptr;
-    });
+    const auto has_law = [](const auto &pair) { return pair.friction != nullptr; };
+    return std::any_of(pairs.begin(), pairs.end(), has_law) ||
+           std::any_of(general.begin(), general.end(), has_law);
   }
 } // namespace Touchstone

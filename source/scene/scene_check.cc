@@ -59,6 +59,8 @@ namespace Touchstone
       obstacle.check(obstacle.section());
     for (const ContactPairParameters &pair : pairs)
       check_pair(pair);
+    for (const GeneralContactParameters &one : general)
+      check_general(one);
     contact.check("Contact");
     refinement.check("Refinement");
     load_stepping.check("Load stepping");
@@ -126,6 +128,26 @@ namespace Touchstone
                                       std::make_pair("Motion y", &obstacle.motion_y),
                                       std::make_pair("Motion z", &obstacle.motion_z)})
         check(obstacle.section(), key, *text);
+  }
+
+
+
+  void
+  Scene::check_general(const GeneralContactParameters &one) const
+  {
+    const std::string section = one.section();
+    if (general.size() > 1)
+      throw InputError("",
+                       "Contact pairs",
+                       general[1].name,
+                       "as '" + general[0].name +
+                         "' it has neither a master body nor an obstacle, and there can be only one "
+                         "general contact",
+                       "name the bodies of both in one of them, or give this one a master body");
+    if (!one.all_bodies())
+      for (const std::string &body : one.bodies)
+        check_name(section, "Slave body", body, "Bodies", names(bodies));
+    one.check(section);
   }
 
 

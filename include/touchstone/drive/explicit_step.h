@@ -128,8 +128,8 @@ namespace Touchstone
     ExplicitCells                   cells;
     State                           now, kept;
     std::vector<NodalWork>          work;
-    /** Velocity before a cycle. */
-    NodeField v_before;
+    /** Velocity before a cycle, and forces of supports as in State::support. */
+    NodeField v_before, support_before;
     /** Stable step of all cells together over that of the cells by themselves, at least 1. */
     double assembled_to_cells = 1.;
     /** Of the supports in the interval so far, as State::support. */
@@ -201,9 +201,10 @@ namespace Touchstone
      * Collective. */
     void
     judge_directions(double length);
-    /** One cycle of this length. */
+    /** One cycle of this length, or as many shorter ones as general contact needs.
+     * @param halved So many times. @throws ExplicitFailure if that is too often. */
     void
-    cycle(double length);
+    cycle(double length, unsigned int halved = 0);
     /** Set now.v to the velocity that forces and supports give. */
     void
     kick(double length);
@@ -212,9 +213,12 @@ namespace Touchstone
     add_work(double length);
     void
     add_damping(double length);
-    /** Let contact change the velocities of a cycle. */
-    void
+    /** Let contact change the velocities of a cycle. @return false if it cannot. */
+    bool
     press(double length);
+    /** Work of supports in a cycle. */
+    void
+    add_support_work(double length);
     /** @throws ExplicitFailure if a cell of this rank has failed or a velocity is not finite. */
     void
     check(const CellPlace &failed) const;

@@ -5,12 +5,14 @@
 
 #include <touchstone/contact/contact.h>
 #include <touchstone/explicit/contact_stiffness.h>
+#include <touchstone/explicit/general/general_contact.h>
 #include <touchstone/explicit/impulse_solver.h>
 #include <touchstone/explicit/impulse_work.h>
 #include <touchstone/explicit/node_map.h>
 #include <touchstone/explicit/row_motion.h>
 #include <touchstone/explicit/surface_speeds.h>
 
+#include <memory>
 #include <vector>
 
 namespace Touchstone
@@ -41,11 +43,13 @@ namespace Touchstone
   {
   public:
     /** @param contact With an enforcement that has an ImpulseRule; must live as long, as the others
-     * must. */
+     * must.
+     * @param general Null if there is none. */
     ImpulseContact(Contact                           &contact,
                    const ContactParameters           &parameters,
                    const NodeMap                     &nodes,
-                   const std::vector<BodyParameters> &bodies);
+                   const std::vector<BodyParameters> &bodies,
+                   std::unique_ptr<GeneralContact>    general = nullptr);
 
     /** @brief The inverse masses of owned nodes by local node, without the directions that
      * supports determine. Must be set before the first project(), and when they change. */
@@ -64,10 +68,12 @@ namespace Touchstone
      * @param u      Displacement at the start of the cycle; ghosts as well, as of the others.
      * @param before Velocities of the cycle before, on the mean of which and the new ones forces do
      *               work. @param v Free velocities; of owned nodes those that contact allows.
+     * @return false if surfaces of general contact would cross: nothing has changed but @p v, and
+     * a shorter cycle may do better.
      * @throws InfeasibleContact if supports or obstacles leave no such velocity.
      * @throws InputError if an obstacle jumps.
      */
-    void
+    bool
     project(const NodeField &u,
             const NodeField &before,
             NodeField       &v,
@@ -113,10 +119,15 @@ namespace Touchstone
     ImpulseEnergy
     energy() const;
 
-    const ImpulseWork &
-    work() const
+    /** @brief Since begin_interval(). */
+    ImpulseWork
+    work() const;
+
+    /** @brief Null if there is none. */
+    GeneralContact *
+    general_contact()
     {
-      return counted;
+      return general.get();
     }
 
     /** @brief The highest velocity of nodes of both sides of a pair of bodies relative to each
@@ -167,14 +178,19 @@ namespace Touchstone
     double              all_asleep_until = 0.;
     ImpulseWork         counted;
 
+    /** Its rows follow those of Contact in the solver. */
+    std::unique_ptr<GeneralContact> general;
+    /** Free velocities of nodes of the solver. */
+    std::vector<dealii::Tensor<1, dim>> v_free;
+
     /** What is known of each row of Contact, by its index. */
     struct RowHistory
     {
       /** Of the last cycle. */
       dealii::Tensor<1, dim> impulse;
       bool                   sliding = false;
-      /** Velocity of the obstacle in this cycle, and in the one before if it was of the interval.
-       */
+      /** Velocity of the obstacle in the last cycle, if it was of the interval; and in the one
+       * before the present cycle. */
       dealii::Tensor<1, dim> drive, drive_before;
       bool                   driven = false;
       /** Since the interval began: impulse, slip (length), its path, work against friction, and
@@ -213,7 +229,9 @@ namespace Touchstone
     /** By node of the solver: number here of owned ones, displacement, reference position,
      * displacement when the rows were made, and motion since. */
     std::vector<unsigned int>                    local;
-    std::vector<dealii::Tensor<1, dim>>          u_nodes, reference, made_at, moved, v_before;
+    std::vector<dealii::Tensor<1, dim>> u_nodes, x_nodes, reference, made_at, moved, v_before;
+    /** The displacement when the rows were made, by local node. */
+    NodeField                                    made_at_nodes;
     std::vector<dealii::SymmetricTensor<2, dim>> inverse_masses;
 
     void
@@ -237,6 +255,9 @@ namespace Touchstone
     /** Take the rows from Contact. */
     void
     make_rows(const NodeField &u);
+    /** Tell the solver its rows, those of general contact as well, with their nodes at @p u. */
+    void
+    lay_out(const NodeField &u);
     /** Parts of make_rows(): a row that has lost its partner; one that has one, with its nodes;
      * what the nodes are like; the weights of row @p k, and its gap without motion. */
     void
@@ -244,9 +265,12 @@ namespace Touchstone
     void
     add_row(const ContactRow &from, std::vector<std::pair<Index, RowKey>> &slots);
     void
-    set_nodes();
+    set_nodes(const NodeField &u);
     void
     set_weights(std::size_t k);
+    /** Gaps of row @p k without the displacement at which it was made. */
+    void
+    take_out_motion(std::size_t k);
     void
     import(const NodeField &u, const NodeField &before, const NodeField &v);
     /** Renew the rows if motion demands it. Collective. */
@@ -261,6 +285,16 @@ namespace Touchstone
     all_asleep(double time, double step) const;
     void
     end_of_action();
+    /** Solve again until no surfaces of general contact cross. @return false if they do. */
+    bool
+    keep_apart(const NodeField &u,
+               const NodeField &before,
+               NodeField       &v,
+               double           time,
+               double           step,
+               ImpulseCounts   &counts);
+    void
+    keep_drives();
     void
     set_geometry(double time, double step);
     void

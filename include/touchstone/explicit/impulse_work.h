@@ -17,6 +17,13 @@ namespace Touchstone
      */
     std::uint64_t cycles = 0, sweeps = 0, most_sweeps = 0, rounds = 0, renewals = 0,
                   unconverged = 0;
+    /** Of general contact: checks of crossings in all cycles, in the one with most, and cycles with
+     * more than five; cycles that were halved; candidates of the last search, searches, and faces
+     * and messages that went to other ranks with them; and the faces of the largest region over the
+     * mean. */
+    std::uint64_t crossing_rounds = 0, most_crossing_rounds = 0, many_crossing_rounds = 0,
+                  halvings = 0, candidates = 0, searches = 0, faces_sent = 0, messages = 0;
+    double imbalance = 1.;
     /** Largest energy that contact has given in a cycle, without what overlaps and obstacles supply
      * and what springs give back. */
     double most_given = 0.;
@@ -32,6 +39,15 @@ namespace Touchstone
       renewals += other.renewals;
       unconverged += other.unconverged;
       most_given = std::max(most_given, other.most_given);
+      crossing_rounds += other.crossing_rounds;
+      most_crossing_rounds = std::max(most_crossing_rounds, other.most_crossing_rounds);
+      many_crossing_rounds += other.many_crossing_rounds;
+      halvings += other.halvings;
+      candidates = std::max(candidates, other.candidates);
+      searches += other.searches;
+      faces_sent += other.faces_sent;
+      messages += other.messages;
+      imbalance = std::max(imbalance, other.imbalance);
     }
 
     double
@@ -45,8 +61,24 @@ namespace Touchstone
     void
     serialize(Archive &archive, const unsigned int)
     {
-      auto &[n, all, most, of_rounds, made, ended, given] = *this;
-      archive &n &all &most &of_rounds &made &ended &given;
+      auto &[n,
+             all,
+             most,
+             of_rounds,
+             made,
+             ended,
+             checks,
+             most_checks,
+             many_checks,
+             halved,
+             close,
+             sought,
+             sent,
+             of_messages,
+             uneven,
+             given] = *this;
+      archive &n &all &most &of_rounds &made &ended &checks &most_checks &many_checks &halved;
+      archive &close &sought &sent &of_messages &uneven &given;
     }
   };
 } // namespace Touchstone

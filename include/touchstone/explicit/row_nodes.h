@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -17,16 +18,21 @@
 
 namespace Touchstone
 {
-  /** @brief Pair and slave node of a row, the latter by a key that does not depend on the
-   * partition: rows in ascending order of it are in the same order on any number of ranks. */
+  /** @brief What a row is about, by keys that do not depend on the partition: rows in ascending
+   * order of it are in the same order on any number of ranks. */
   struct RowKey
   {
-    std::uint64_t pair = 0, slave = 0;
+    /** The pair of a row of Contact and its slave node; of other rows a number above those of all
+     * pairs, and what meets what. */
+    std::uint64_t                pair = 0, slave = 0;
+    std::array<std::uint64_t, 3> others{};
 
     bool
     operator<(const RowKey &other) const
     {
-      return pair != other.pair ? pair < other.pair : slave < other.slave;
+      return pair != other.pair     ? pair < other.pair
+             : slave != other.slave ? slave < other.slave
+                                    : others < other.others;
     }
   };
 

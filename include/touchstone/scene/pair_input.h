@@ -4,6 +4,7 @@
 #define touchstone_scene_pair_input_h
 
 #include <touchstone/contact/contact_pair.h>
+#include <touchstone/explicit/general/impact_surface.h>
 
 #include <vector>
 
@@ -18,6 +19,11 @@ namespace Touchstone
   /** @brief The same for all pairs, in their order. */
   std::vector<ContactPairInput>
   pair_inputs(const Scene &scene, const Forest &forest, const Solid &solid);
+
+  /** @brief The surface of the general contact of a scene that has one.
+   * @throws InputError for boundaries that do not exist. */
+  ImpactSurfaceInput
+  general_contact_input(const Scene &scene, const Forest &forest);
 } // namespace Touchstone
 
 #endif

@@ -10,6 +10,7 @@
 #include <touchstone/drive/newton_parameters.h>
 #include <touchstone/drive/refinement_parameters.h>
 #include <touchstone/drive/time_parameters.h>
+#include <touchstone/explicit/general/general_contact_parameters.h>
 #include <touchstone/mesh/discretisation_parameters.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/mesh/obstacle_parameters.h>
@@ -39,6 +40,8 @@ namespace Touchstone
     std::vector<BodyParameters>        bodies;
     std::vector<ObstacleParameters>    obstacles;
     std::vector<ContactPairParameters> pairs;
+    /** At most one: what names no other side, in explicit dynamics. */
+    std::vector<GeneralContactParameters> general;
     DiscretisationParameters           discretisation;
     ContactParameters                  contact;
     RefinementParameters               refinement;
@@ -83,6 +86,13 @@ namespace Touchstone
     unsigned int
     body_index(const std::string &name) const;
 
+    /** @brief Whether anything may touch. */
+    bool
+    has_contact() const
+    {
+      return !pairs.empty() || !general.empty();
+    }
+
     /** @brief Whether any pair has friction. */
     bool
     has_friction() const;
@@ -104,6 +114,8 @@ namespace Touchstone
     check() const;
     void
     check_pair(const ContactPairParameters &pair) const;
+    void
+    check_general(const GeneralContactParameters &general) const;
     /** The reference solution, and that formulas are given only where it uses them. */
     void
     check_reference() const;

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_general_contact_candidates_h
+#define touchstone_explicit_general_contact_candidates_h
+
+#include <touchstone/collision/broad_phase.h>
+#include <touchstone/explicit/general/contact_partition.h>
+#include <touchstone/explicit/general/impact_surface.h>
+#include <touchstone/explicit/row_nodes.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief What general contact had to do for its candidates; sums over all ranks. */
+  struct CandidateCounts
+  {
+    /** Candidates of the last search; faces that were sent to other ranks, and messages with them,
+     * in all searches; searches. */
+    std::uint64_t candidates = 0, faces_sent = 0, messages = 0, searches = 0;
+    /** Faces in the largest region over the mean, the worst of all searches. */
+    double imbalance = 1.;
+  };
+
+  /**
+   * @brief The pairs of nodes and faces, and of edges, that can meet before anything has moved by
+   * more than a margin, on the rank in whose region they are (doc/general_contact.md, sections 2
+   * and 5).
+   *
+   * Corner a of face f is called by its slot 4 f + a, and so is the edge from there to the next
+   * corner.
+   */
+  class ContactCandidates
+  {
+  public:
+    /** @param search Name of a BroadPhase. @param surface, nodes Must live as long. */
+    ContactCandidates(const ImpactSurface &surface,
+                      const NodeMap       &nodes,
+                      const dealii::IndexSet &owned_dofs,
+                      const std::string   &search);
+
+    /**
+     * @brief Find them. Collective.
+     * @param u,v    Displacement and velocity of local nodes, which move by @p step times @p v.
+     * @param margin By so much two nodes may move otherwise, along each axis and relative to each
+     *               other; length.
+     * @param neighbours_as_well #face_pairs has faces that share a node, too.
+     */
+    void
+    find(const NodeField &u,
+         const NodeField &v,
+         double           step,
+         double           margin,
+         bool             neighbours_as_well = false);
+
+    /** Pairs by slots, each sorted by keys: a node and a face; two edges; and faces whose inner
+     * edges, from corners to the middle, may meet others. */
+    struct NodeFace
+    {
+      std::size_t  node;
+      unsigned int face;
+    };
+    struct EdgePair
+    {
+      std::size_t one, other;
+    };
+    struct FacePair
+    {
+      unsigned int one, other;
+    };
+    std::vector<NodeFace> node_faces;
+    std::vector<EdgePair> edge_pairs;
+    std::vector<FacePair> face_pairs;
+    /** Their faces. */
+    std::vector<ImpactFace> faces;
+    /** The nodes of all slots. */
+    RowNodes at_slots;
+
+    /** @brief The next corner of a face: the other end of an edge. */
+    static std::size_t
+    next(const std::size_t slot)
+    {
+      return slot % 4 == 3 ? slot - 3 : slot + 1;
+    }
+    std::uint64_t
+    key(const std::size_t slot) const
+    {
+      return faces[slot / 4].nodes[slot % 4];
+    }
+    Index
+    dof(const std::size_t slot) const
+    {
+      return faces[slot / 4].dofs[slot % 4];
+    }
+
+    /** @brief There are candidates on any rank. */
+    bool
+    any() const
+    {
+      return work.candidates > 0;
+    }
+    const CandidateCounts &
+    counts() const
+    {
+      return work;
+    }
+
+    const ContactPartition &
+    regions() const
+    {
+      return partition;
+    }
+    /** @brief Candidates of a point are in regions that are no farther from it, length. */
+    double
+    reach() const
+    {
+      return farthest;
+    }
+    /** @brief The number of a pair of edges by the keys of their ends, ascending in each; or
+     * edge_pairs.size(). */
+    std::size_t
+    find_edges(const std::array<std::uint64_t, 4> &keys) const;
+
+  private:
+    /** A face with the present positions of its corners, and those at the end of a cycle. */
+    struct MovingFace
+    {
+      ImpactFace                face;
+      std::array<dealii::Point<dim>, 4> from, to;
+
+      dealii::BoundingBox<dim>
+      box(double grown) const;
+      dealii::BoundingBox<dim>
+      box(unsigned int corner, double grown) const;
+      dealii::BoundingBox<dim>
+      edge_box(unsigned int corner, double grown) const;
+    };
+
+    const ImpactSurface        &surface;
+    const NodeMap              &nodes;
+    const dealii::IndexSet      owned;
+    std::shared_ptr<BroadPhase> broad_phase;
+    ContactPartition            partition;
+    CandidateCounts             work;
+    double                      farthest = 0.;
+
+    std::vector<MovingFace>
+    exchange_faces(const NodeField &u, const NodeField &v, double step, double margin);
+    void
+    find_pairs(const std::vector<MovingFace> &all, double margin, bool neighbours_as_well);
+    void
+    keep_used_faces(const std::vector<MovingFace> &all);
+  };
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_general_general_contact_h
+#define touchstone_explicit_general_general_contact_h
+
+#include <touchstone/base/exact_sum.h>
+#include <touchstone/explicit/general/contact_candidates.h>
+#include <touchstone/explicit/general/general_contact_parameters.h>
+#include <touchstone/explicit/impulse_solver.h>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief A point of a surface: a corner of a face by its slot, or the middle of the face. */
+  struct SurfacePoint
+  {
+    std::size_t slot   = 0;
+    bool        middle = false;
+  };
+
+  /**
+   * @brief Everything touches everything, in explicit dynamics: the rows that keep surfaces from
+   * crossing each other, wherever they meet (doc/general_contact.md).
+   *
+   * In each cycle there are rows for nodes that touch a face and for edges that pressed in the cycle
+   * before, and those that the crossing check asks for: straight motion of all nodes through the
+   * cycle, nodes against faces and edges against edges. Nothing is kept from one interval to the
+   * next; within an interval only what starts the sweeps, and which edges pressed.
+   */
+  class GeneralContact
+  {
+  public:
+    /** @param nodes Must live as long, as @p parameters must. */
+    GeneralContact(const GeneralContactParameters &parameters,
+                   const ImpactSurfaceInput       &input,
+                   const Solid                    &solid,
+                   const NodeMap                  &nodes);
+
+    /** @brief No surface crosses another with the displacement @p u. Collective.
+     * @throws InputError with the places where one does. */
+    void
+    check_start(const NodeField &u, const std::vector<std::string> &bodies);
+
+    /** @brief The state is a committed one: forget what the interval before has left. */
+    void
+    begin_interval();
+
+    /**
+     * @brief A cycle begins at the displacement @p u with the free velocities @p v: find candidates
+     * if motion demands it, and the rows of what touches and of what would cross. Collective.
+     * @param only_touching Without the latter.
+     */
+    void
+    begin_cycle(const NodeField &u, const NodeField &v, double step, bool only_touching = false);
+
+    /** @brief What a look at the motion to the end of a cycle has found. */
+    enum class Crossings
+    {
+      /** Nothing crosses. */
+      none,
+      /** Rows of the present cycle have been added. */
+      rows,
+      /** Nodes move so far that there may be other candidates. */
+      too_far
+    };
+
+    /** @brief Look whether surfaces cross with the velocities @p v, and add the rows that prevent
+     * it. Collective. */
+    Crossings
+    find_crossings(const NodeField &u, const NodeField &v, double step);
+
+    /** @name Rows in the solver, which are its last ones */
+    /** @{ */
+    /** @brief Rows have come that are not in the solver. The same on all ranks. */
+    bool
+    must_lay_out() const
+    {
+      return new_rows;
+    }
+    /** @brief Add the rows and their slots. */
+    void
+    lay_out(std::vector<ImpulseRow> &to, std::vector<std::pair<Index, RowKey>> &slots);
+    /** @brief Set the geometry of the cycle and add the rows that take part to ImpulseSolver::near.
+     * @param first Row of the solver. @param x,v_before Positions and velocities of the cycle
+     *              before by node of the solver. */
+    void
+    set_geometry(ImpulseSolver                             &solver,
+                 std::size_t                                first,
+                 const std::vector<dealii::Tensor<1, dim>> &x,
+                 const std::vector<dealii::Tensor<1, dim>> &v_before,
+                 double                                     step);
+    /** @brief Add up what came of the cycle. @param given Energies given along normals. */
+    void
+    keep_results(const ImpulseSolver                       &solver,
+                 std::size_t                                first,
+                 const std::vector<dealii::Tensor<1, dim>> &v_before,
+                 ExactSum                                  &given);
+    /** @brief What there is to say when find_crossings() finds some in the shortest of cycles.
+     * Collective. */
+    std::string
+    failure(double time) const;
+    /** @brief There were no impulses in the last cycle. */
+    void
+    forget();
+    /** @} */
+
+    /** @brief Energies since begin_interval(), of this rank, as in ImpulseEnergy. */
+    struct Energy
+    {
+      ExactSum normal, friction, obstacles;
+    };
+    const Energy &
+    energy() const
+    {
+      return energies;
+    }
+    const CandidateCounts &
+    counts() const
+    {
+      return candidates.counts();
+    }
+    /** @brief Whether there is anything to look at, on any rank. */
+    bool
+    any() const
+    {
+      return candidates.any();
+    }
+
+    /** By this part of their size surfaces are moved inwards for the check of crossings: sides that
+     * touch, or are flush with each other, do not cross. */
+    static constexpr double inset = 1e-6;
+
+  private:
+    /** First numbers of the keys of rows, above all numbers of pairs. */
+    static constexpr std::uint64_t on_faces = std::uint64_t(1) << 32, on_edges = on_faces + 1;
+
+    /** A point as a sum of nodes by slots, at most a face. */
+    struct Side
+    {
+      unsigned int               n = 0;
+      std::array<std::size_t, 4> slots{};
+      std::array<double, 4>      weights{};
+
+      void
+      add(const SurfacePoint &point, double weight);
+    };
+    struct Row
+    {
+      RowKey key;
+      /** Slave and master side, and the outward normal of the latter. */
+      std::array<Side, 2>    sides;
+      dealii::Tensor<1, dim> normal;
+      /** Size of the faces, length, and the gap at the start of the cycle. */
+      double size = 0., gap = 0.;
+      /** Takes part in this cycle. */
+      bool used = false;
+      /** Of rows on two edges that are a candidate: which. */
+      std::size_t edges = no_edges;
+    };
+    static constexpr std::size_t no_edges = -1;
+    /** What is known of a slot's node in a cycle. */
+    struct NodeMotion
+    {
+      dealii::Tensor<1, dim> x, v, normal;
+      double                 size = 0.;
+    };
+    /** The ends of two edges, of the slave first. */
+    using Points = std::array<SurfacePoint, 4>;
+    /** A node over one of the four triangles of a face. */
+    struct Hit
+    {
+      unsigned int           face = dealii::numbers::invalid_unsigned_int, triangle = 0;
+      std::array<double, 3>  weights{};
+      dealii::Tensor<1, dim> normal, middle;
+      double                 gap = 0., opposed = 0.;
+    };
+
+    const GeneralContactParameters &parameters;
+    const NodeMap                  &nodes;
+    ImpactSurface                   surface;
+    ContactCandidates               candidates;
+    std::optional<FrictionRow>      friction;
+    /** Size of the smallest faces, length; and the part of it that the margin has at least. */
+    double                  smallest     = 0.;
+    static constexpr double least_margin = 0.05;
+    /** Candidates hold as long as nodes have moved relative to each other by less than the margin
+     * since they stood here. */
+    NodeField made_at;
+    double    margin = 0.;
+    bool      renew  = true;
+    /** By node of the candidates, at the start of the cycle. */
+    std::vector<NodeMotion> motion;
+    double                  cycle = 0.;
+    std::vector<dealii::Point<dim>>               inner_from, inner_to;
+    /** Lower and upper corners of the boxes of faces through the cycle. */
+    std::vector<std::array<double, 2 * dim>> face_boxes;
+    std::vector<Row>        rows;
+    std::map<RowKey, std::size_t> numbers;
+    bool                          new_rows = false;
+    /** Of the cycle before, by row: impulses, and whether it slides; by slave: whether it slides;
+     * and pairs of edges that pressed. */
+    struct Pressed
+    {
+      RowKey                 key;
+      dealii::Tensor<1, dim> impulse;
+      bool                   sliding = false;
+      /** Around the slave side. */
+      dealii::Point<dim> lower, upper;
+    };
+    std::map<RowKey, Pressed> pressed;
+    std::set<RowKey>          sliding;
+    std::vector<std::size_t>  watched;
+    Energy                    energies;
+
+    double
+    range(const NodeField &u, const NodeField &v, double step) const;
+    void
+    renew_candidates(const NodeField &u, const NodeField &v, double step);
+    void
+    import(const NodeField &u, const NodeField &v);
+    /** Take what is known of the cycle before to the ranks that have the rows now. */
+    void
+    carry_over();
+    void
+    remember(const Pressed &what);
+    /** The key of what slides: for nodes without the face. */
+    static RowKey
+    slave_of(const RowKey &key);
+    const NodeMotion &
+    at(const std::size_t slot) const
+    {
+      return motion[candidates.at_slots.node(slot)];
+    }
+    /** Where a point of the surface, moved inwards, is at the start or end of the cycle. */
+    dealii::Point<dim>
+    inner_position(const SurfacePoint &point, bool at_end) const;
+    void
+    set_inner_positions();
+    dealii::Tensor<1, dim>
+    mean(const SurfacePoint &point, dealii::Tensor<1, dim> NodeMotion::*quantity) const;
+    std::uint64_t
+    key(const SurfacePoint &point) const;
+    SurfacePoint
+    corner(unsigned int face, unsigned int a) const
+    {
+      return {4 * std::size_t(face) + a % 4, false};
+    }
+    SurfacePoint
+    middle(unsigned int face) const
+    {
+      return {4 * std::size_t(face), true};
+    }
+    double
+    size(const SurfacePoint &point) const
+    {
+      return at(point.slot).size;
+    }
+
+    /** The row of this key, made if there is none, taking part in the cycle. */
+    Row &
+    use_row(const RowKey &key);
+    /** Rows of a node and the triangle between two corners of a face and its middle, and of points
+     * on two edges. */
+    void
+    set_node_row(const SurfacePoint           &node,
+                 unsigned int                  face,
+                 unsigned int                  triangle,
+                 const std::array<double, 3>  &weights,
+                 const dealii::Tensor<1, dim> &normal);
+    void
+    set_edge_row(const Points                 &ends,
+                 const std::array<double, 2>  &at_edges,
+                 const dealii::Tensor<1, dim> &normal,
+                 std::size_t                   number);
+    /** The gap of a row at the start of the cycle, from its sides and normal. */
+    double
+    gap_at_start(const Row &row) const;
+    Points
+    ends_of(const ContactCandidates::EdgePair &pair) const;
+    /** Roughly the direction from the material of the master to that of the slave. */
+    dealii::Tensor<1, dim>
+    outward(const Points &ends) const;
+
+    /** Rows of what touches at the start. */
+    void
+    find_touching_nodes();
+    void
+    find_touching_edges();
+    bool
+    is_slave(std::size_t node, unsigned int face) const;
+    void
+    add_hit(std::size_t node, unsigned int face, std::vector<Hit> &hits) const;
+    bool
+    stand_together(const Hit &one, const Hit &other, std::size_t node) const;
+
+    /** Checks of the motion through the cycle. @return whether a row has been added or changed. */
+    bool
+    check_node(const SurfacePoint &node, unsigned int face);
+    bool
+    check_edges(const Points &ends, std::size_t number = no_edges);
+    bool
+    check_inner_edges(unsigned int one, unsigned int other);
+    bool
+    is_warped(unsigned int face) const;
+    dealii::Tensor<1, dim>
+    edge_normal(const Points                 &ends,
+                const dealii::Tensor<1, dim> &e,
+                const dealii::Tensor<1, dim> &f,
+                const dealii::Tensor<1, dim> &closing) const;
+  };
+} // namespace Touchstone
+
+#endif

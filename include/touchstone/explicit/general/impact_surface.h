@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_explicit_general_impact_surface_h
+#define touchstone_explicit_general_impact_surface_h
+
+#include <touchstone/explicit/node_map.h>
+#include <touchstone/mesh/forest.h>
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace Touchstone
+{
+  /** @brief Which faces take part in general contact. */
+  struct ImpactSurfaceInput
+  {
+    /** By body: whether all faces without a cell behind them take part but those of #ids, or only
+     * those of #ids. */
+    struct Boundaries
+    {
+      bool        all_but = false;
+      BoundaryIds ids;
+    };
+    std::vector<Boundaries> bodies;
+    /** Boundaries that a declared pair brings together: for general contact they do not exist for
+     * each other. */
+    std::vector<std::pair<BoundaryIds, BoundaryIds>> declared;
+  };
+
+  /** @brief A face of the surface, as ranks send it to each other. */
+  struct ImpactFace
+  {
+    /** The same on any number of ranks: of the face, and of the nodes of its cell, those of the
+     * face first, in the order that turns about the outward normal. */
+    std::uint64_t                key;
+    std::array<std::uint64_t, 8> nodes;
+    /** First dofs of the nodes of the face. */
+    std::array<Index, 4>       dofs;
+    unsigned int               body;
+    dealii::types::boundary_id boundary;
+
+    /** @brief Whether its cell has the node of this key. */
+    bool
+    of_cell(std::uint64_t node) const;
+  };
+
+  /**
+   * @brief The surface of bodies that general contact looks at: the faces of this rank, and the
+   * outward normals of its nodes (doc/general_contact.md, section 2).
+   */
+  class ImpactSurface
+  {
+  public:
+    /** @param nodes Must live as long. */
+    ImpactSurface(const ImpactSurfaceInput &input, const Solid &solid, const NodeMap &nodes);
+
+    /** @brief Faces of the cells that this rank owns. */
+    const std::vector<ImpactFace> &
+    faces() const
+    {
+      return own;
+    }
+
+    /** @brief Number of faces on all ranks. */
+    std::uint64_t
+    n_faces() const
+    {
+      return n_global;
+    }
+
+    /** @brief The outward normal of an owned node of the surface in the positions @p u: the mean of
+     * the faces around it by their areas, of length 1, or zero where they cancel. */
+    dealii::Tensor<1, dim>
+    normal(unsigned int node, const NodeField &u) const;
+
+    /** @brief Size of the faces around an owned node of the surface as the bodies were placed,
+     * length. */
+    double
+    size(const unsigned int node) const
+    {
+      return sizes[place[node]];
+    }
+
+    /** @brief The owned nodes of the surface, local numbers. */
+    const std::vector<unsigned int> &
+    owned_nodes() const
+    {
+      return surface_nodes;
+    }
+
+    /** @brief Whether faces of these boundaries may meet in general contact. */
+    bool
+    may_meet(dealii::types::boundary_id one, dealii::types::boundary_id other) const;
+
+    /** @brief Present position of a local node, length. */
+    dealii::Point<dim>
+    position(const unsigned int node, const NodeField &u) const
+    {
+      return dealii::Point<dim>(nodes.positions()[node] + u[node]);
+    }
+
+  private:
+    const NodeMap                                   &nodes;
+    std::vector<std::pair<BoundaryIds, BoundaryIds>> declared;
+    std::vector<ImpactFace>                          own;
+    std::uint64_t                                    n_global = 0;
+    /** By local node: where it stands among those of the surface. */
+    std::vector<unsigned int> place, surface_nodes;
+    std::vector<double>       sizes;
+    /** By place: the faces around the node, in the order of their keys, by local nodes. */
+    std::vector<std::vector<std::array<unsigned int, 4>>> around;
+  };
+} // namespace Touchstone
+
+#endif

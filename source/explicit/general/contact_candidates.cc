@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/explicit/general/contact_candidates.h>
+
+#include <algorithm>
+#include <map>
+
+// The pairs that general contact looks at in each cycle until motion asks for others
+// (doc/general_contact.md, sections 2 and 5). Which pairs there are depends on positions alone; on
+// which rank they are depends on the regions of the ranks, and does not matter to results.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    BoundingBox<dim>
+    box_of(const std::initializer_list<Point<dim>> &points, const double grown)
+    {
+      std::pair<Point<dim>, Point<dim>> corners(*points.begin(), *points.begin());
+      for (const Point<dim> &point : points)
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            corners.first[d]  = std::min(corners.first[d], point[d]);
+            corners.second[d] = std::max(corners.second[d], point[d]);
+          }
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          corners.first[d] -= grown;
+          corners.second[d] += grown;
+        }
+      return BoundingBox<dim>(corners);
+    }
+
+
+
+    bool
+    overlap(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (a.upper_bound(d) < b.lower_bound(d) || b.upper_bound(d) < a.lower_bound(d))
+          return false;
+      return true;
+    }
+
+
+
+    /** The lower corner of what two boxes have in common. */
+    Point<dim>
+    lower_corner(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
+    {
+      Point<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = std::max(a.lower_bound(d), b.lower_bound(d));
+      return result;
+    }
+
+
+
+    bool
+    shares_node(const ImpactFace &a, const ImpactFace &b)
+    {
+      return std::find_first_of(a.nodes.begin(),
+                                a.nodes.begin() + 4,
+                                b.nodes.begin(),
+                                b.nodes.begin() + 4) != a.nodes.begin() + 4;
+    }
+  } // namespace
+
+
+
+  BoundingBox<dim>
+  ContactCandidates::MovingFace::box(const double grown) const
+  {
+    return box_of({from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3]}, grown);
+  }
+
+
+
+  BoundingBox<dim>
+  ContactCandidates::MovingFace::box(const unsigned int corner, const double grown) const
+  {
+    return box_of({from[corner], to[corner]}, grown);
+  }
+
+
+
+  BoundingBox<dim>
+  ContactCandidates::MovingFace::edge_box(const unsigned int corner, const double grown) const
+  {
+    const unsigned int end = (corner + 1) % 4;
+    return box_of({from[corner], to[corner], from[end], to[end]}, grown);
+  }
+
+
+
+  ContactCandidates::ContactCandidates(const ImpactSurface &surface,
+                                       const NodeMap       &nodes,
+                                       const IndexSet      &owned_dofs,
+                                       const std::string   &search)
+    : at_slots(nodes.communicator())
+    , surface(surface)
+    , nodes(nodes)
+    , owned(owned_dofs)
+    , broad_phase(Registry<BroadPhase>::make(search))
+    , partition(nodes.communicator())
+  {
+  }
+
+
+
+  void
+  ContactCandidates::find(const NodeField &u,
+                          const NodeField &v,
+                          const double     step,
+                          const double     margin,
+                          const bool       neighbours_as_well)
+  {
+    ++work.searches;
+    const std::vector<MovingFace> all = exchange_faces(u, v, step, margin);
+    find_pairs(all, margin, neighbours_as_well);
+    work.candidates = Utilities::MPI::sum<std::uint64_t>(
+      node_faces.size() + edge_pairs.size() + face_pairs.size(), nodes.communicator());
+    keep_used_faces(all);
+  }
+
+
+
+  // Each face goes to all ranks in whose regions it may have candidates: a pair of a node and a
+  // face is where the lower corner of the node's box is, so that all faces of a node are together,
+  // and other pairs are where the lower corner of what their boxes share is.
+  std::vector<ContactCandidates::MovingFace>
+  ContactCandidates::exchange_faces(const NodeField &u,
+                                    const NodeField &v,
+                                    const double     step,
+                                    const double     margin)
+  {
+    std::vector<MovingFace> own;
+    std::vector<Point<dim>> centres;
+    double                  fastest = 0.;
+    for (const ImpactFace &face : surface.faces())
+      {
+        MovingFace moving;
+        moving.face = face;
+        Point<dim> centre;
+        for (unsigned int a = 0; a < 4; ++a)
+          {
+            const unsigned int node = nodes.local(face.dofs[a]);
+            moving.from[a]          = surface.position(node, u);
+            moving.to[a]            = moving.from[a] + step * v[node];
+            centre += 0.25 * moving.from[a];
+            for (unsigned int d = 0; d < dim; ++d)
+              fastest = std::max(fastest, std::abs(step * v[node][d]));
+          }
+        own.push_back(moving);
+        centres.push_back(centre);
+      }
+    work.imbalance = std::max(work.imbalance, partition.balance(centres));
+    // The lower corner of the box of a node lies so far from its other points.
+    farthest = Utilities::MPI::max(fastest, nodes.communicator()) + 2. * margin;
+    std::map<unsigned int, std::vector<MovingFace>> messages;
+    for (const MovingFace &moving : own)
+      partition.for_each_owner(moving.box(farthest), [&](const unsigned int rank) {
+        messages[rank].push_back(moving);
+      });
+    const unsigned int me = Utilities::MPI::this_mpi_process(nodes.communicator());
+    std::uint64_t      sent[2] = {0, 0};
+    for (const auto &[rank, faces_to] : messages)
+      if (rank != me)
+        {
+          sent[0] += faces_to.size();
+          ++sent[1];
+        }
+    std::vector<MovingFace> all;
+    for (const auto &[rank, faces_from] : exchange_records(messages, nodes.communicator()))
+      all.insert(all.end(), faces_from.begin(), faces_from.end());
+    std::sort(all.begin(), all.end(), [](const MovingFace &a, const MovingFace &b) {
+      return a.face.key < b.face.key;
+    });
+    Utilities::MPI::sum(sent, nodes.communicator(), sent);
+    work.faces_sent += sent[0];
+    work.messages += sent[1];
+    return all;
+  }
+
+
+
+  void
+  ContactCandidates::find_pairs(const std::vector<MovingFace> &all,
+                                const double                   margin,
+                                const bool                     neighbours_as_well)
+  {
+    node_faces.clear();
+    edge_pairs.clear();
+    face_pairs.clear();
+    const unsigned int            me    = Utilities::MPI::this_mpi_process(nodes.communicator());
+    const double                  grown = 0.5 * margin;
+    std::vector<BoundingBox<dim>> boxes;
+    for (const MovingFace &moving : all)
+      boxes.push_back(moving.box(grown));
+    const auto slot_key = [&](const std::size_t slot) { return all[slot / 4].face.nodes[slot % 4]; };
+    const auto edge_key = [&](const std::size_t slot) {
+      return std::minmax({slot_key(slot), slot_key(next(slot))});
+    };
+    const auto mine = [&](const Point<dim> &corner) { return partition.owner(corner) == me; };
+    const auto add_node = [&](const unsigned int of, const unsigned int a, const unsigned int f) {
+      const BoundingBox<dim> box = all[of].box(a, grown);
+      if (!all[f].face.of_cell(all[of].face.nodes[a]) && overlap(box, boxes[f]) &&
+          mine(box.get_boundary_points().first))
+        node_faces.push_back({4 * std::size_t(of) + a, f});
+    };
+    const auto of_one_cell = [&](const std::size_t edge, const ImpactFace &face) {
+      return face.of_cell(slot_key(edge)) && face.of_cell(slot_key(next(edge)));
+    };
+    for (const auto &[i, j] : broad_phase->find(boxes))
+      {
+        const ImpactFace &a = all[i].face, &b = all[j].face;
+        if (!surface.may_meet(a.boundary, b.boundary))
+          continue;
+        for (unsigned int c = 0; c < 4; ++c)
+          {
+            add_node(i, c, j);
+            add_node(j, c, i);
+          }
+        for (unsigned int c = 0; c < 4; ++c)
+          for (unsigned int d = 0; d < 4; ++d)
+            {
+              const std::size_t one = 4 * std::size_t(i) + c, other = 4 * std::size_t(j) + d;
+              const auto        k = edge_key(one), l = edge_key(other);
+              if (k.first == l.first || k.first == l.second || k.second == l.first ||
+                  k.second == l.second || of_one_cell(one, b) || of_one_cell(other, a))
+                continue;
+              const BoundingBox<dim> p = all[i].edge_box(c, grown), q = all[j].edge_box(d, grown);
+              if (overlap(p, q) && mine(lower_corner(p, q)))
+                edge_pairs.push_back(k < l ? EdgePair{one, other} : EdgePair{other, one});
+            }
+        // Inner edges of neighbours meet nothing of each other before the faces have folded.
+        if ((neighbours_as_well || !shares_node(a, b)) && a.key >> 3 != b.key >> 3 &&
+            mine(lower_corner(boxes[i], boxes[j])))
+          face_pairs.push_back({i, j});
+      }
+    // Nodes and edges belong to several faces.
+    const auto unify = [](auto &pairs, const auto &key) {
+      std::sort(pairs.begin(), pairs.end(), [&](const auto &p, const auto &q) {
+        return key(p) < key(q);
+      });
+      pairs.erase(std::unique(pairs.begin(),
+                              pairs.end(),
+                              [&](const auto &p, const auto &q) { return key(p) == key(q); }),
+                  pairs.end());
+    };
+    unify(node_faces, [&](const NodeFace &p) {
+      return std::make_pair(slot_key(p.node), all[p.face].face.key);
+    });
+    unify(edge_pairs, [&](const EdgePair &p) {
+      return std::make_pair(std::pair<std::uint64_t, std::uint64_t>(edge_key(p.one)),
+                            std::pair<std::uint64_t, std::uint64_t>(edge_key(p.other)));
+    });
+  }
+
+
+
+  std::size_t
+  ContactCandidates::find_edges(const std::array<std::uint64_t, 4> &keys) const
+  {
+    const auto keys_of = [&](const EdgePair &pair) {
+      const auto a = std::minmax({key(pair.one), key(next(pair.one))}),
+                 b = std::minmax({key(pair.other), key(next(pair.other))});
+      return std::array<std::uint64_t, 4>{{a.first, a.second, b.first, b.second}};
+    };
+    const auto found = std::lower_bound(
+      edge_pairs.begin(), edge_pairs.end(), keys, [&](const EdgePair &pair, const auto &wanted) {
+        return keys_of(pair) < wanted;
+      });
+    return found != edge_pairs.end() && keys_of(*found) == keys ? found - edge_pairs.begin()
+                                                                : edge_pairs.size();
+  }
+
+
+
+  void
+  ContactCandidates::keep_used_faces(const std::vector<MovingFace> &all)
+  {
+    constexpr unsigned int    unused = numbers::invalid_unsigned_int;
+    std::vector<unsigned int> number(all.size(), unused);
+    const auto                use = [&](const std::size_t face) { number[face] = 0; };
+    for (const NodeFace &pair : node_faces)
+      {
+        use(pair.node / 4);
+        use(pair.face);
+      }
+    for (const EdgePair &pair : edge_pairs)
+      {
+        use(pair.one / 4);
+        use(pair.other / 4);
+      }
+    for (const FacePair &pair : face_pairs)
+      {
+        use(pair.one);
+        use(pair.other);
+      }
+    faces.clear();
+    std::vector<std::pair<Index, RowKey>> slots;
+    for (std::size_t f = 0; f < all.size(); ++f)
+      if (number[f] != unused)
+        {
+          number[f] = faces.size();
+          faces.push_back(all[f].face);
+          for (const Index dof : all[f].face.dofs)
+            slots.push_back({dof, {0, all[f].face.key}});
+        }
+    const auto renumber = [&](std::size_t &slot) { slot = 4 * number[slot / 4] + slot % 4; };
+    for (NodeFace &pair : node_faces)
+      {
+        renumber(pair.node);
+        pair.face = number[pair.face];
+      }
+    for (EdgePair &pair : edge_pairs)
+      {
+        renumber(pair.one);
+        renumber(pair.other);
+      }
+    for (FacePair &pair : face_pairs)
+      pair = {number[pair.one], number[pair.other]};
+    at_slots.reinit(owned, slots);
+  }
+} // namespace Touchstone

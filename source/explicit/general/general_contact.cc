@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/explicit/general/general_contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// The cycle of general contact (doc/general_contact.md, section 3): candidates, rows, crossings.
+// What touches is found in general_touching.cc, crossings in general_crossings.cc; what the solver
+// is told and tells is in general_rows.cc.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** The margin: the motion of so many cycles, up to this part of the smallest face, and
+     * never less than that of the cycle and of what impulses can make of it. */
+    constexpr double cycles_ahead = 40., most_margin = 0.5, of_impulses = 2.2;
+  } // namespace
+
+
+
+  GeneralContact::GeneralContact(const GeneralContactParameters &parameters,
+                                 const ImpactSurfaceInput       &input,
+                                 const Solid                    &solid,
+                                 const NodeMap                  &nodes)
+    : parameters(parameters)
+    , nodes(nodes)
+    , surface(input, solid, nodes)
+    , candidates(surface, nodes, solid.owned, parameters.search.name)
+    , made_at(nodes.n_local())
+  {
+    double size = std::numeric_limits<double>::max();
+    for (const unsigned int node : surface.owned_nodes())
+      size = std::min(size, surface.size(node));
+    smallest = Utilities::MPI::min(size, nodes.communicator());
+    if (parameters.friction)
+      {
+        friction.emplace();
+        friction->law = parameters.friction.get();
+      }
+  }
+
+
+
+  void
+  GeneralContact::begin_interval()
+  {
+    renew = true;
+    rows.clear();
+    numbers.clear();
+    forget();
+    energies = Energy();
+  }
+
+
+
+  // Two nodes have come no nearer to each other, along an axis, than by the range of what all have
+  // moved since the candidates were made.
+  double
+  GeneralContact::range(const NodeField &u, const NodeField &v, const double step) const
+  {
+    constexpr double        none = -std::numeric_limits<double>::max();
+    std::array<double, 2 * dim> most, all;
+    most.fill(none);
+    for (const unsigned int node : surface.owned_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double begin = u[node][d] - made_at[node][d], end = begin + step * v[node][d];
+          most[d]            = std::max({most[d], begin, end});
+          most[dim + d]      = std::max({most[dim + d], -begin, -end});
+        }
+    Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
+                        nodes.communicator(),
+                        ArrayView<double>(all.data(), all.size()));
+    double result = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      result = std::max(result, all[d] + all[dim + d]);
+    // A velocity that is not finite is found where velocities are checked.
+    return result;
+  }
+
+
+
+  void
+  GeneralContact::renew_candidates(const NodeField &u, const NodeField &v, const double step)
+  {
+    made_at                = u;
+    const double in_cycle  = range(u, v, step);
+    const double automatic = std::clamp(cycles_ahead * in_cycle,
+                                        least_margin * smallest,
+                                        most_margin * smallest);
+    const double wanted    = parameters.margin_length();
+    margin = std::max(wanted > 0. ? wanted : automatic, of_impulses * in_cycle);
+    candidates.find(u, v, step, margin);
+    motion.resize(candidates.at_slots.n());
+    rows.clear();
+    numbers.clear();
+    new_rows = true;
+    renew    = false;
+    carry_over();
+  }
+
+
+
+  void
+  GeneralContact::carry_over()
+  {
+    std::map<unsigned int, std::vector<Pressed>> messages;
+    for (const auto &[key, what] : pressed)
+      {
+        std::pair<Point<dim>, Point<dim>> corners(what.lower, what.upper);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            corners.first[d] -= candidates.reach();
+            corners.second[d] += candidates.reach();
+          }
+        candidates.regions().for_each_owner(BoundingBox<dim>(corners),
+                                            [&, &what = what](const unsigned int rank) {
+                                              messages[rank].push_back(what);
+                                            });
+      }
+    forget();
+    for (const auto &[rank, list] : exchange_records(messages, nodes.communicator()))
+      for (const Pressed &what : list)
+        remember(what);
+  }
+
+
+
+  void
+  GeneralContact::import(const NodeField &u, const NodeField &v)
+  {
+    const RowNodes &on = candidates.at_slots;
+    for (unsigned int node = 0; node < on.n_owned(); ++node)
+      {
+        const unsigned int local = nodes.local(on.dof(node));
+        motion[node]             = {
+          surface.position(local, u), v[local], surface.normal(local, u), surface.size(local)};
+      }
+    on.forward(motion);
+  }
+
+
+
+  void
+  GeneralContact::begin_cycle(const NodeField &u,
+                              const NodeField &v,
+                              const double     step,
+                              const bool       only_touching)
+  {
+    if (!renew && candidates.any())
+      import(u, v);
+    if (renew || range(u, v, step) > margin)
+      {
+        renew_candidates(u, v, step);
+        if (candidates.any())
+          import(u, v);
+      }
+    cycle = step;
+    for (Row &row : rows)
+      row.used = false;
+    if (!candidates.any())
+      return;
+    find_touching_nodes();
+    find_touching_edges();
+    if (!only_touching)
+      find_crossings(u, v, step);
+    else
+      new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
+  }
+
+
+
+  GeneralContact::Crossings
+  GeneralContact::find_crossings(const NodeField &u, const NodeField &v, const double step)
+  {
+    if (range(u, v, step) > margin)
+      return Crossings::too_far;
+    if (!candidates.any())
+      return Crossings::none;
+    cycle = step;
+    import(u, v);
+    set_inner_positions();
+    bool more = false;
+    for (const ContactCandidates::NodeFace &pair : candidates.node_faces)
+      more |= check_node({pair.node, false}, pair.face);
+    for (std::size_t k = 0; k < candidates.edge_pairs.size(); ++k)
+      more |= check_edges(ends_of(candidates.edge_pairs[k]), k);
+    for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
+      more |= check_inner_edges(pair.one, pair.other);
+    int found[2] = {more, new_rows};
+    Utilities::MPI::max(found, nodes.communicator(), found);
+    new_rows = found[1] > 0;
+    return found[0] > 0 ? Crossings::rows : Crossings::none;
+  }
+
+
+
+  GeneralContact::Row &
+  GeneralContact::use_row(const RowKey &key)
+  {
+    const auto [found, is_new] = numbers.try_emplace(key, rows.size());
+    if (is_new)
+      {
+        rows.emplace_back();
+        rows.back().key = key;
+        new_rows        = true;
+      }
+    Row &row = rows[found->second];
+    row.used = true;
+    return row;
+  }
+} // namespace Touchstone

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/general/general_contact.h>
+#include <touchstone/explicit/row_geometry.h>
+
+#include <algorithm>
+
+// The rows of general contact in the solver of the cycle, and what came of them
+// (doc/general_contact.md, section 4).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  void
+  GeneralContact::lay_out(std::vector<ImpulseRow>               &to,
+                          std::vector<std::pair<Index, RowKey>> &slots)
+  {
+    for (const Row &from : rows)
+      {
+        ImpulseRow row;
+        row.key      = from.key;
+        row.first    = slots.size();
+        row.n_nodes  = from.sides[0].n + from.sides[1].n;
+        row.n_lever  = row.n_nodes;
+        row.friction = friction ? &*friction : nullptr;
+        // Once for the row, once for its lever.
+        for (unsigned int k = 0; k < 2; ++k)
+          for (const Side &side : from.sides)
+            for (unsigned int i = 0; i < side.n; ++i)
+              slots.emplace_back(candidates.dof(side.slots[i]), row.key);
+        to.push_back(row);
+      }
+    new_rows = false;
+  }
+
+
+
+  RowKey
+  GeneralContact::slave_of(const RowKey &key)
+  {
+    return key.pair == on_faces ? RowKey{key.pair, key.slave, {}} : key;
+  }
+
+
+
+  void
+  GeneralContact::set_geometry(ImpulseSolver                     &solver,
+                               const std::size_t                  first,
+                               const std::vector<Tensor<1, dim>> &x,
+                               const std::vector<Tensor<1, dim>> &v_before,
+                               const double                       step)
+  {
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (const Row &from = rows[k]; from.used)
+        {
+          ImpulseRow &row = solver.rows[first + k];
+          std::size_t s   = row.first;
+          for (unsigned int side = 0; side < 2; ++side)
+            for (unsigned int i = 0; i < from.sides[side].n; ++i)
+              solver.weights[s++] = (side == 0 ? 1. : -1.) * from.sides[side].weights[i];
+          const auto last = pressed.find(row.key);
+          row.impulse     = last != pressed.end() ? last->second.impulse : Tensor<1, dim>();
+          row.sliding     = sliding.count(slave_of(row.key)) > 0;
+          row.normal      = from.normal;
+          if (row.friction)
+            row.tangential = tangential_projector(row.normal);
+          set_lever(solver, row, x, from.normal, from.size);
+          const double closing = -step * (solver.relative_velocity(row, v_before) * row.normal);
+          row.allowed =
+            ((from.gap - allowed_gap(from.gap, closing, from.size)) / step) *
+            row.normal;
+          solver.near.push_back(first + k);
+        }
+  }
+
+
+
+  void
+  GeneralContact::remember(const Pressed &what)
+  {
+    pressed[what.key] = what;
+    if (what.sliding)
+      sliding.insert(slave_of(what.key));
+    if (what.key.pair == on_edges)
+      {
+        const std::size_t number = candidates.find_edges(
+          {{what.key.slave, what.key.others[0], what.key.others[1], what.key.others[2]}});
+        if (number < candidates.edge_pairs.size())
+          watched.push_back(number);
+      }
+  }
+
+
+
+  void
+  GeneralContact::forget()
+  {
+    pressed.clear();
+    sliding.clear();
+    watched.clear();
+  }
+
+
+
+  void
+  GeneralContact::keep_results(const ImpulseSolver               &solver,
+                               const std::size_t                  first,
+                               const std::vector<Tensor<1, dim>> &v_before,
+                               ExactSum                          &given)
+  {
+    forget();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (const ImpulseRow &row = solver.rows[first + k];
+          rows[k].used && row.impulse.norm_square() > 0.)
+        {
+          const Tensor<1, dim> mean =
+            0.5 * (solver.relative_velocity(row, v_before) + row.velocity);
+          const double normal =
+            (row.impulse * row.normal) * (mean * row.normal);
+          const double slip = row.impulse * mean - normal;
+          // What presses an overlap apart is supplied from outside.
+          const double supplied = row.allowed * row.normal < 0. ? std::max(0., normal) : 0.;
+          energies.normal.add(normal);
+          energies.normal.add(-supplied);
+          energies.obstacles.add(supplied);
+          energies.friction.add(slip);
+          given.add(normal);
+          given.add(-supplied);
+          Pressed what;
+          what.key     = row.key;
+          what.impulse = row.impulse;
+          what.sliding = row.friction && row.sliding;
+          const Side &side = rows[k].sides[0];
+          what.lower = what.upper = Point<dim>(at(side.slots[0]).x);
+          for (unsigned int i = 0; i < side.n; ++i)
+            for (const Tensor<1, dim> &x :
+                 {at(side.slots[i]).x, at(side.slots[i]).x + cycle * at(side.slots[i]).v})
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  what.lower[d] = std::min(what.lower[d], x[d]);
+                  what.upper[d] = std::max(what.upper[d], x[d]);
+                }
+          remember(what);
+        }
+  }
+} // namespace Touchstone

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/explicit/general/general_contact.h>
+
+#include <algorithm>
+
+// Rows of what touches at the start of a cycle (doc/general_contact.md, section 3). They spare the
+// check of crossings a round, and hold what rests; what they leave out the check finds.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Relative to the size of the faces: by so much surfaces are moved inwards for the check of
+     * crossings, a gap that is closed, and an overlap that is still one of this pair. */
+    constexpr double touching = 4. * GeneralContact::inset, overlapping = 0.01;
+
+    /** Relative, of sizes that are the same and of points on the line between two triangles. */
+    constexpr double round_off = 1e-9;
+  } // namespace
+
+
+
+  Tensor<1, dim>
+  GeneralContact::mean(const SurfacePoint &point, Tensor<1, dim> NodeMotion::*const quantity) const
+  {
+    if (!point.middle)
+      return at(point.slot).*quantity;
+    Tensor<1, dim>    sum;
+    const std::size_t first = point.slot - point.slot % 4;
+    for (unsigned int a = 0; a < 4; ++a)
+      sum += 0.25 * (at(first + a).*quantity);
+    return sum;
+  }
+
+
+
+  std::uint64_t
+  GeneralContact::key(const SurfacePoint &point) const
+  {
+    // Keys of faces have room for a bit that those of nodes do not have.
+    constexpr std::uint64_t of_middles = std::uint64_t(1) << 63;
+    return point.middle ? candidates.faces[point.slot / 4].key | of_middles
+                        : candidates.key(point.slot);
+  }
+
+
+
+  void
+  GeneralContact::Side::add(const SurfacePoint &point, const double weight)
+  {
+    const std::size_t  first = point.middle ? point.slot - point.slot % 4 : point.slot;
+    const unsigned int last  = point.middle ? 4 : 1;
+    for (unsigned int a = 0; a < last; ++a)
+      {
+        unsigned int i = 0;
+        while (i < n && slots[i] != first + a)
+          ++i;
+        if (i == n)
+          slots[n++] = first + a;
+        weights[i] += weight / last;
+      }
+  }
+
+
+
+  double
+  GeneralContact::gap_at_start(const Row &row) const
+  {
+    Tensor<1, dim> between;
+    for (unsigned int i = 0; i < row.sides[0].n; ++i)
+      between += row.sides[0].weights[i] * at(row.sides[0].slots[i]).x;
+    for (unsigned int i = 0; i < row.sides[1].n; ++i)
+      between -= row.sides[1].weights[i] * at(row.sides[1].slots[i]).x;
+    return between * row.normal;
+  }
+
+
+
+  void
+  GeneralContact::set_node_row(const SurfacePoint          &node,
+                               const unsigned int           face,
+                               const unsigned int           triangle,
+                               const std::array<double, 3> &weights,
+                               const Tensor<1, dim>        &normal)
+  {
+    Row &row  = use_row({on_faces, key(node), {{candidates.faces[face].key, triangle}}});
+    row.sides = {};
+    row.sides[0].add(node, 1.);
+    for (unsigned int a = 0; a < 4; ++a) // always all corners, in the order of the face
+      row.sides[1].add(corner(face, a), 0.25 * weights[2]);
+    row.sides[1].add(corner(face, triangle), weights[0]);
+    row.sides[1].add(corner(face, triangle + 1), weights[1]);
+    row.normal = normal;
+    row.size   = std::min(size(node), size(corner(face, triangle)));
+    row.gap    = gap_at_start(row);
+  }
+
+
+
+  // The finer surface is the slave; where both are alike, the body or node that comes first.
+  bool
+  GeneralContact::is_slave(const std::size_t node, const unsigned int face) const
+  {
+    double other = 0.;
+    for (unsigned int a = 0; a < 4; ++a)
+      other += 0.25 * size(corner(face, a));
+    const double own = at(node).size;
+    if (std::abs(own - other) > round_off * other)
+      return own < other;
+    const ImpactFace &of = candidates.faces[node / 4], &to = candidates.faces[face];
+    return of.body != to.body ? of.body < to.body : candidates.key(node) < to.nodes[0];
+  }
+
+
+
+  void
+  GeneralContact::add_hit(const std::size_t node, const unsigned int face, std::vector<Hit> &hits)
+    const
+  {
+    if (!is_slave(node, face))
+      return;
+    const Tensor<1, dim> &x = at(node).x;
+    Hit                   best;
+    double                inside = -round_off;
+    for (unsigned int t = 0; t < 4; ++t)
+      {
+        const Tensor<1, dim> a = mean(corner(face, t), &NodeMotion::x) - x,
+                             b = mean(corner(face, t + 1), &NodeMotion::x) - x,
+                             c = mean(middle(face), &NodeMotion::x) - x;
+        const Tensor<1, dim> twice_area = cross_product_3d(b - a, c - a);
+        const double         square     = twice_area.norm_square();
+        if (square == 0.)
+          continue;
+        const std::array<double, 3> weights{{cross_product_3d(b, c) * twice_area / square,
+                                             cross_product_3d(c, a) * twice_area / square,
+                                             cross_product_3d(a, b) * twice_area / square}};
+        const double least = *std::min_element(weights.begin(), weights.end());
+        if (least < inside)
+          continue;
+        inside      = least;
+        best.face   = face;
+        best.normal = twice_area / std::sqrt(square);
+        best.gap    = -(a * best.normal);
+        best.middle = c + x;
+        best.triangle = t;
+        best.weights  = weights;
+      }
+    if (best.face == numbers::invalid_unsigned_int)
+      return;
+    const double h = std::min(at(node).size, size(corner(face, best.triangle)));
+    best.opposed   = at(node).normal * best.normal;
+    if (best.gap <= touching * h && best.gap >= -overlapping * h && best.opposed <= 0.)
+      hits.push_back(best);
+  }
+
+
+
+  // In a hollow a node has a row with each of several faces. Where they are flush, or where the edge
+  // between them stands out, it has one: with both it could not slide off the edge.
+  bool
+  GeneralContact::stand_together(const Hit &one, const Hit &other, const std::size_t node) const
+  {
+    const Tensor<1, dim> &x         = at(node).x;
+    const double          tolerance = touching * at(node).size;
+    if ((one.middle - x) * other.normal > tolerance && (other.middle - x) * one.normal > tolerance)
+      return true;
+    const auto &a = candidates.faces[one.face].nodes, &b = candidates.faces[other.face].nodes;
+    const bool  neighbours =
+      std::find_first_of(a.begin(), a.begin() + 4, b.begin(), b.begin() + 4) != a.begin() + 4;
+    // Two plates that a node is between face each other.
+    return one.normal * other.normal <= 0. && !neighbours;
+  }
+
+
+
+  void
+  GeneralContact::find_touching_nodes()
+  {
+    const auto      &pairs = candidates.node_faces;
+    std::vector<Hit> hits, kept;
+    for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end)
+      {
+        const std::size_t node = pairs[begin].node;
+        hits.clear();
+        kept.clear();
+        for (end = begin; end < pairs.size() && pairs[end].node == node; ++end)
+          add_hit(node, pairs[end].face, hits);
+        // The face that is most opposed comes first, of equal ones that of the lowest key.
+        std::stable_sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
+          return a.opposed < b.opposed;
+        });
+        for (const Hit &hit : hits)
+          if (std::all_of(kept.begin(), kept.end(), [&](const Hit &other) {
+                return stand_together(hit, other, node);
+              }))
+            kept.push_back(hit);
+        for (const Hit &hit : kept)
+          set_node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal);
+      }
+  }
+
+
+
+  GeneralContact::Points
+  GeneralContact::ends_of(const ContactCandidates::EdgePair &pair) const
+  {
+    Points     result;
+    const auto set = [&](const std::size_t slot, SurfacePoint *const to) {
+      const std::size_t other = ContactCandidates::next(slot);
+      const bool        first = candidates.key(slot) < candidates.key(other);
+      to[0].slot              = first ? slot : other;
+      to[1].slot              = first ? other : slot;
+    };
+    set(pair.one, &result[0]);
+    set(pair.other, &result[2]);
+    return result;
+  }
+
+
+
+  Tensor<1, dim>
+  GeneralContact::outward(const Points &ends) const
+  {
+    return mean(ends[2], &NodeMotion::normal) + mean(ends[3], &NodeMotion::normal) -
+           mean(ends[0], &NodeMotion::normal) - mean(ends[1], &NodeMotion::normal);
+  }
+
+
+
+  void
+  GeneralContact::set_edge_row(const Points                &ends,
+                               const std::array<double, 2> &at_edges,
+                               const Tensor<1, dim>        &normal,
+                               const std::size_t            number)
+  {
+    Row &row  = use_row({on_edges, key(ends[0]), {{key(ends[1]), key(ends[2]), key(ends[3])}}});
+    row.sides = {};
+    for (unsigned int side = 0; side < 2; ++side)
+      {
+        // Sides with a middle always have all corners, in the order of the face.
+        if (ends[2 * side + 1].middle)
+          row.sides[side].add(ends[2 * side + 1], at_edges[side]);
+        row.sides[side].add(ends[2 * side], 1. - at_edges[side]);
+        if (!ends[2 * side + 1].middle)
+          row.sides[side].add(ends[2 * side + 1], at_edges[side]);
+      }
+    row.normal = normal;
+    row.size   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
+    row.gap    = gap_at_start(row);
+    row.edges  = number;
+  }
+
+
+
+  void
+  GeneralContact::find_touching_edges()
+  {
+    for (const std::size_t number : watched)
+      {
+        const Points         ends = ends_of(candidates.edge_pairs[number]);
+        const Tensor<1, dim> a = at(ends[0].slot).x, e = at(ends[1].slot).x - a,
+                             b = at(ends[2].slot).x, f = at(ends[3].slot).x - b;
+        const Tensor<1, dim> across = cross_product_3d(e, f);
+        const double         square = across.norm_square();
+        if (!(square > 1e-12 * e.norm_square() * f.norm_square()))
+          continue; // parallel: nodes on faces serve them
+        const double s = cross_product_3d(b - a, f) * across / square,
+                     t = cross_product_3d(b - a, e) * across / square;
+        if (std::min({s, t, 1. - s, 1. - t}) < 0.)
+          continue;
+        const Tensor<1, dim> normal =
+          (across * outward(ends) < 0. ? -1. : 1.) / std::sqrt(square) * across;
+        const double gap = (a - b) * normal;
+        const double h   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
+        if (gap <= touching * h && gap >= -overlapping * h)
+          set_edge_row(ends, {{s, t}}, normal, number);
+      }
+  }
+} // namespace Touchstone
