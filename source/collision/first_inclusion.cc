@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/collision/bernstein.h>
+#include <touchstone/collision/relative_motion.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace Touchstone
+{
+  namespace
+  {
+    using dealii::Tensor;
+    using Path   = Bernstein<1, Tensor<1, dim>>;
+    using Points = std::array<Tensor<1, dim>, 4>;
+
+    constexpr double u = std::numeric_limits<double>::epsilon() / 2.;
+
+    /** The differences in an interval of time: points at its start and at its end, their paths,
+     * and a bound of their components. */
+    struct Interval
+    {
+      unsigned int                  n;
+      std::array<Tensor<1, dim>, 8> points;
+      Tensor<1, dim>                size;
+
+      Path
+      path(const unsigned int i) const
+      {
+        return {{{points[i], points[n + i]}}};
+      }
+    };
+
+
+
+    /** Whether all points are farther from zero in a direction than their errors: 4 u size each,
+     * and 3 u size for the product. */
+    bool
+    separates(const Tensor<1, dim> &direction, const Interval &interval)
+    {
+      double bound = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+        bound += std::abs(direction[d]) * interval.size[d];
+      bound *= 10. * u;
+      for (unsigned int i = 0; i < 2 * interval.n; ++i)
+        if (!(direction * interval.points[i] > bound))
+          return false;
+      return true;
+    }
+
+
+
+    /** Part of a that is orthogonal to b. */
+    Tensor<1, dim>
+    orthogonal(const Tensor<1, dim> &a, const Tensor<1, dim> &b)
+    {
+      const double square = b.norm_square();
+      return square > 0. ? a - (a * b / square) * b : a;
+    }
+
+
+
+    /**
+     * Whether one direction separates the points from zero all the time. The point of the hull
+     * closest to zero is within a corner, an edge or a triangle of points, and is the point of
+     * their line or plane that is closest to zero: one of these directions separates if any does by
+     * more than round-off.
+     */
+    bool
+    separated(const Interval &interval)
+    {
+      const auto        &x = interval.points;
+      const unsigned int n = 2 * interval.n;
+      for (unsigned int i = 0; i < n; ++i)
+        if (separates(x[i], interval))
+          return true;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          if (separates(orthogonal(x[i], x[j] - x[i]), interval))
+            return true;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          for (unsigned int k = 0; k < j; ++k)
+            {
+              const Tensor<1, dim> normal = cross_product_3d(x[j] - x[i], x[k] - x[i]);
+              if (separates(normal * x[i] < 0. ? -normal : normal, interval))
+                return true;
+            }
+      return false;
+    }
+
+
+
+    /** Whether a direction that turns with the points separates them: a difference itself. */
+    bool
+    corner_separates(const unsigned int corner, const Interval &interval, const double size)
+    {
+      for (unsigned int i = 0; i < interval.n; ++i)
+        if (!(dot(interval.path(corner), interval.path(i)).lowest() > 40. * u * size * size))
+          return false;
+      return true;
+    }
+
+
+
+    /** The same with the part of a difference that is orthogonal to the line to another one. */
+    bool
+    edge_separates(const unsigned int i,
+                   const unsigned int j,
+                   const Interval    &interval,
+                   const double       size)
+    {
+      const double square = size * size;
+      const Path   x = interval.path(i), edge = interval.path(j) - x;
+      const auto   direction = cross(edge, cross(x, edge));
+      for (unsigned int k = 0; k < interval.n; ++k)
+        if (k != j && !(dot(direction, interval.path(k)).lowest() > 2000. * u * square * square))
+          return false;
+      return true;
+    }
+
+
+
+    /** Whether one of the directions that turn with the points separates them from zero. */
+    bool
+    turning_separated(const Interval &interval)
+    {
+      const double size   = std::max({interval.size[0], interval.size[1], interval.size[2]});
+      const auto   volume = dot(interval.path(0), cross(interval.path(1), interval.path(2)));
+      const double bound  = 200. * u * size * size * size;
+      if (volume.lowest() > bound || volume.highest() < -bound)
+        return true;
+      for (unsigned int i = 0; i < interval.n; ++i)
+        if (corner_separates(i, interval, size))
+          return true;
+      // Edges of the triangle; of the parallelogram, not its diagonals.
+      for (unsigned int i = 0; i < interval.n; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          if ((interval.n == 3 || i + j != 3) && edge_separates(i, j, interval, size))
+            return true;
+      return false;
+    }
+  } // namespace
+
+
+
+  std::optional<double>
+  first_inclusion(const RelativeMotion &motion)
+  {
+    // An interval is [number, number + 1] 2^-level. To the right of one that was left out comes the
+    // next number, and an even number starts where its parent does: no stack is needed.
+    constexpr unsigned int last   = 48;
+    std::uint64_t          number = 0;
+    unsigned int           level  = 0;
+    while (true)
+      {
+        const double width = std::ldexp(1., -int(level));
+        const Points begin = motion.at(number * width), end = motion.at((number + 1) * width);
+        Interval     interval{motion.n, {}, motion.size};
+        for (unsigned int i = 0; i < motion.n; ++i)
+          {
+            interval.points[i]            = begin[i];
+            interval.points[motion.n + i] = end[i];
+          }
+        if (!turning_separated(interval) && !separated(interval))
+          {
+            if (level == last)
+              return number * width;
+            number *= 2;
+            ++level;
+            continue;
+          }
+        ++number;
+        for (; level > 0 && number % 2 == 0; --level)
+          number /= 2;
+        if (level == 0)
+          return {};
+      }
+  }
+} // namespace Touchstone
