@@ -2,7 +2,7 @@
 
 #include <touchstone/base/exchange.h>
 #include <touchstone/base/input_error.h>
-#include <touchstone/collision/segment_triangle.h>
+#include <touchstone/collision/first_crossing.h>
 #include <touchstone/explicit/general/general_contact.h>
 
 #include <algorithm>
@@ -71,11 +71,15 @@ namespace Touchstone
             continue;
           const Point<dim> p = inner_position(begin, false), q = inner_position(end, false);
           for (unsigned int t = 0; t < 4; ++t)
-            if (segment_intersects_triangle(p,
-                                            q,
-                                            inner_position(corner(face, t), false),
-                                            inner_position(corner(face, t + 1), false),
-                                            inner_position(middle(face), false)))
+            {
+              // The edge as the path of a node.
+              const FourPoints start{{p,
+                                      inner_position(corner(face, t), false),
+                                      inner_position(corner(face, t + 1), false),
+                                      inner_position(middle(face), false)}};
+              FourPoints       through = start;
+              through[0]               = q;
+              if (first_crossing_node_triangle(start, through))
               {
                 places.push_back({candidates.faces[of].key,
                                   candidates.faces[of].body,
@@ -83,6 +87,7 @@ namespace Touchstone
                                   Point<dim>(0.5 * (p + q))});
                 return;
               }
+            }
         }
     };
     for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
