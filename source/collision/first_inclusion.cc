@@ -64,12 +64,16 @@ namespace Touchstone
 
 
 
-    /** Part of a that is orthogonal to b. */
+    /** Part of a that is orthogonal to b: twice, since what cancels the first time leaves errors
+     * that are large for what is left. */
     Tensor<1, dim>
-    orthogonal(const Tensor<1, dim> &a, const Tensor<1, dim> &b)
+    orthogonal(Tensor<1, dim> a, const Tensor<1, dim> &b)
     {
       const double square = b.norm_square();
-      return square > 0. ? a - (a * b / square) * b : a;
+      if (square > 0.)
+        for (unsigned int i = 0; i < 2; ++i)
+          a -= (a * b / square) * b;
+      return a;
     }
 
 

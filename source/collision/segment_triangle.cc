@@ -12,8 +12,8 @@ namespace Touchstone
 {
   namespace
   {
-    using Point    = dealii::Point<dim>;
-    using Rational = boost::multiprecision::cpp_rational;
+    using Point   = dealii::Point<dim>;
+    using Integer = boost::multiprecision::cpp_int;
 
     constexpr double u = std::numeric_limits<double>::epsilon() / 2.;
 
@@ -25,18 +25,11 @@ namespace Touchstone
 
 
 
-    /** Determinant of differences to the last point, and the sum of its products by amount. */
+    /** Determinant of three vectors, and the sum of its products by amount. */
     template <class Number>
     Number
-    volume(const Point &a, const Point &b, const Point &c, const Point &d, Number *amount)
+    volume(const std::array<std::array<Number, dim>, 3> &x, Number *amount)
     {
-      std::array<std::array<Number, dim>, 3> x;
-      for (unsigned int k = 0; k < dim; ++k)
-        {
-          x[0][k] = Number(a[k]) - Number(d[k]);
-          x[1][k] = Number(b[k]) - Number(d[k]);
-          x[2][k] = Number(c[k]) - Number(d[k]);
-        }
       Number result(0);
       for (unsigned int k = 0; k < dim; ++k)
         {
@@ -51,16 +44,55 @@ namespace Touchstone
 
 
 
+    /** The points times a power of two that makes whole numbers of all coordinates. */
+    template <std::size_t n>
+    std::array<std::array<Integer, dim>, n>
+    whole(const std::array<Point, n> &points)
+    {
+      int lowest = std::numeric_limits<int>::max();
+      for (const Point &x : points)
+        for (unsigned int k = 0; k < dim; ++k)
+          if (x[k] != 0.)
+            lowest = std::min(lowest, std::ilogb(x[k]));
+      std::array<std::array<Integer, dim>, n> result;
+      for (std::size_t i = 0; i < n; ++i)
+        for (unsigned int k = 0; k < dim; ++k)
+          if (points[i][k] != 0.)
+            {
+              const int exponent = std::ilogb(points[i][k]);
+              result[i][k]       = std::int64_t(std::ldexp(points[i][k], 52 - exponent));
+              result[i][k] <<= exponent - lowest;
+            }
+      return result;
+    }
+
+
+
     /** On which side of the plane of three points a fourth is: 1, -1 or 0. */
     int
     side(const Point &a, const Point &b, const Point &c, const Point &d)
     {
+      std::array<std::array<double, dim>, 3> x;
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          x[0][k] = a[k] - d[k];
+          x[1][k] = b[k] - d[k];
+          x[2][k] = c[k] - d[k];
+        }
       double       amount = 0.;
-      const double result = volume(a, b, c, d, &amount);
+      const double result = volume(x, &amount);
       // Below the second number products may underflow; what overflows fails the comparison, too.
       if (std::abs(result) > 16. * u * amount && amount > 0x1p-900)
         return sign(result);
-      return volume<Rational>(a, b, c, d, nullptr).sign();
+      const auto [p, q, r, s] = whole<4>({{a, b, c, d}});
+      std::array<std::array<Integer, dim>, 3> exact;
+      for (unsigned int k = 0; k < dim; ++k)
+        {
+          exact[0][k] = p[k] - s[k];
+          exact[1][k] = q[k] - s[k];
+          exact[2][k] = r[k] - s[k];
+        }
+      return volume<Integer>(exact, nullptr).sign();
     }
 
 
@@ -74,11 +106,9 @@ namespace Touchstone
                    result = first - second, amount = std::abs(first) + std::abs(second);
       if (std::abs(result) > 8. * u * amount && amount > 0x1p-900)
         return sign(result);
-      const auto difference = [](const double x, const double y) -> Rational {
-        return Rational(x) - Rational(y);
-      };
-      const Rational exact = difference(a[l], c[l]) * difference(b[m], c[m]) -
-                             difference(a[m], c[m]) * difference(b[l], c[l]);
+      const auto [p, q, r] = whole<3>({{a, b, c}});
+      const Integer exact =
+        Integer(p[l] - r[l]) * Integer(q[m] - r[m]) - Integer(p[m] - r[m]) * Integer(q[l] - r[l]);
       return exact.sign();
     }
 
@@ -124,15 +154,14 @@ namespace Touchstone
   {
     const auto &[p, q]    = segment;
     const auto &[a, b, c] = triangle;
+    for (const Point &x : {p, q, a, b, c})
+      for (unsigned int k = 0; k < dim; ++k)
+        if (!std::isfinite(x[k]))
+          throw NonConvergence("A coordinate is not finite where crossings are sought.");
     for (unsigned int k = 0; k < dim; ++k)
-      {
-        for (const double x : {p[k], q[k], a[k], b[k], c[k]})
-          if (!std::isfinite(x))
-            throw NonConvergence("A coordinate is not finite where crossings are sought.");
-        if (std::max(p[k], q[k]) < std::min({a[k], b[k], c[k]}) ||
-            std::min(p[k], q[k]) > std::max({a[k], b[k], c[k]}))
-          return false;
-      }
+      if (std::max(p[k], q[k]) < std::min({a[k], b[k], c[k]}) ||
+          std::min(p[k], q[k]) > std::max({a[k], b[k], c[k]}))
+        return false;
     const int first = side(a, b, c, p), second = side(a, b, c, q);
     if (first * second > 0)
       return false;

@@ -18,7 +18,7 @@ namespace Touchstone
    * Segments in the plane of the triangle, segments that are points, and triangles without area
    * are cases like others. Signs of volumes and areas are exact: where a bound of the round-off
    * (Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric
-   * predicates") does not decide, they are found in rational numbers.
+   * predicates") does not decide, they are found in whole numbers of any length.
    *
    * @throw NonConvergence if a coordinate is not finite.
    */
