@@ -148,34 +148,42 @@ namespace BruteForce
     return {};
   }
 
+  /** A direction and its products with all differences. */
+  inline Direction
+  products(const Path &path, const std::vector<Path> &x, const int sign)
+  {
+    Direction direction;
+    for (const Path &p : x)
+      {
+        direction.push_back(bernstein(dot(path, p)));
+        for (Integer &coefficient : direction.back())
+          coefficient *= sign;
+      }
+    return direction;
+  }
+
   /** The first time at which the hull of the differences contains zero. */
   inline std::optional<double>
   first_time(const std::vector<Path> &x)
   {
     std::vector<Direction> directions;
-    const auto             add = [&](const Path &path, const bool both_signs) {
-      Direction direction, opposite;
-      for (const Path &p : x)
-        {
-          direction.push_back(bernstein(dot(path, p)));
-          opposite.push_back(direction.back());
-          for (Integer &coefficient : opposite.back())
-            coefficient = -coefficient;
-        }
-      directions.push_back(direction);
-      if (both_signs)
-        directions.push_back(opposite);
-    };
+    for (std::size_t i = 0; i < x.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        for (std::size_t k = 0; k < j; ++k)
+          for (const int sign : {1, -1})
+            directions.push_back(
+              products(cross(difference(x[j], x[i]), difference(x[k], x[i])), x, sign));
+    // Most motions end here.
+    if (!first_time(directions, 0., 1., 0))
+      return {};
     for (std::size_t i = 0; i < x.size(); ++i)
       {
-        add(x[i], false);
+        directions.push_back(products(x[i], x, 1));
         for (std::size_t j = 0; j < i; ++j)
           {
-            const Path edge = difference(x[j], x[i]);
             // The part of x[i] that is orthogonal to the edge, times the square of the edge.
-            add(cross(edge, cross(x[i], edge)), false);
-            for (std::size_t k = 0; k < j; ++k)
-              add(cross(edge, difference(x[k], x[i])), true);
+            const Path edge = difference(x[j], x[i]);
+            directions.push_back(products(cross(edge, cross(x[i], edge)), x, 1));
           }
       }
     return first_time(std::move(directions), 0., 1., 100);

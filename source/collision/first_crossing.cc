@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/collision/first_crossing.h>
+#include <touchstone/collision/first_root.h>
 #include <touchstone/collision/relative_motion.h>
 
 #include <algorithm>
@@ -13,6 +14,12 @@ namespace Touchstone
     const RelativeMotion motion = RelativeMotion::node_triangle(start, end);
     if (motion.apart())
       return {};
+    Crossing      crossing;
+    const Verdict verdict = first_root(motion, crossing);
+    if (verdict == Verdict::apart)
+      return {};
+    if (verdict == Verdict::crossing)
+      return crossing;
     const std::optional<double> time = first_inclusion(motion);
     if (!time)
       return {};
@@ -28,6 +35,12 @@ namespace Touchstone
     const RelativeMotion motion = RelativeMotion::edge_edge(start, end);
     if (motion.apart())
       return {};
+    Crossing      crossing;
+    const Verdict verdict = first_root(motion, crossing);
+    if (verdict == Verdict::apart)
+      return {};
+    if (verdict == Verdict::crossing)
+      return crossing;
     const std::optional<double> time = first_inclusion(motion);
     if (!time)
       return {};

@@ -18,6 +18,15 @@ namespace Touchstone
 
     constexpr double u = std::numeric_limits<double>::epsilon() / 2.;
 
+    /** Errors relative to the size: 4 u of a point, and 3 u of its product with a direction. */
+    constexpr double round_off = 10. * u;
+
+    /** Points that are as close to zero touch. It is more than round-off, since what is farther
+     * away must be separated for a while, and the while grows with the square root of the distance
+     * where points turn around each other; and it is even more after so many intervals. */
+    constexpr double       touching_at_first = 0x1p-46, touching_at_last = 0x1p-40;
+    constexpr unsigned int patience = 1000;
+
     /** The differences in an interval of time: points at its start and at its end, their paths,
      * and a bound of their components. */
     struct Interval
@@ -35,16 +44,19 @@ namespace Touchstone
 
 
 
-    /** Whether all points are farther from zero in a direction than their errors: 4 u size each,
-     * and 3 u size for the product. */
+    /** Whether the first @p n points are farther from zero in a direction than a part of the size.
+     */
     bool
-    separates(const Tensor<1, dim> &direction, const Interval &interval)
+    separates(const Tensor<1, dim> &direction,
+              const Interval       &interval,
+              const unsigned int    n,
+              const double          margin)
     {
       double bound = 0.;
       for (unsigned int d = 0; d < dim; ++d)
         bound += std::abs(direction[d]) * interval.size[d];
-      bound *= 10. * u;
-      for (unsigned int i = 0; i < 2 * interval.n; ++i)
+      bound *= margin;
+      for (unsigned int i = 0; i < n; ++i)
         if (!(direction * interval.points[i] > bound))
           return false;
       return true;
@@ -52,40 +64,43 @@ namespace Touchstone
 
 
 
-    /** Part of a that is orthogonal to b. */
+    /** Part of a that is orthogonal to b: twice, since what cancels the first time leaves errors
+     * that are large for what is left. */
     Tensor<1, dim>
-    orthogonal(const Tensor<1, dim> &a, const Tensor<1, dim> &b)
+    orthogonal(Tensor<1, dim> a, const Tensor<1, dim> &b)
     {
       const double square = b.norm_square();
-      return square > 0. ? a - (a * b / square) * b : a;
+      if (square > 0.)
+        for (unsigned int i = 0; i < 2; ++i)
+          a -= (a * b / square) * b;
+      return a;
     }
 
 
 
     /**
-     * Whether one direction separates the points from zero all the time. The point of the hull
+     * Whether one direction separates the first @p n points from zero. The point of their hull
      * closest to zero is within a corner, an edge or a triangle of points, and is the point of
      * their line or plane that is closest to zero: one of these directions separates if any does by
      * more than round-off.
      */
     bool
-    separated(const Interval &interval)
+    separated(const Interval &interval, const unsigned int n, const double margin)
     {
-      const auto        &x = interval.points;
-      const unsigned int n = 2 * interval.n;
+      const auto &x = interval.points;
       for (unsigned int i = 0; i < n; ++i)
-        if (separates(x[i], interval))
+        if (separates(x[i], interval, n, margin))
           return true;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < i; ++j)
-          if (separates(orthogonal(x[i], x[j] - x[i]), interval))
+          if (separates(orthogonal(x[i], x[j] - x[i]), interval, n, margin))
             return true;
       for (unsigned int i = 0; i < n; ++i)
         for (unsigned int j = 0; j < i; ++j)
           for (unsigned int k = 0; k < j; ++k)
             {
               const Tensor<1, dim> normal = cross_product_3d(x[j] - x[i], x[k] - x[i]);
-              if (separates(normal * x[i] < 0. ? -normal : normal, interval))
+              if (separates(normal * x[i] < 0. ? -normal : normal, interval, n, margin))
                 return true;
             }
       return false;
@@ -154,7 +169,7 @@ namespace Touchstone
     constexpr unsigned int last   = 48;
     std::uint64_t          number = 0;
     unsigned int           level  = 0;
-    while (true)
+    for (unsigned int count = 0;; ++count)
       {
         const double width = std::ldexp(1., -int(level));
         const Points begin = motion.at(number * width), end = motion.at((number + 1) * width);
@@ -164,7 +179,10 @@ namespace Touchstone
             interval.points[i]            = begin[i];
             interval.points[motion.n + i] = end[i];
           }
-        if (!turning_separated(interval) && !separated(interval))
+        const double touching = count < patience ? touching_at_first : touching_at_last;
+        if (!separated(interval, motion.n, touching))
+          return number * width;
+        if (!turning_separated(interval) && !separated(interval, 2 * motion.n, round_off))
           {
             if (level == last)
               return number * width;
