@@ -15,7 +15,7 @@ namespace Touchstone
     using Point   = dealii::Point<dim>;
     using Integer = boost::multiprecision::cpp_int;
 
-    constexpr double u = std::numeric_limits<double>::epsilon() / 2.;
+    constexpr double unit_round_off = std::numeric_limits<double>::epsilon() / 2.;
 
     int
     sign(const double x)
@@ -82,7 +82,7 @@ namespace Touchstone
       double       amount = 0.;
       const double result = volume(x, &amount);
       // Below the second number products may underflow; what overflows fails the comparison, too.
-      if (std::abs(result) > 16. * u * amount && amount > 0x1p-900)
+      if (std::abs(result) > 16. * unit_round_off * amount && amount > 0x1p-900)
         return sign(result);
       const auto [p, q, r, s] = whole<4>({{a, b, c, d}});
       std::array<std::array<Integer, dim>, 3> exact;
@@ -104,7 +104,7 @@ namespace Touchstone
       const unsigned int l = (k + 1) % dim, m = (k + 2) % dim;
       const double first = (a[l] - c[l]) * (b[m] - c[m]), second = (a[m] - c[m]) * (b[l] - c[l]),
                    result = first - second, amount = std::abs(first) + std::abs(second);
-      if (std::abs(result) > 8. * u * amount && amount > 0x1p-900)
+      if (std::abs(result) > 8. * unit_round_off * amount && amount > 0x1p-900)
         return sign(result);
       const auto [p, q, r] = whole<3>({{a, b, c}});
       const Integer exact =
