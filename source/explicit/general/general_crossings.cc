@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The check of the straight motion of a cycle for crossings, and the rows that prevent them
 // (doc/general_contact.md, section 3). Each face is four triangles around its middle.
@@ -54,6 +55,37 @@ namespace Touchstone
           extend(box, to[i]);
         }
       return box;
+    }
+
+    /** Whether all of the first @p n points are on one side of all others along a direction, at the
+     * start and at the end of straight paths, and so throughout. By more than round-off. */
+    template <std::size_t n_points>
+    bool
+    separated(const std::array<Point<dim>, n_points> &from,
+              const std::array<Point<dim>, n_points> &to,
+              const std::size_t                       n,
+              const Tensor<1, dim>                   &direction)
+    {
+      constexpr double round_off = 1e-13;
+      double           below = std::numeric_limits<double>::max(), above = below, size = 0.;
+      for (const auto *const x : {&from, &to})
+        {
+          // Least and largest of both groups.
+          std::array<double, 2> low, high;
+          low.fill(std::numeric_limits<double>::max());
+          high.fill(-std::numeric_limits<double>::max());
+          for (std::size_t i = 0; i < n_points; ++i)
+            {
+              const double along = (*x)[i] * direction;
+              low[i >= n]        = std::min(low[i >= n], along);
+              high[i >= n]       = std::max(high[i >= n], along);
+              for (unsigned int d = 0; d < dim; ++d)
+                size = std::max(size, std::abs((*x)[i][d]));
+            }
+          below = std::min(below, low[1] - high[0]);
+          above = std::min(above, low[0] - high[1]);
+        }
+      return std::max(below, above) > round_off * size * direction.norm();
     }
 
     Point<dim>
@@ -113,6 +145,20 @@ namespace Touchstone
     const Point<dim> from = inner_position(node, false), to = inner_position(node, true);
     if (!meet(box_of<1>({{from}}, {{to}}), face_boxes[face]))
       return false;
+    // What slides on a face is never far from it: its normal tells them apart.
+    std::array<Point<dim>, 6> all_from, all_to;
+    for (unsigned int i = 0; i < 6; ++i)
+      {
+        const SurfacePoint point = i == 0 ? node : i == 5 ? middle(face) : corner(face, i - 1);
+        all_from[i]              = inner_position(point, false);
+        all_to[i]                = inner_position(point, true);
+      }
+    for (const auto *const x : {&all_from, &all_to})
+      if (separated(all_from,
+                    all_to,
+                    1,
+                    cross_product_3d((*x)[3] - (*x)[1], (*x)[4] - (*x)[2])))
+        return false;
     std::optional<Crossing> first;
     unsigned int            triangle = 0;
     const auto              ends     = [&](const unsigned int t, const bool at_end) {
@@ -163,6 +209,15 @@ namespace Touchstone
       }
     if (!meet(box_of<2>({{a[0], a[1]}}, {{b[0], b[1]}}), box_of<2>({{a[2], a[3]}}, {{b[2], b[3]}})))
       return false;
+    // Edges that rest on each other are never far apart: directions that tell them apart.
+    const Tensor<1, dim> e = a[1] - a[0], f = a[3] - a[2], apart = a[2] - a[0];
+    for (const Tensor<1, dim> &direction : {outward(ends),
+                                            cross_product_3d(e, f),
+                                            cross_product_3d(b[1] - b[0], b[3] - b[2]),
+                                            cross_product_3d(cross_product_3d(e, apart), e),
+                                            cross_product_3d(cross_product_3d(f, apart), f)})
+      if (separated(a, b, 2, direction))
+        return false;
     const auto found = first_crossing_edge_edge(a, b);
     if (!found)
       return false;

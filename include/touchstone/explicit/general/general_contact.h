@@ -133,7 +133,7 @@ namespace Touchstone
 
     /** By this part of their size surfaces are moved inwards for the check of crossings: sides that
      * touch, or are flush with each other, do not cross. */
-    static constexpr double inset = 1e-6;
+    static constexpr double inset = 1e-4;
 
   private:
     /** First numbers of the keys of rows, above all numbers of pairs. */
