@@ -7,16 +7,16 @@ namespace Touchstone
   namespace
   {
     /**
-     * @brief The method that is cheapest in the table of doc/searches.md: the hierarchy, and
-     * tracking as soon as most boxes have moved by little since the last call.
+     * @brief The methods that are cheapest in the table of doc/searches.md: the tree, and tracking
+     * where most boxes have moved by little since the last call.
      *
-     * The hierarchy is the cheapest or nearly so in the first call whatever the scene; tracking
-     * needs half its time when its partners can be kept, and twice when not.
+     * The tree is the cheapest in the first call or nearly so, whatever the scene; tracking needs
+     * up to a third less where its partners can be kept, and up to twice as much where not.
      */
     class Automatic : public BroadPhase
     {
-      std::shared_ptr<BroadPhase> hierarchy = BroadPhaseRegistry::make("hierarchy"),
-                                  tracking  = BroadPhaseRegistry::make("tracking");
+      std::shared_ptr<BroadPhase> tree     = BroadPhaseRegistry::make("tree"),
+                                  tracking = BroadPhaseRegistry::make("tracking");
       std::vector<FlatBox> last;
       unsigned int         n_first = 0;
 
@@ -37,14 +37,14 @@ namespace Touchstone
       collect(const SearchBoxes &boxes, BoxPairs &pairs) override
       {
         const bool little = moved_little(boxes);
-        delegate(little ? *tracking : *hierarchy, boxes, pairs);
+        delegate(little ? *tracking : *tree, boxes, pairs);
         last    = boxes.boxes;
         n_first = boxes.n_first;
       }
     };
 
-    const BroadPhaseRegistry::Entry<Automatic> automatic_entry(
-      "automatic",
-      "hierarchy at first, tracking when boxes have moved little since the last call.");
+    const BroadPhaseRegistry::Entry<Automatic>
+      automatic_entry("automatic",
+                      "tree at first, tracking when boxes have moved little since the last call.");
   } // namespace
 } // namespace Touchstone
