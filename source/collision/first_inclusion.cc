@@ -2,6 +2,7 @@
 
 #include <touchstone/collision/bernstein.h>
 #include <touchstone/collision/relative_motion.h>
+#include <touchstone/collision/round_off.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,8 @@ namespace Touchstone
     using Path   = Bernstein<1, Tensor<1, dim>>;
     using Points = std::array<Tensor<1, dim>, 4>;
 
-    constexpr double u = std::numeric_limits<double>::epsilon() / 2.;
-
     /** Errors relative to the size: 4 u of a point, and 3 u of its product with a direction. */
-    constexpr double round_off = 10. * u;
+    constexpr double round_off = 10. * unit_round_off;
 
     /** Points that are as close to zero touch. It is more than round-off, since what is farther
      * away must be separated for a while, and the while grows with the square root of the distance
@@ -143,7 +142,7 @@ namespace Touchstone
     corner_separates(const unsigned int corner, const Interval &interval, const double size)
     {
       const Path   x     = interval.path(corner);
-      const double error = 8. * u * size;
+      const double error = 8. * unit_round_off * size;
       if (!stays_away(x, error))
         return false;
       for (unsigned int i = 0; i < interval.n; ++i)
@@ -174,7 +173,7 @@ namespace Touchstone
       const double length = largest(edge);
       // 4 u size of a difference, twice that of the edge, two products each; 6 u of their sum.
       const auto error_of = [&](const Path &y) {
-        return u * size * (24. * largest(y) + 16. * length);
+        return unit_round_off * size * (24. * largest(y) + 16. * length);
       };
       const auto   first = cross(x, edge);
       const double error = error_of(x), amount = largest(first);
@@ -186,8 +185,9 @@ namespace Touchstone
             const Path   y            = interval.path(k);
             const auto   second       = cross(y, edge);
             const double second_error = error_of(y), second_amount = largest(second);
-            const double bound = 3. * (amount * second_error + second_amount * error +
-                                       error * second_error + 10. * u * amount * second_amount);
+            const double bound =
+              3. * (amount * second_error + second_amount * error + error * second_error +
+                    10. * unit_round_off * amount * second_amount);
             if (!(dot(first, second).lowest() > bound))
               return false;
           }
@@ -202,7 +202,7 @@ namespace Touchstone
     {
       const double size   = std::max({interval.size[0], interval.size[1], interval.size[2]});
       const auto   volume = dot(interval.path(0), cross(interval.path(1), interval.path(2)));
-      const double bound  = 200. * u * size * size * size;
+      const double bound  = 200. * unit_round_off * size * size * size;
       if (volume.lowest() > bound || volume.highest() < -bound)
         return true;
       for (unsigned int i = 0; i < interval.n; ++i)

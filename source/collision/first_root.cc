@@ -2,6 +2,7 @@
 
 #include <touchstone/collision/bernstein.h>
 #include <touchstone/collision/first_root.h>
+#include <touchstone/collision/round_off.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,6 @@ namespace Touchstone
   {
     using dealii::Tensor;
     using Cubic = std::array<double, 4>;
-
-    constexpr double u = std::numeric_limits<double>::epsilon() / 2.;
 
     double
     largest(const Tensor<1, dim> &x)
@@ -34,7 +33,7 @@ namespace Touchstone
                            twice = cross_product_3d(b0, c1) + cross_product_3d(b1, c0);
       // Of 6 products of three differences each: 3 u from the differences, 2 u from the products
       // and 6 u from sums, 18 u from splitting the interval 6 times, 8 u from value().
-      error = 6. * 40. * u * std::max(largest(a0), largest(a1)) *
+      error = 6. * 40. * unit_round_off * std::max(largest(a0), largest(a1)) *
               std::max(largest(b0), largest(b1)) * std::max(largest(c0), largest(c1));
       return {
         {a0 * first, (a1 * first + a0 * twice) / 3., (a0 * last + a1 * twice) / 3., a1 * last}};
@@ -176,7 +175,7 @@ namespace Touchstone
       if (!(rise * value(b, lower) < -error && rise * value(b, upper) > error))
         return Verdict::unsure;
       crossing.time    = begin + x * width;
-      const double eta = (16. * u + 2. * delta * width) * largest(motion.size);
+      const double eta = (16. * unit_round_off + 2. * delta * width) * largest(motion.size);
       return inside(motion.at(crossing.time), motion.n, eta, crossing);
     }
   } // namespace
