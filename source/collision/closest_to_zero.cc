@@ -6,11 +6,10 @@
 
 namespace Touchstone
 {
-  using dealii::Tensor;
-
   std::array<double, 4>
-  closest_to_zero(const std::array<Tensor<1, dim>, 4> &points, const unsigned int n)
+  closest_to_zero(const std::array<dealii::Tensor<1, dim>, 4> &points, const unsigned int n)
   {
+    using dealii::Tensor;
     std::array<double, 4> best{};
     double                smallest = std::numeric_limits<double>::infinity();
     const auto            consider = [&](const std::array<double, 4> &weights) {

@@ -2,6 +2,7 @@
 
 #include <touchstone/collision/bernstein.h>
 #include <touchstone/collision/relative_motion.h>
+#include <touchstone/collision/round_off.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,8 @@ namespace Touchstone
     using Path   = Bernstein<1, Tensor<1, dim>>;
     using Points = std::array<Tensor<1, dim>, 4>;
 
-    constexpr double u = std::numeric_limits<double>::epsilon() / 2.;
-
     /** Errors relative to the size: 4 u of a point, and 3 u of its product with a direction. */
-    constexpr double round_off = 10. * u;
+    constexpr double round_off = 10. * unit_round_off;
 
     /** Points that are as close to zero touch. It is more than round-off, since what is farther
      * away must be separated for a while, and the while grows with the square root of the distance
@@ -108,31 +107,90 @@ namespace Touchstone
 
 
 
-    /** Whether a direction that turns with the points separates them: a difference itself. */
-    bool
-    corner_separates(const unsigned int corner, const Interval &interval, const double size)
+    /** Largest component of coefficients, by amount. */
+    template <unsigned int degree>
+    double
+    largest(const Bernstein<degree, Tensor<1, dim>> &path)
     {
-      for (unsigned int i = 0; i < interval.n; ++i)
-        if (!(dot(interval.path(corner), interval.path(i)).lowest() > 40. * u * size * size))
+      double result = 0.;
+      for (const Tensor<1, dim> &x : path.coefficients)
+        for (unsigned int d = 0; d < dim; ++d)
+          result = std::max(result, std::abs(x[d]));
+      return result;
+    }
+
+
+
+    /** Whether a path stays away from zero, by more than errors of its components, on one side of
+     * the plane that is orthogonal to one of its coefficients. */
+    template <unsigned int degree>
+    bool
+    stays_away(const Bernstein<degree, Tensor<1, dim>> &path, const double error)
+    {
+      const Tensor<1, dim> &direction = path.coefficients[degree / 2];
+      const double sum = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
+      for (const Tensor<1, dim> &x : path.coefficients)
+        if (!(direction * x > 2. * error * sum))
           return false;
       return true;
     }
 
 
 
-    /** The same with the part of a difference that is orthogonal to the line to another one. */
+    /** Whether a difference separates, as a direction that turns: its products with others. */
+    bool
+    corner_separates(const unsigned int corner, const Interval &interval, const double size)
+    {
+      const Path   x     = interval.path(corner);
+      const double error = 8. * unit_round_off * size;
+      if (!stays_away(x, error))
+        return false;
+      for (unsigned int i = 0; i < interval.n; ++i)
+        if (i != corner)
+          {
+            const Path y = interval.path(i);
+            if (!(dot(x, y).lowest() > 3. * error * (largest(x) + largest(y) + error)))
+              return false;
+          }
+      return true;
+    }
+
+
+
+    /**
+     * The same for the part of a difference x that is orthogonal to the line e to another one,
+     * e × (x × e). Its product with a difference y is (x × e) (y × e): small in proportion to the
+     * distance of x from the line only, though of the fourth degree, since that with x itself is
+     * not needed: it is a square.
+     */
     bool
     edge_separates(const unsigned int i,
                    const unsigned int j,
                    const Interval    &interval,
                    const double       size)
     {
-      const double square = size * size;
       const Path   x = interval.path(i), edge = interval.path(j) - x;
-      const auto   direction = cross(edge, cross(x, edge));
+      const double length = largest(edge);
+      // 4 u size of a difference, twice that of the edge, two products each; 6 u of their sum.
+      const auto error_of = [&](const Path &y) {
+        return unit_round_off * size * (24. * largest(y) + 16. * length);
+      };
+      const auto   first = cross(x, edge);
+      const double error = error_of(x), amount = largest(first);
+      if (!stays_away(first, error))
+        return false;
       for (unsigned int k = 0; k < interval.n; ++k)
-        if (k != j && !(dot(direction, interval.path(k)).lowest() > 2000. * u * square * square))
-          return false;
+        if (k != i && k != j)
+          {
+            const Path   y            = interval.path(k);
+            const auto   second       = cross(y, edge);
+            const double second_error = error_of(y), second_amount = largest(second);
+            const double bound =
+              3. * (amount * second_error + second_amount * error + error * second_error +
+                    10. * unit_round_off * amount * second_amount);
+            if (!(dot(first, second).lowest() > bound))
+              return false;
+          }
       return true;
     }
 
@@ -144,7 +202,7 @@ namespace Touchstone
     {
       const double size   = std::max({interval.size[0], interval.size[1], interval.size[2]});
       const auto   volume = dot(interval.path(0), cross(interval.path(1), interval.path(2)));
-      const double bound  = 200. * u * size * size * size;
+      const double bound  = 200. * unit_round_off * size * size * size;
       if (volume.lowest() > bound || volume.highest() < -bound)
         return true;
       for (unsigned int i = 0; i < interval.n; ++i)

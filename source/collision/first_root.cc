@@ -2,6 +2,7 @@
 
 #include <touchstone/collision/bernstein.h>
 #include <touchstone/collision/first_root.h>
+#include <touchstone/collision/round_off.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +14,6 @@ namespace Touchstone
   {
     using dealii::Tensor;
     using Cubic = std::array<double, 4>;
-
-    constexpr double unit = std::numeric_limits<double>::epsilon() / 2.;
 
     double
     largest(const Tensor<1, dim> &x)
@@ -32,9 +31,9 @@ namespace Touchstone
       const auto &[a1, b1, c1, d1] = motion.end;
       const Tensor<1, dim> first = cross_product_3d(b0, c0), last = cross_product_3d(b1, c1),
                            twice = cross_product_3d(b0, c1) + cross_product_3d(b1, c0);
-      // Of 6 products of three differences each: 3 unit from the differences, 2 u from the products
-      // and 6 unit from sums, 18 u from splitting the interval 6 times, 8 u from value().
-      error = 6. * 40. * unit * std::max(largest(a0), largest(a1)) *
+      // Of 6 products of three differences each: 3 u from the differences, 2 u from the products
+      // and 6 u from sums, 18 u from splitting the interval 6 times, 8 u from value().
+      error = 6. * 40. * unit_round_off * std::max(largest(a0), largest(a1)) *
               std::max(largest(b0), largest(b1)) * std::max(largest(c0), largest(c1));
       return {
         {a0 * first, (a1 * first + a0 * twice) / 3., (a0 * last + a1 * twice) / 3., a1 * last}};
@@ -144,7 +143,7 @@ namespace Touchstone
         }
       // Normals have components up to 8 r^2 with an error of 16 r eta, the other products up to
       // 4 r^2 with 12 r eta: 3 (8 12 + 4 16) r^3 eta = 480 r^3 eta, 3 (8 16 + 8 16) = 768 for
-      // the square of the normal, both for a difference; and their round-off, as eta >= 4 unit r.
+      // the square of the normal, both for a difference; and their round-off, as eta >= 4 u r.
       double r = eta;
       for (unsigned int i = 0; i < n; ++i)
         r = std::max(r, largest(x[i]) + eta);
@@ -176,7 +175,7 @@ namespace Touchstone
       if (!(rise * value(b, lower) < -error && rise * value(b, upper) > error))
         return Verdict::unsure;
       crossing.time    = begin + x * width;
-      const double eta = (16. * unit + 2. * delta * width) * largest(motion.size);
+      const double eta = (16. * unit_round_off + 2. * delta * width) * largest(motion.size);
       return inside(motion.at(crossing.time), motion.n, eta, crossing);
     }
   } // namespace

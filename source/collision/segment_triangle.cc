@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/collision/round_off.h>
 #include <touchstone/collision/segment_triangle.h>
 
 #include <algorithm>
@@ -12,10 +13,8 @@ namespace Touchstone
 {
   namespace
   {
-    using Point   = dealii::Point<dim>;
+    using Corner  = dealii::Point<dim>;
     using Integer = boost::multiprecision::cpp_int;
-
-    constexpr double unit_round_off = std::numeric_limits<double>::epsilon() / 2.;
 
     int
     sign(const double x)
@@ -47,10 +46,10 @@ namespace Touchstone
     /** The points times a power of two that makes whole numbers of all coordinates. */
     template <std::size_t n>
     std::array<std::array<Integer, dim>, n>
-    whole(const std::array<Point, n> &points)
+    whole(const std::array<Corner, n> &points)
     {
       int lowest = std::numeric_limits<int>::max();
-      for (const Point &x : points)
+      for (const Corner &x : points)
         for (unsigned int k = 0; k < dim; ++k)
           if (x[k] != 0.)
             lowest = std::min(lowest, std::ilogb(x[k]));
@@ -70,7 +69,7 @@ namespace Touchstone
 
     /** On which side of the plane of three points a fourth is: 1, -1 or 0. */
     int
-    side(const Point &a, const Point &b, const Point &c, const Point &d)
+    side(const Corner &a, const Corner &b, const Corner &c, const Corner &d)
     {
       std::array<std::array<double, dim>, 3> x;
       for (unsigned int k = 0; k < dim; ++k)
@@ -99,7 +98,7 @@ namespace Touchstone
 
     /** On which side of the line of two points a third is, without the coordinate @p k. */
     int
-    side(const Point &a, const Point &b, const Point &c, const unsigned int k)
+    side(const Corner &a, const Corner &b, const Corner &c, const unsigned int k)
     {
       const unsigned int l = (k + 1) % dim, m = (k + 2) % dim;
       const double first = (a[l] - c[l]) * (b[m] - c[m]), second = (a[m] - c[m]) * (b[l] - c[l]),
@@ -117,7 +116,7 @@ namespace Touchstone
     /** Segments in one plane. They have a point in common if they have one without any of the
      * coordinates: without one of them, no two points of the plane become the same. */
     bool
-    segments_meet(const Point &a, const Point &b, const Point &c, const Point &d)
+    segments_meet(const Corner &a, const Corner &b, const Corner &c, const Corner &d)
     {
       for (unsigned int k = 0; k < dim; ++k)
         if (std::max(a[k], b[k]) < std::min(c[k], d[k]) ||
@@ -132,7 +131,7 @@ namespace Touchstone
     /** Whether a point of the plane of a triangle is in it. Not in one without area: a point of
      * it is on an edge. */
     bool
-    contains(const std::array<Point, 3> &triangle, const Point &p)
+    contains(const std::array<Corner, 3> &triangle, const Corner &p)
     {
       const auto &[a, b, c] = triangle;
       bool has_area         = false;
@@ -150,11 +149,11 @@ namespace Touchstone
 
 
   bool
-  intersects(const std::array<Point, 2> &segment, const std::array<Point, 3> &triangle)
+  intersects(const std::array<Corner, 2> &segment, const std::array<Corner, 3> &triangle)
   {
     const auto &[p, q]    = segment;
     const auto &[a, b, c] = triangle;
-    for (const Point &x : {p, q, a, b, c})
+    for (const Corner &x : {p, q, a, b, c})
       for (unsigned int k = 0; k < dim; ++k)
         if (!std::isfinite(x[k]))
           throw NonConvergence("A coordinate is not finite where crossings are sought.");
