@@ -134,7 +134,7 @@ namespace Touchstone
     return boxes;
   }
 
-  /** The next position of boxes that drift in a smooth field, by up to a twentieth of @p size. */
+  /** The next position of boxes that drift in a smooth field, by up to 0.073 of @p size. */
   inline void
   drift(std::vector<dealii::BoundingBox<dim>> &boxes, const double size)
   {
