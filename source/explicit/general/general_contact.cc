@@ -79,7 +79,6 @@ namespace Touchstone
     double result = 0.;
     for (unsigned int d = 0; d < dim; ++d)
       result = std::max(result, all[d] + all[dim + d]);
-    // A velocity that is not finite is found where velocities are checked.
     return result;
   }
 

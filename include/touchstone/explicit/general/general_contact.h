@@ -132,7 +132,8 @@ namespace Touchstone
     }
 
     /** By this part of their size surfaces are moved inwards for the check of crossings: sides that
-     * touch, or are flush with each other, do not cross. */
+     * touch, or are flush with each other, do not cross, and what rows leave open, as faces turn and
+     * nodes slide within a cycle, is no crossing (doc/general_contact.md, section 3). */
     static constexpr double inset = 1e-4;
 
   private:

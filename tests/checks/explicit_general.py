@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""General contact of explicit dynamics: nothing passes through anything, whatever meets, on any
+number of ranks (doc/general_contact.md)."""
+
+from itertools import product
+from math import cos, pi, sin, sqrt
+
+from touchstone_test import below, check, contact_gives, finish, folder, launch, run
+
+
+def turned_about(axis, angle):
+    """Rotation matrix."""
+    size = sqrt(sum(a * a for a in axis))
+    x, y, z = (a / size for a in axis)
+    c, s, d = cos(angle), sin(angle), 1 - cos(angle)
+    return [[c + x * x * d, x * y * d - z * s, x * z * d + y * s],
+            [y * x * d + z * s, c + y * y * d, y * z * d - x * s],
+            [z * x * d - y * s, z * y * d + x * s, c + z * z * d]]
+
+
+def apply(matrix, vector):
+    """Matrix times vector."""
+    return [sum(m * v for m, v in zip(row, vector)) for row in matrix]
+
+
+NOT_TURNED = turned_about((0, 0, 1), 0)
+
+
+def block(name, lower, upper, cells, velocity, turn=NOT_TURNED, offset=(0, 0, 0)):
+    """The section of a block that is turned about the origin and moved, and its mesh file."""
+    sides = [range(n + 1) for n in cells]
+    points = [apply(turn, [a + (b - a) * i / n for a, b, i, n in
+                           zip(lower, upper, (x, y, z), cells)])
+              for z, y, x in product(*reversed(sides))]
+
+    def node(x, y, z):
+        return x + (cells[0] + 1) * (y + (cells[1] + 1) * z)
+    hexahedra = [[node(x + a, y + b, z + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                 for z, y, x in product(*(range(n) for n in reversed(cells)))]
+    lines = ["# vtk DataFile Version 3.0", name, "ASCII", "DATASET UNSTRUCTURED_GRID",
+             f"POINTS {len(points)} double"]
+    lines += [" ".join(f"{p + o:.17g}" for p, o in zip(point, offset)) for point in points]
+    lines += [f"CELLS {len(hexahedra)} {9 * len(hexahedra)}"]
+    lines += ["8 " + " ".join(map(str, cell)) for cell in hexahedra]
+    lines += [f"CELL_TYPES {len(hexahedra)}"] + ["12"] * len(hexahedra)
+    (folder / f"{name}.vtk").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    lines = [f"subsection Body {name}", "  set Element = one point"]
+    lines += [f"  set Initial velocity {axis} = {v}" for axis, v in zip("xyz", velocity)]
+    lines += ["  subsection Geometry", "    set Type = file", f"    set File = {name}.vtk", "  end",
+              "  subsection Material", "    set Law = neo-Hookean", "    set Young modulus = 1000",
+              "    set Poisson ratio = 0.3", "    set Density = 1", "  end", "end"]
+    return "\n".join(lines)
+
+
+def write(name, parts, end=1, contact="all"):
+    """Write the scene."""
+    bodies = ", ".join(part.split("\n", 1)[0][len("subsection Body "):] for part in parts
+                       if part.startswith("subsection Body"))
+    text = [f"set Bodies = {bodies}", f"set Contact pairs = {contact}", *parts,
+            "subsection Time integration", "  set Scheme = central_differences", "end",
+            "subsection Load stepping", f"  set End time = {end}", "  set Steps = 5", "end", ""]
+    (folder / f"{name}.prm").write_text("\n".join(text), encoding="utf-8")
+    return folder / f"{name}.prm"
+
+
+def meet(name, parts, ranks=1, contact="all"):
+    """Two bodies meet and part again: none has passed through the other."""
+    result = run(f"{name}_{ranks}", write(name, parts, contact=contact), ranks=ranks)
+    if not result.summary:
+        return result
+    motion = result.summary["motion"]
+    lower, upper = (motion["velocities"][body][2] for body in ("lower", "upper"))
+    check(upper > lower + 0.1, f"{name}: bodies do not part, {lower} {upper}")
+    below(f"{name}, balance error", abs(motion["energies"]["balance_error"]), 2e-3)
+    for axis in "xyz":
+        values = result.column(f"momentum {axis}")
+        below(f"{name}, momentum {axis}", max(abs(v - values[0]) for v in values), 1e-12)
+    contact_gives(result, 1e-10)
+    return result
+
+
+UP, DOWN = (0, 0, 0.5), (0, 0, -0.5)
+# Only edges meet: cubes of one cell, one turned by 45 degrees, and bars that cross, each with an edge
+# towards the other.
+meet("cubes", [block("lower", (-.5, -.5, 0), (.5, .5, 1), (1, 1, 1), UP),
+               block("upper", (-.5, -.5, 1.01), (.5, .5, 2.01), (1, 1, 1), DOWN,
+                     turned_about((0, 0, 1), pi / 4))])
+BARS = [block("lower", (-.5, -2, -.5), (.5, 2, .5), (1, 3, 1), UP, turned_about((0, 1, 0), pi / 4)),
+        block("upper", (-2, -.5, -.5), (2, .5, .5), (3, 1, 1), DOWN, turned_about((1, 0, 0), pi / 4),
+              (0, 0, 1.45))]
+first, second = meet("bars", BARS), meet("bars", BARS, ranks=2)
+check(first.summary["motion"] == second.summary["motion"], "bars: one and two ranks differ")
+# A corner on a face, faces on faces of other cells, with friction.
+meet("corner", [block("lower", (-2, -2, -1), (2, 2, 0), (4, 4, 1), (0, 0, 0)),
+                block("upper", (0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 0, -1),
+                      turned_about((1, -1, 0), 0.9553166), (.3, .2, .02))])
+FRICTION = ("subsection Contact pair everything\n  set Slave body = lower, upper\n"
+            "  set Behaviour = coulomb\n  subsection Friction\n    set Coefficient = 0.3\n  end\nend")
+FACES = [block("lower", (0, 0, 0), (1, 1, 1), (3, 3, 3), UP),
+         block("upper", (.2, .1, 1.05), (1.2, 1.1, 2.05), (2, 2, 2), (0.2, 0, -0.5)), FRICTION]
+rubbing = meet("faces", FACES, contact="everything")
+work = rubbing.column("energy: friction")
+check(work[-1] > 0 and all(b >= a - 1e-14 for a, b in zip(work, work[1:])),
+      "faces: friction does no work, or gives energy")
+
+# Refused before the run, with section, key and remedy or places.
+for what, parts, contact, settings, texts in (
+        ("crossing", [block("lower", (0, 0, 0), (1, 1, 1), (2, 2, 2), UP),
+                      block("upper", (.2, .1, .9), (1.2, 1.1, 1.9), (2, 2, 2), DOWN)], "all", {},
+         ("surfaces cross each other at the start", "'lower' and 'upper' near (")),
+        ("statics", FACES[:2], "all", {"Time integration/Scheme": "static"}, ("is for explicit dynamics",)),
+        ("springs", FACES[:2], "all", {"Contact/Enforcement": "penalty"}, ("'Enforcement'",)),
+        ("body", FACES, "everything", {"Contact pair everything/Slave body": "uper"}, ("'uper'",)),
+        ("margin", FACES, "everything", {"Contact pair everything/Search margin": "-1"},
+         ("'Search margin'",)),
+        ("search", FACES, "everything", {"Contact pair everything/Search": "threes"}, ("'Search'",)),
+        ("boundary", FACES, "everything", {"Contact pair everything/Slave boundaries": "none"},
+         ("'none'",))):
+    options = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
+    refused = launch("--results-only", "--output", "refused", *options,
+                     write(what, parts, contact=contact), timeout=60)
+    check(refused.returncode != 0 and all(text in refused.stdout for text in ("Remedy: ", *texts)),
+          f"{what}: not refused, or not for this reason:\n{refused.stdout[-600:]}")
+finish()
