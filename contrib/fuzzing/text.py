@@ -28,8 +28,9 @@ def _body(body):
 
 
 def _obstacle(obstacle):
-    keys = {"Shape": obstacle.shape, "Point": numbers(obstacle.point),
-            "Direction": numbers(obstacle.direction)}
+    keys = {"Shape": obstacle.shape, "Point": numbers(obstacle.point)}
+    if obstacle.shape != "sphere":
+        keys["Direction"] = numbers(obstacle.direction)
     if obstacle.shape != "plane":
         keys |= {"Radius": number(obstacle.radius), "Side": obstacle.side}
     keys |= {f"Motion {a}": str(f) for a, f in zip(AXES, obstacle.motion) if f is not None}
