@@ -115,7 +115,7 @@ namespace Touchstone
     const double between = 0.5 * (now.length + length);
     if (!damping.empty() && between != mobile_for)
       set_mobilities(between);
-    const auto began = std::chrono::steady_clock::now();
+    const auto began    = std::chrono::steady_clock::now();
     const bool possible = impulses->project(now.u, v_before, now.v, now.time, length, between);
     counts.contact_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

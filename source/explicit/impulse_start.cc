@@ -17,7 +17,7 @@ namespace Touchstone
     counted    = ImpulseWork();
     if (general)
       general->begin_interval();
-    fastest    = 0.;
+    fastest = 0.;
     // Everything from the committed state, which is what a checkpoint has: sweeps begin from no
     // impulses.
     for (const ContactRow &row : contact.rows())
@@ -73,12 +73,10 @@ namespace Touchstone
         const Tensor<1, dim> w   = solver.relative_velocity(row, v_before);
         // Rows of general contact touch.
         const double gap = k < kept.size() ? kept[k].at_start : 0.;
-        row.friction             = nullptr; // made anew with the first cycle
+        row.friction     = nullptr; // made anew with the first cycle
         row.drive *= -1.;
         row.allowed =
-          row.tied
-            ? w
-            : (std::max(0., gap) / step + std::max(0., w * row.normal)) * row.normal;
+          row.tied ? w : (std::max(0., gap) / step + std::max(0., w * row.normal)) * row.normal;
       }
     for (Tensor<1, dim> &velocity : solver.velocity)
       velocity *= -1.;

@@ -62,9 +62,10 @@ namespace Touchstone
         ImpactSurfaceInput::Boundaries &of = input.bodies[b];
         of.all_but                         = general.all_boundaries();
         // What lies beyond a plane of symmetry is the mirrored half of the body.
-        of.ids = of.all_but
-                   ? forest.boundary_ids(b, body.symmetry, body.section(), "Symmetry")
-                   : forest.boundary_ids(b, general.boundaries, general.section(), "Slave boundaries");
+        of.ids =
+          of.all_but
+            ? forest.boundary_ids(b, body.symmetry, body.section(), "Symmetry")
+            : forest.boundary_ids(b, general.boundaries, general.section(), "Slave boundaries");
       }
     for (const ContactPairParameters &pair : scene.pairs)
       if (pair.obstacle.empty())

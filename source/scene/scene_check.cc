@@ -137,13 +137,14 @@ namespace Touchstone
   {
     const std::string section = one.section();
     if (general.size() > 1)
-      throw InputError("",
-                       "Contact pairs",
-                       general[1].name,
-                       "as '" + general[0].name +
-                         "' it has neither a master body nor an obstacle, and there can be only one "
-                         "general contact",
-                       "name the bodies of both in one of them, or give this one a master body");
+      throw InputError(
+        "",
+        "Contact pairs",
+        general[1].name,
+        "as '" + general[0].name +
+          "' it has neither a master body nor an obstacle, and there can be only one "
+          "general contact",
+        "name the bodies of both in one of them, or give this one a master body");
     if (!one.all_bodies())
       for (const std::string &body : one.bodies)
         check_name(section, "Slave body", body, "Bodies", names(bodies));

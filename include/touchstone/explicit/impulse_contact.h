@@ -228,7 +228,7 @@ namespace Touchstone
     std::vector<std::size_t> kept_rows;
     /** By node of the solver: number here of owned ones, displacement, reference position,
      * displacement when the rows were made, and motion since. */
-    std::vector<unsigned int>                    local;
+    std::vector<unsigned int>           local;
     std::vector<dealii::Tensor<1, dim>> u_nodes, x_nodes, reference, made_at, moved, v_before;
     /** The displacement when the rows were made, by local node. */
     NodeField                                    made_at_nodes;

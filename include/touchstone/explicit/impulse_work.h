@@ -78,7 +78,7 @@ namespace Touchstone
              uneven,
              given] = *this;
       archive &n &all &most &of_rounds &made &ended &checks &most_checks &many_checks &halved;
-      archive &close &sought &sent &of_messages &uneven &given;
+      archive &close &sought &sent &of_messages &uneven                               &given;
     }
   };
 } // namespace Touchstone

@@ -42,16 +42,16 @@ namespace Touchstone
     std::vector<ContactPairParameters> pairs;
     /** At most one: what names no other side, in explicit dynamics. */
     std::vector<GeneralContactParameters> general;
-    DiscretisationParameters           discretisation;
-    ContactParameters                  contact;
-    RefinementParameters               refinement;
-    LoadSteppingParameters             load_stepping;
-    TimeIntegrationParameters          time_integration;
-    NewtonParameters                   newton;
-    LinearSolverParameters             linear_solver;
-    OutputParameters                   output;
-    ReferenceParameters                reference;
-    CheckpointParameters               checkpoints;
+    DiscretisationParameters              discretisation;
+    ContactParameters                     contact;
+    RefinementParameters                  refinement;
+    LoadSteppingParameters                load_stepping;
+    TimeIntegrationParameters             time_integration;
+    NewtonParameters                      newton;
+    LinearSolverParameters                linear_solver;
+    OutputParameters                      output;
+    ReferenceParameters                   reference;
+    CheckpointParameters                  checkpoints;
 
     /**
      * @brief Read a scene file and the overrides of the command line.

@@ -120,8 +120,9 @@ namespace Touchstone
     ++work.searches;
     const std::vector<MovingFace> all = exchange_faces(u, v, step, margin);
     find_pairs(all, margin, neighbours_as_well);
-    work.candidates = Utilities::MPI::sum<std::uint64_t>(
-      node_faces.size() + edge_pairs.size() + face_pairs.size(), nodes.communicator());
+    work.candidates =
+      Utilities::MPI::sum<std::uint64_t>(node_faces.size() + edge_pairs.size() + face_pairs.size(),
+                                         nodes.communicator());
     keep_used_faces(all);
   }
 
@@ -161,10 +162,9 @@ namespace Touchstone
     farthest = Utilities::MPI::max(fastest, nodes.communicator()) + 2. * margin;
     std::map<unsigned int, std::vector<MovingFace>> messages;
     for (const MovingFace &moving : own)
-      partition.for_each_owner(moving.box(farthest), [&](const unsigned int rank) {
-        messages[rank].push_back(moving);
-      });
-    const unsigned int me = Utilities::MPI::this_mpi_process(nodes.communicator());
+      partition.for_each_owner(moving.box(farthest),
+                               [&](const unsigned int rank) { messages[rank].push_back(moving); });
+    const unsigned int me      = Utilities::MPI::this_mpi_process(nodes.communicator());
     std::uint64_t      sent[2] = {0, 0};
     for (const auto &[rank, faces_to] : messages)
       if (rank != me)
@@ -199,11 +199,13 @@ namespace Touchstone
     std::vector<BoundingBox<dim>> boxes;
     for (const MovingFace &moving : all)
       boxes.push_back(moving.box(grown));
-    const auto slot_key = [&](const std::size_t slot) { return all[slot / 4].face.nodes[slot % 4]; };
+    const auto slot_key = [&](const std::size_t slot) {
+      return all[slot / 4].face.nodes[slot % 4];
+    };
     const auto edge_key = [&](const std::size_t slot) {
       return std::minmax({slot_key(slot), slot_key(next(slot))});
     };
-    const auto mine = [&](const Point<dim> &corner) { return partition.owner(corner) == me; };
+    const auto mine     = [&](const Point<dim> &corner) { return partition.owner(corner) == me; };
     const auto add_node = [&](const unsigned int of, const unsigned int a, const unsigned int f) {
       const BoundingBox<dim> box = all[of].box(a, grown);
       if (!all[f].face.of_cell(all[of].face.nodes[a]) && overlap(box, boxes[f]) &&
@@ -269,10 +271,12 @@ namespace Touchstone
                  b = std::minmax({key(pair.other), key(next(pair.other))});
       return std::array<std::uint64_t, 4>{{a.first, a.second, b.first, b.second}};
     };
-    const auto found = std::lower_bound(
-      edge_pairs.begin(), edge_pairs.end(), keys, [&](const EdgePair &pair, const auto &wanted) {
-        return keys_of(pair) < wanted;
-      });
+    const auto found = std::lower_bound(edge_pairs.begin(),
+                                        edge_pairs.end(),
+                                        keys,
+                                        [&](const EdgePair &pair, const auto &wanted) {
+                                          return keys_of(pair) < wanted;
+                                        });
     return found != edge_pairs.end() && keys_of(*found) == keys ? found - edge_pairs.begin()
                                                                 : edge_pairs.size();
   }

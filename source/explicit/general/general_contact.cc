@@ -63,15 +63,15 @@ namespace Touchstone
   double
   GeneralContact::range(const NodeField &u, const NodeField &v, const double step) const
   {
-    constexpr double        none = -std::numeric_limits<double>::max();
+    constexpr double            none = -std::numeric_limits<double>::max();
     std::array<double, 2 * dim> most, all;
     most.fill(none);
     for (const unsigned int node : surface.owned_nodes())
       for (unsigned int d = 0; d < dim; ++d)
         {
           const double begin = u[node][d] - made_at[node][d], end = begin + step * v[node][d];
-          most[d]            = std::max({most[d], begin, end});
-          most[dim + d]      = std::max({most[dim + d], -begin, -end});
+          most[d]       = std::max({most[d], begin, end});
+          most[dim + d] = std::max({most[dim + d], -begin, -end});
         }
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
                         nodes.communicator(),
@@ -87,13 +87,12 @@ namespace Touchstone
   void
   GeneralContact::renew_candidates(const NodeField &u, const NodeField &v, const double step)
   {
-    made_at                = u;
-    const double in_cycle  = range(u, v, step);
-    const double automatic = std::clamp(cycles_ahead * in_cycle,
-                                        least_margin * smallest,
-                                        most_margin * smallest);
-    const double wanted    = parameters.margin_length();
-    margin = std::max(wanted > 0. ? wanted : automatic, of_impulses * in_cycle);
+    made_at               = u;
+    const double in_cycle = range(u, v, step);
+    const double automatic =
+      std::clamp(cycles_ahead * in_cycle, least_margin * smallest, most_margin * smallest);
+    const double wanted = parameters.margin_length();
+    margin              = std::max(wanted > 0. ? wanted : automatic, of_impulses * in_cycle);
     candidates.find(u, v, step, margin);
     motion.resize(candidates.at_slots.n());
     rows.clear();
@@ -137,8 +136,10 @@ namespace Touchstone
     for (unsigned int node = 0; node < on.n_owned(); ++node)
       {
         const unsigned int local = nodes.local(on.dof(node));
-        motion[node]             = {
-          surface.position(local, u), v[local], surface.normal(local, u), surface.size(local)};
+        motion[node]             = {surface.position(local, u),
+                                    v[local],
+                                    surface.normal(local, u),
+                                    surface.size(local)};
       }
     on.forward(motion);
   }

@@ -154,18 +154,15 @@ namespace Touchstone
         all_to[i]                = inner_position(point, true);
       }
     for (const auto *const x : {&all_from, &all_to})
-      if (separated(all_from,
-                    all_to,
-                    1,
-                    cross_product_3d((*x)[3] - (*x)[1], (*x)[4] - (*x)[2])))
+      if (separated(all_from, all_to, 1, cross_product_3d((*x)[3] - (*x)[1], (*x)[4] - (*x)[2])))
         return false;
     std::optional<Crossing> first;
     unsigned int            triangle = 0;
     const auto              ends     = [&](const unsigned int t, const bool at_end) {
       return std::array<Point<dim>, 4>{{at_end ? to : from,
-                                                          inner_position(corner(face, t), at_end),
-                                                          inner_position(corner(face, t + 1), at_end),
-                                                          inner_position(middle(face), at_end)}};
+                                        inner_position(corner(face, t), at_end),
+                                        inner_position(corner(face, t + 1), at_end),
+                                        inner_position(middle(face), at_end)}};
     };
     for (unsigned int t = 0; t < 4; ++t)
       {
@@ -178,7 +175,7 @@ namespace Touchstone
       }
     if (!first)
       return false;
-    const auto a = ends(triangle, false), b = ends(triangle, true);
+    const auto                a = ends(triangle, false), b = ends(triangle, true);
     std::array<Point<dim>, 4> x;
     Tensor<1, dim>            closing = b[0] - a[0];
     for (unsigned int i = 0; i < 4; ++i)
@@ -222,9 +219,9 @@ namespace Touchstone
     if (!found)
       return false;
     const std::array<double, 2> at_edges{{found->weights[0], found->weights[1]}};
-    const Tensor<1, dim>        closing = between(b[0], b[1], at_edges[0]) -
-                                   between(a[0], a[1], at_edges[0]) -
-                                   (between(b[2], b[3], at_edges[1]) - between(a[2], a[3], at_edges[1]));
+    const Tensor<1, dim>        closing =
+      between(b[0], b[1], at_edges[0]) - between(a[0], a[1], at_edges[0]) -
+      (between(b[2], b[3], at_edges[1]) - between(a[2], a[3], at_edges[1]));
     std::array<Point<dim>, 4> x;
     for (unsigned int i = 0; i < 4; ++i)
       x[i] = between(a[i], b[i], found->time);
@@ -282,8 +279,8 @@ namespace Touchstone
 
 
 
-  // The middle of a warped face can reach further than its edges, and so can the edges from there to
-  // the corners. Of a plane face nothing meets them before it meets the face or its edges.
+  // The middle of a warped face can reach further than its edges, and so can the edges from there
+  // to the corners. Of a plane face nothing meets them before it meets the face or its edges.
   bool
   GeneralContact::check_inner_edges(const unsigned int one, const unsigned int other)
   {

@@ -12,8 +12,7 @@ namespace Touchstone
   using namespace dealii;
 
   void
-  GeneralContact::lay_out(std::vector<ImpulseRow>               &to,
-                          std::vector<std::pair<Index, RowKey>> &slots)
+  GeneralContact::lay_out(std::vector<ImpulseRow> &to, std::vector<std::pair<Index, RowKey>> &slots)
   {
     for (const Row &from : rows)
       {
@@ -67,8 +66,7 @@ namespace Touchstone
           set_lever(solver, row, x, from.normal, from.size);
           const double closing = -step * (solver.relative_velocity(row, v_before) * row.normal);
           row.allowed =
-            ((from.gap - allowed_gap(from.gap, closing, from.size)) / step) *
-            row.normal;
+            ((from.gap - allowed_gap(from.gap, closing, from.size)) / step) * row.normal;
           solver.near.push_back(first + k);
         }
   }
@@ -115,9 +113,8 @@ namespace Touchstone
         {
           const Tensor<1, dim> mean =
             0.5 * (solver.relative_velocity(row, v_before) + row.velocity);
-          const double normal =
-            (row.impulse * row.normal) * (mean * row.normal);
-          const double slip = row.impulse * mean - normal;
+          const double normal = (row.impulse * row.normal) * (mean * row.normal);
+          const double slip   = row.impulse * mean - normal;
           // What presses an overlap apart is supplied from outside.
           const double supplied = row.allowed * row.normal < 0. ? std::max(0., normal) : 0.;
           energies.normal.add(normal);
@@ -127,9 +124,9 @@ namespace Touchstone
           given.add(normal);
           given.add(-supplied);
           Pressed what;
-          what.key     = row.key;
-          what.impulse = row.impulse;
-          what.sliding = row.friction && row.sliding;
+          what.key         = row.key;
+          what.impulse     = row.impulse;
+          what.sliding     = row.friction && row.sliding;
           const Side &side = rows[k].sides[0];
           what.lower = what.upper = Point<dim>(at(side.slots[0]).x);
           for (unsigned int i = 0; i < side.n; ++i)

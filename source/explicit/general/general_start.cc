@@ -80,13 +80,13 @@ namespace Touchstone
               FourPoints       through = start;
               through[0]               = q;
               if (first_crossing_node_triangle(start, through))
-              {
-                places.push_back({candidates.faces[of].key,
-                                  candidates.faces[of].body,
-                                  candidates.faces[face].body,
-                                  Point<dim>(0.5 * (p + q))});
-                return;
-              }
+                {
+                  places.push_back({candidates.faces[of].key,
+                                    candidates.faces[of].body,
+                                    candidates.faces[face].body,
+                                    Point<dim>(0.5 * (p + q))});
+                  return;
+                }
             }
         }
     };
@@ -95,7 +95,7 @@ namespace Touchstone
         check(pair.one, pair.other);
         check(pair.other, pair.one);
       }
-    renew = true;
+    renew             = true;
     const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
     std::sort(places.begin(), places.end(), by_key);
     const std::uint64_t n = Utilities::MPI::sum<std::uint64_t>(places.size(), nodes.communicator());

@@ -116,8 +116,9 @@ namespace Touchstone
 
 
   void
-  GeneralContact::add_hit(const std::size_t node, const unsigned int face, std::vector<Hit> &hits)
-    const
+  GeneralContact::add_hit(const std::size_t  node,
+                          const unsigned int face,
+                          std::vector<Hit>  &hits) const
   {
     if (!is_slave(node, face))
       return;
@@ -126,9 +127,9 @@ namespace Touchstone
     double                inside = -round_off;
     for (unsigned int t = 0; t < 4; ++t)
       {
-        const Tensor<1, dim> a = mean(corner(face, t), &NodeMotion::x) - x,
-                             b = mean(corner(face, t + 1), &NodeMotion::x) - x,
-                             c = mean(middle(face), &NodeMotion::x) - x;
+        const Tensor<1, dim> a          = mean(corner(face, t), &NodeMotion::x) - x,
+                             b          = mean(corner(face, t + 1), &NodeMotion::x) - x,
+                             c          = mean(middle(face), &NodeMotion::x) - x;
         const Tensor<1, dim> twice_area = cross_product_3d(b - a, c - a);
         const double         square     = twice_area.norm_square();
         if (square == 0.)
@@ -136,14 +137,14 @@ namespace Touchstone
         const std::array<double, 3> weights{{cross_product_3d(b, c) * twice_area / square,
                                              cross_product_3d(c, a) * twice_area / square,
                                              cross_product_3d(a, b) * twice_area / square}};
-        const double least = *std::min_element(weights.begin(), weights.end());
+        const double                least = *std::min_element(weights.begin(), weights.end());
         if (least < inside)
           continue;
-        inside      = least;
-        best.face   = face;
-        best.normal = twice_area / std::sqrt(square);
-        best.gap    = -(a * best.normal);
-        best.middle = c + x;
+        inside        = least;
+        best.face     = face;
+        best.normal   = twice_area / std::sqrt(square);
+        best.gap      = -(a * best.normal);
+        best.middle   = c + x;
         best.triangle = t;
         best.weights  = weights;
       }
@@ -157,8 +158,8 @@ namespace Touchstone
 
 
 
-  // In a hollow a node has a row with each of several faces. Where they are flush, or where the edge
-  // between them stands out, it has one: with both it could not slide off the edge.
+  // In a hollow a node has a row with each of several faces. Where they are flush, or where the
+  // edge between them stands out, it has one: with both it could not slide off the edge.
   bool
   GeneralContact::stand_together(const Hit &one, const Hit &other, const std::size_t node) const
   {

@@ -22,7 +22,9 @@ namespace Touchstone
                                                    {4, 5, 7, 6, 0, 1, 2, 3}};
 
     bool
-    takes_part(const ImpactSurfaceInput &input, const unsigned int body, const types::boundary_id id)
+    takes_part(const ImpactSurfaceInput &input,
+               const unsigned int        body,
+               const types::boundary_id  id)
     {
       const ImpactSurfaceInput::Boundaries &of = input.bodies[body];
       return (of.ids.count(id) > 0) != of.all_but;

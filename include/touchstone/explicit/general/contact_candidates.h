@@ -37,10 +37,10 @@ namespace Touchstone
   {
   public:
     /** @param search Name of a BroadPhase. @param surface, nodes Must live as long. */
-    ContactCandidates(const ImpactSurface &surface,
-                      const NodeMap       &nodes,
+    ContactCandidates(const ImpactSurface    &surface,
+                      const NodeMap          &nodes,
                       const dealii::IndexSet &owned_dofs,
-                      const std::string   &search);
+                      const std::string      &search);
 
     /**
      * @brief Find them. Collective.
@@ -128,7 +128,7 @@ namespace Touchstone
     /** A face with the present positions of its corners, and those at the end of a cycle. */
     struct MovingFace
     {
-      ImpactFace                face;
+      ImpactFace                        face;
       std::array<dealii::Point<dim>, 4> from, to;
 
       dealii::BoundingBox<dim>

@@ -27,10 +27,10 @@ namespace Touchstone
    * @brief Everything touches everything, in explicit dynamics: the rows that keep surfaces from
    * crossing each other, wherever they meet (doc/general_contact.md).
    *
-   * In each cycle there are rows for nodes that touch a face and for edges that pressed in the cycle
-   * before, and those that the crossing check asks for: straight motion of all nodes through the
-   * cycle, nodes against faces and edges against edges. Nothing is kept from one interval to the
-   * next; within an interval only what starts the sweeps, and which edges pressed.
+   * In each cycle there are rows for nodes that touch a face and for edges that pressed in the
+   * cycle before, and those that the crossing check asks for: straight motion of all nodes through
+   * the cycle, nodes against faces and edges against edges. Nothing is kept from one interval to
+   * the next; within an interval only what starts the sweeps, and which edges pressed.
    */
   class GeneralContact
   {
@@ -132,8 +132,8 @@ namespace Touchstone
     }
 
     /** By this part of their size surfaces are moved inwards for the check of crossings: sides that
-     * touch, or are flush with each other, do not cross, and what rows leave open, as faces turn and
-     * nodes slide within a cycle, is no crossing (doc/general_contact.md, section 3). */
+     * touch, or are flush with each other, do not cross, and what rows leave open, as faces turn
+     * and nodes slide within a cycle, is no crossing (doc/general_contact.md, section 3). */
     static constexpr double inset = 1e-4;
 
   private:
@@ -195,14 +195,14 @@ namespace Touchstone
     double    margin = 0.;
     bool      renew  = true;
     /** By node of the candidates, at the start of the cycle. */
-    std::vector<NodeMotion> motion;
-    double                  cycle = 0.;
-    std::vector<dealii::Point<dim>>               inner_from, inner_to;
+    std::vector<NodeMotion>         motion;
+    double                          cycle = 0.;
+    std::vector<dealii::Point<dim>> inner_from, inner_to;
     /** Lower and upper corners of the boxes of faces through the cycle. */
     std::vector<std::array<double, 2 * dim>> face_boxes;
-    std::vector<Row>        rows;
-    std::map<RowKey, std::size_t> numbers;
-    bool                          new_rows = false;
+    std::vector<Row>                         rows;
+    std::map<RowKey, std::size_t>            numbers;
+    bool                                     new_rows = false;
     /** Of the cycle before, by row: impulses, and whether it slides; by slave: whether it slides;
      * and pairs of edges that pressed. */
     struct Pressed
