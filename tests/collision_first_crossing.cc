@@ -103,6 +103,33 @@ namespace
     return motion;
   }
 
+  /** The first point is on the triangle of the others, and so are both edges: a bit above or below
+   * after rounding. This is so at the start, from where some or all move on, or at the end. */
+  Motion
+  touching_motion()
+  {
+    Motion       motion = random_motion(generator() % 2 == 0 ? 0.1 : 1., 0.);
+    const double s = 0.5 + 0.5 * real(), t = 0.5 + 0.5 * real();
+    auto &[a, b, c, d]        = motion.start;
+    const Point<dim> together = motion.end[0];
+    a                         = Point<dim>((1. - s) * (1. - t) * b + s * (1. - t) * c + t * d);
+    switch (generator() % 3)
+      {
+        case 0: // the line of a and b through the edge of c and d
+          b = a + (c + t * (d - c) - a) / s;
+          break;
+        case 1:
+          motion.end = motion.start;
+          break;
+        default:
+          for (unsigned int i = 0; i < 4; ++i)
+            motion.end[i] = motion.start[i] + (together - a);
+      }
+    if (generator() % 2 == 0)
+      std::swap(motion.start, motion.end);
+    return motion;
+  }
+
   std::optional<Crossing>
   first_crossing(const Motion &motion, const unsigned int n_of_first)
   {
@@ -284,6 +311,7 @@ main(int argc, char **argv)
   compare_all("random, around 1e6", 500 * factor, far_away);
   compare_all("degenerate", 200 * factor, degenerate_motion);
   compare_all("degenerate, rounded", 200 * factor, rounded_motion, false);
+  compare_all("touching, rounded", 200 * factor, touching_motion, false);
   compare_segments(1000 * factor);
   not_finite();
   if (all)

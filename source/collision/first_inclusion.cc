@@ -54,7 +54,7 @@ namespace Touchstone
       double bound = 0.;
       for (unsigned int d = 0; d < dim; ++d)
         bound += std::abs(direction[d]) * interval.size[d];
-      bound *= margin;
+      bound = margin * bound + underflow;
       for (unsigned int i = 0; i < n; ++i)
         if (!(direction * interval.points[i] > bound))
           return false;
@@ -130,7 +130,7 @@ namespace Touchstone
       const Tensor<1, dim> &direction = path.coefficients[degree / 2];
       const double sum = std::abs(direction[0]) + std::abs(direction[1]) + std::abs(direction[2]);
       for (const Tensor<1, dim> &x : path.coefficients)
-        if (!(direction * x > 2. * error * sum))
+        if (!(direction * x > 2. * error * sum + underflow))
           return false;
       return true;
     }
@@ -187,7 +187,8 @@ namespace Touchstone
             const double second_error = error_of(y), second_amount = largest(second);
             const double bound =
               3. * (amount * second_error + second_amount * error + error * second_error +
-                    10. * unit_round_off * amount * second_amount);
+                    10. * unit_round_off * amount * second_amount) +
+              underflow;
             if (!(dot(first, second).lowest() > bound))
               return false;
           }
@@ -222,8 +223,8 @@ namespace Touchstone
   std::optional<double>
   first_inclusion(const RelativeMotion &motion)
   {
-    // An interval is [number, number + 1] 2^-level. To the right of one that was left out comes the
-    // next number, and an even number starts where its parent does: no stack is needed.
+    // An interval of time is [number, number + 1] 2^-level. To the right of one that was left out
+    // comes the next number, and an even number starts where its parent does: no stack is needed.
     constexpr unsigned int last   = 48;
     std::uint64_t          number = 0;
     unsigned int           level  = 0;

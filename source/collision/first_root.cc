@@ -33,8 +33,8 @@ namespace Touchstone
                            twice = cross_product_3d(b0, c1) + cross_product_3d(b1, c0);
       // Of 6 products of three differences each: 3 u from the differences, 2 u from the products
       // and 6 u from sums, 18 u from splitting the interval 6 times, 8 u from value().
-      error = 6. * 40. * unit_round_off * std::max(largest(a0), largest(a1)) *
-              std::max(largest(b0), largest(b1)) * std::max(largest(c0), largest(c1));
+      error = underflow + 6. * 40. * unit_round_off * std::max(largest(a0), largest(a1)) *
+                            std::max(largest(b0), largest(b1)) * std::max(largest(c0), largest(c1));
       return {
         {a0 * first, (a1 * first + a0 * twice) / 3., (a0 * last + a1 * twice) / 3., a1 * last}};
     }

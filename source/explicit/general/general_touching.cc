@@ -138,7 +138,8 @@ namespace Touchstone
                                              cross_product_3d(c, a) * twice_area / square,
                                              cross_product_3d(a, b) * twice_area / square}};
         const double                least = *std::min_element(weights.begin(), weights.end());
-        if (least < inside)
+        // Not at the edge of the face, where another body can be flush with it.
+        if (least < inside || weights[2] < touching)
           continue;
         inside        = least;
         best.face     = face;
