@@ -103,6 +103,14 @@ work = rubbing.column("energy: friction")
 check(work[-1] > 0 and all(b >= a - 1e-14 for a, b in zip(work, work[1:])),
       "faces: friction does no work, or gives energy")
 
+# Boxes that are flush with each other, and one that slides over their edges: it meets no bump, and
+# what touches without a gap has no force.
+FLUSH = [block(f"lower {i}", (i, 0, 0), (i + 1, 1, 1), (2, 2, 2), (0, 0, 0)) for i in range(3)]
+flush = run("flush", write("flush", [*FLUSH, block("slider", (.4, .1, 1), (1.3, .9, 1.6), (2, 2, 2),
+                                                  (.3, 0, 0))]))
+for body, velocity in flush.summary.get("motion", {}).get("velocities", {"none": (1, 1, 1)}).items():
+    below(f"flush, {body}, velocity z", abs(velocity[2]), 1e-10)
+
 # Refused before the run, with section, key and remedy or places.
 for what, parts, contact, settings, texts in (
         ("crossing", [block("lower", (0, 0, 0), (1, 1, 1), (2, 2, 2), UP),

@@ -72,6 +72,9 @@ namespace Touchstone
           const double begin = u[node][d] - made_at[node][d], end = begin + step * v[node][d];
           most[d]       = std::max({most[d], begin, end});
           most[dim + d] = std::max({most[dim + d], -begin, -end});
+          // Comparisons do not see it.
+          if (!std::isfinite(end))
+            most[d] = std::numeric_limits<double>::infinity();
         }
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
                         nodes.communicator(),
@@ -152,19 +155,17 @@ namespace Touchstone
                               const double     step,
                               const bool       only_touching)
   {
-    if (!renew && candidates.any())
-      import(u, v);
-    if (renew || range(u, v, step) > margin)
-      {
-        renew_candidates(u, v, step);
-        if (candidates.any())
-          import(u, v);
-      }
     cycle = step;
     for (Row &row : rows)
       row.used = false;
+    const double moved = range(u, v, step);
+    if (!std::isfinite(moved))
+      return; // what is wrong with the velocities is told where the cycle is checked
+    if (renew || moved > margin)
+      renew_candidates(u, v, step);
     if (!candidates.any())
       return;
+    import(u, v);
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
@@ -178,10 +179,11 @@ namespace Touchstone
   GeneralContact::Crossings
   GeneralContact::find_crossings(const NodeField &u, const NodeField &v, const double step)
   {
-    if (range(u, v, step) > margin)
-      return Crossings::too_far;
-    if (!candidates.any())
+    const double moved = range(u, v, step);
+    if (!candidates.any() || !std::isfinite(moved))
       return Crossings::none;
+    if (moved > margin)
+      return Crossings::too_far;
     cycle = step;
     import(u, v);
     set_inner_positions();
