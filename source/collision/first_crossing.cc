@@ -8,23 +8,37 @@
 
 namespace Touchstone
 {
+  namespace
+  {
+    /** The first crossing of a motion. @param weights Those of Crossing from the coefficients of
+     * closest_to_zero(). */
+    template <class Weights>
+    std::optional<Crossing>
+    first_crossing(const RelativeMotion &motion, const Weights &weights)
+    {
+      if (motion.apart())
+        return {};
+      Crossing      crossing;
+      const Verdict verdict = first_root(motion, crossing);
+      if (verdict == Verdict::apart)
+        return {};
+      if (verdict == Verdict::crossing)
+        return crossing;
+      const std::optional<double> time = first_inclusion(motion);
+      if (!time)
+        return {};
+      return Crossing{*time, weights(closest_to_zero(motion.at(*time), motion.n))};
+    }
+  } // namespace
+
+
+
   std::optional<Crossing>
   first_crossing_node_triangle(const FourPoints &start, const FourPoints &end)
   {
-    const RelativeMotion motion = RelativeMotion::node_triangle(start, end);
-    if (motion.apart())
-      return {};
-    Crossing      crossing;
-    const Verdict verdict = first_root(motion, crossing);
-    if (verdict == Verdict::apart)
-      return {};
-    if (verdict == Verdict::crossing)
-      return crossing;
-    const std::optional<double> time = first_inclusion(motion);
-    if (!time)
-      return {};
-    const auto weights = closest_to_zero(motion.at(*time), motion.n);
-    return Crossing{*time, {{weights[0], weights[1], weights[2]}}};
+    return first_crossing(RelativeMotion::node_triangle(start, end), [](const auto &w) {
+      return std::array<double, 3>{{w[0], w[1], w[2]}};
+    });
   }
 
 
@@ -32,19 +46,8 @@ namespace Touchstone
   std::optional<Crossing>
   first_crossing_edge_edge(const FourPoints &start, const FourPoints &end)
   {
-    const RelativeMotion motion = RelativeMotion::edge_edge(start, end);
-    if (motion.apart())
-      return {};
-    Crossing      crossing;
-    const Verdict verdict = first_root(motion, crossing);
-    if (verdict == Verdict::apart)
-      return {};
-    if (verdict == Verdict::crossing)
-      return crossing;
-    const std::optional<double> time = first_inclusion(motion);
-    if (!time)
-      return {};
-    const auto w = closest_to_zero(motion.at(*time), motion.n);
-    return Crossing{*time, {{std::min(1., w[2] + w[3]), std::min(1., w[1] + w[3]), 0.}}};
+    return first_crossing(RelativeMotion::edge_edge(start, end), [](const auto &w) {
+      return std::array<double, 3>{{std::min(1., w[2] + w[3]), std::min(1., w[1] + w[3]), 0.}};
+    });
   }
 } // namespace Touchstone

@@ -79,7 +79,8 @@ namespace Touchstone
     solver.nodes.forward(solver.velocity);
     for (unsigned int node = 0; node < solver.nodes.n(); ++node)
       x_nodes[node] = reference[node] + u_nodes[node];
-    v_free = solver.velocity;
+    if (general)
+      v_free = solver.velocity;
   }
 
 
@@ -96,15 +97,13 @@ namespace Touchstone
     if (surfaces.needed())
       surfaces.measure(before, v, speeds_before, speeds);
     fastest = std::max(fastest, speeds_before.apart);
+    if (general)
+      general->begin_cycle(u, v, step);
     if (!start_interval(u, time))
       renew_if_moved(u, before, v, time, step);
+    if (general && general->must_lay_out())
+      lay_out(u);
     last_step = step;
-    if (general)
-      {
-        general->begin_cycle(u, v, step);
-        if (general->must_lay_out())
-          lay_out(u);
-      }
     if (all_asleep(time, step) && !(general && general->any()))
       {
         ++counted.cycles;

@@ -126,14 +126,7 @@ namespace Touchstone
   {
     ImpulseWork result = counted;
     if (general)
-      {
-        const CandidateCounts &counts = general->counts();
-        result.candidates             = counts.candidates;
-        result.searches               = counts.searches;
-        result.faces_sent             = counts.faces_sent;
-        result.messages               = counts.messages;
-        result.imbalance              = counts.imbalance;
-      }
+      result.search = general->counts();
     return result;
   }
 

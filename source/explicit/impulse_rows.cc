@@ -94,8 +94,8 @@ namespace Touchstone
         }
       else
         lose_partner(from);
-    made_at_nodes   = u;
     largest_weights = 1.;
+    motion.restart(u, kept_rows);
     lay_out(u);
     for (std::size_t k = 0; k < kept.size(); ++k)
       take_out_motion(k);
@@ -106,7 +106,6 @@ namespace Touchstone
     travelled        = RowTravel();
     fresh            = true;
     renew_rows       = false;
-    motion.restart(u, kept_rows);
   }
 
 
@@ -181,7 +180,7 @@ namespace Touchstone
         keys[node]            = nodes.key(local[node]);
         reference[node]       = nodes.positions()[local[node]];
         u_nodes[node]         = u[local[node]];
-        made_at[node]         = made_at_nodes[local[node]];
+        made_at[node]         = motion.made_at_displacement()[local[node]];
         solver.mobility[node] = inverse_masses[local[node]];
       }
     if (rule.method == ImpulseRule::Method::bulk_springs)

@@ -204,18 +204,18 @@ namespace Touchstone
                      .set("renewals", work.renewals)
                      .set("unconverged_cycles", work.unconverged)
                      .set("most_energy_given_in_a_cycle", work.most_given));
-      if (work.searches > 0)
+      if (work.search.searches > 0)
         result.set("general_contact",
                    Json::object()
                      .set("checks_of_crossings", work.crossing_rounds)
                      .set("most_checks_in_a_cycle", work.most_crossing_rounds)
                      .set("cycles_with_more_than_five", work.many_crossing_rounds)
                      .set("halvings", work.halvings)
-                     .set("most_candidates", work.candidates)
-                     .set("searches", work.searches)
-                     .set("faces_sent", work.faces_sent)
-                     .set("messages", work.messages)
-                     .set("largest_region_over_mean", work.imbalance));
+                     .set("most_candidates", work.search.candidates)
+                     .set("searches", work.search.searches)
+                     .set("faces_sent", work.search.faces_sent)
+                     .set("messages", work.search.messages)
+                     .set("largest_region_over_mean", work.search.imbalance));
     }
   } // namespace
 

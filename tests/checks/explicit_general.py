@@ -103,6 +103,14 @@ work = rubbing.column("energy: friction")
 check(work[-1] > 0 and all(b >= a - 1e-14 for a, b in zip(work, work[1:])),
       "faces: friction does no work, or gives energy")
 
+# Neither ranks nor how and when candidates are found matter to the last bit.
+KEY = "Contact pair everything/Search"
+for ranks, settings in ((3, {}), (1, {f"{KEY} margin": 0.3}), (1, {f"{KEY} margin": 0.001}),
+                        (2, {KEY: "linear grid"})):
+    other = run("faces_other", folder / "faces.prm", settings, ranks)
+    check(other.summary.get("motion") == rubbing.summary["motion"],
+          f"faces: another result on {ranks} rank(s) with {settings}")
+
 # Boxes that are flush with each other, and one that slides over their edges: it meets no bump, and
 # what touches without a gap has no force.
 FLUSH = [block(f"lower {i}", (i, 0, 0), (i + 1, 1, 1), (2, 2, 2), (0, 0, 0)) for i in range(3)]

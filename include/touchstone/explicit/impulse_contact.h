@@ -230,8 +230,6 @@ namespace Touchstone
      * displacement when the rows were made, and motion since. */
     std::vector<unsigned int>           local;
     std::vector<dealii::Tensor<1, dim>> u_nodes, x_nodes, reference, made_at, moved, v_before;
-    /** The displacement when the rows were made, by local node. */
-    NodeField                                    made_at_nodes;
     std::vector<dealii::SymmetricTensor<2, dim>> inverse_masses;
 
     void

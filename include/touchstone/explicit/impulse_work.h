@@ -8,6 +8,35 @@
 
 namespace Touchstone
 {
+  /** @brief What general contact had to do for its candidates; sums over all ranks. */
+  struct CandidateCounts
+  {
+    /** Candidates of the last search, of a run those of the search with most; faces that were sent
+     * to other ranks, and messages with them, in all searches; searches. */
+    std::uint64_t candidates = 0, faces_sent = 0, messages = 0, searches = 0;
+    /** Faces in the largest region over the mean, the worst of all searches. */
+    double imbalance = 1.;
+
+    /** @brief Add those of another time. */
+    void
+    add(const CandidateCounts &other)
+    {
+      candidates = std::max(candidates, other.candidates);
+      faces_sent += other.faces_sent;
+      messages += other.messages;
+      searches += other.searches;
+      imbalance = std::max(imbalance, other.imbalance);
+    }
+
+    /** @brief For checkpoints. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &candidates &faces_sent &messages &searches &imbalance;
+    }
+  };
+
   /** @brief What contact of explicit dynamics had to do since ImpulseContact::begin_interval(), or
    * in all of a run; the same on any number of ranks. */
   struct ImpulseWork
@@ -18,12 +47,10 @@ namespace Touchstone
     std::uint64_t cycles = 0, sweeps = 0, most_sweeps = 0, rounds = 0, renewals = 0,
                   unconverged = 0;
     /** Of general contact: checks of crossings in all cycles, in the one with most, and cycles with
-     * more than five; cycles that were halved; candidates of the last search, searches, and faces
-     * and messages that went to other ranks with them; and the faces of the largest region over the
-     * mean. */
+     * more than five; cycles that were halved. */
     std::uint64_t crossing_rounds = 0, most_crossing_rounds = 0, many_crossing_rounds = 0,
-                  halvings = 0, candidates = 0, searches = 0, faces_sent = 0, messages = 0;
-    double imbalance = 1.;
+                  halvings = 0;
+    CandidateCounts search;
     /** Largest energy that contact has given in a cycle, without what overlaps and obstacles supply
      * and what springs give back. */
     double most_given = 0.;
@@ -43,11 +70,7 @@ namespace Touchstone
       most_crossing_rounds = std::max(most_crossing_rounds, other.most_crossing_rounds);
       many_crossing_rounds += other.many_crossing_rounds;
       halvings += other.halvings;
-      candidates = std::max(candidates, other.candidates);
-      searches += other.searches;
-      faces_sent += other.faces_sent;
-      messages += other.messages;
-      imbalance = std::max(imbalance, other.imbalance);
+      search.add(other.search);
     }
 
     double
@@ -71,14 +94,10 @@ namespace Touchstone
              most_checks,
              many_checks,
              halved,
-             close,
-             sought,
-             sent,
-             of_messages,
-             uneven,
+             of_search,
              given] = *this;
       archive &n &all &most &of_rounds &made &ended &checks &most_checks &many_checks &halved;
-      archive &close &sought &sent &of_messages &uneven                               &given;
+      archive &of_search                                                              &given;
     }
   };
 } // namespace Touchstone

@@ -52,6 +52,13 @@ namespace Touchstone
     void
     restart(const NodeField &u, const std::vector<std::size_t> &rows);
 
+    /** @brief The displacement at restart(), by local node. */
+    const NodeField &
+    made_at_displacement() const
+    {
+      return made_at;
+    }
+
     /** @brief Whether demands_rows() might say yes, the same on all ranks.
      * @param travelled Since restart(). @param ahead In this cycle with its free velocities. */
     bool

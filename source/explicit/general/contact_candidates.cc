@@ -15,22 +15,13 @@ namespace Touchstone
 
   namespace
   {
+    template <std::size_t n>
     BoundingBox<dim>
-    box_of(const std::initializer_list<Point<dim>> &points, const double grown)
+    box_of(const std::array<Point<dim>, n> &points, const double grown)
     {
-      std::pair<Point<dim>, Point<dim>> corners(*points.begin(), *points.begin());
-      for (const Point<dim> &point : points)
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            corners.first[d]  = std::min(corners.first[d], point[d]);
-            corners.second[d] = std::max(corners.second[d], point[d]);
-          }
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          corners.first[d] -= grown;
-          corners.second[d] += grown;
-        }
-      return BoundingBox<dim>(corners);
+      BoundingBox<dim> box(points);
+      box.extend(grown);
+      return box;
     }
 
 
@@ -55,17 +46,6 @@ namespace Touchstone
         result[d] = std::max(a.lower_bound(d), b.lower_bound(d));
       return result;
     }
-
-
-
-    bool
-    shares_node(const ImpactFace &a, const ImpactFace &b)
-    {
-      return std::find_first_of(a.nodes.begin(),
-                                a.nodes.begin() + 4,
-                                b.nodes.begin(),
-                                b.nodes.begin() + 4) != a.nodes.begin() + 4;
-    }
   } // namespace
 
 
@@ -73,7 +53,7 @@ namespace Touchstone
   BoundingBox<dim>
   ContactCandidates::MovingFace::box(const double grown) const
   {
-    return box_of({from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3]}, grown);
+    return box_of<8>({{from[0], from[1], from[2], from[3], to[0], to[1], to[2], to[3]}}, grown);
   }
 
 
@@ -81,7 +61,7 @@ namespace Touchstone
   BoundingBox<dim>
   ContactCandidates::MovingFace::box(const unsigned int corner, const double grown) const
   {
-    return box_of({from[corner], to[corner]}, grown);
+    return box_of<2>({{from[corner], to[corner]}}, grown);
   }
 
 
@@ -90,7 +70,7 @@ namespace Touchstone
   ContactCandidates::MovingFace::edge_box(const unsigned int corner, const double grown) const
   {
     const unsigned int end = (corner + 1) % 4;
-    return box_of({from[corner], to[corner], from[end], to[end]}, grown);
+    return box_of<4>({{from[corner], to[corner], from[end], to[end]}}, grown);
   }
 
 
@@ -106,6 +86,15 @@ namespace Touchstone
     , broad_phase(Registry<BroadPhase>::make(search))
     , partition(nodes.communicator())
   {
+  }
+
+
+
+  void
+  ContactCandidates::begin_interval()
+  {
+    work = CandidateCounts();
+    partition.forget();
   }
 
 
@@ -238,7 +227,7 @@ namespace Touchstone
                 edge_pairs.push_back(k < l ? EdgePair{one, other} : EdgePair{other, one});
             }
         // Inner edges of neighbours meet nothing of each other before the faces have folded.
-        if ((neighbours_as_well || !shares_node(a, b)) && a.key >> 3 != b.key >> 3 &&
+        if ((neighbours_as_well || !a.shares_node(b)) && a.key >> 3 != b.key >> 3 &&
             mine(lower_corner(boxes[i], boxes[j])))
           face_pairs.push_back({i, j});
       }

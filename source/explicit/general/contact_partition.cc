@@ -81,9 +81,10 @@ namespace Touchstone
   {
     if (n_ranks == 1)
       return 1.;
-    const double before = imbalance(points);
-    if (before <= uneven)
-      return before;
+    if (!cut_anew)
+      if (const double present = imbalance(points); present <= uneven)
+        return present;
+    cut_anew                       = false;
     std::vector<Point<dim>> sorted = points;
     bisect(sorted, 0, sorted.size(), n_ranks, 0);
     return imbalance(points);

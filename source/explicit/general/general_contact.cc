@@ -16,8 +16,9 @@ namespace Touchstone
 
   namespace
   {
-    /** The margin: the motion of so many cycles, up to this part of the smallest face, and
-     * never less than that of the cycle and of what impulses can make of it. */
+    /** The margin beyond the present cycle: the motion of so many cycles, up to this part of the
+     * smallest face. A cycle whose impulses make more than so many times of its motion is halved.
+     */
     constexpr double cycles_ahead = 40., most_margin = 0.5, of_impulses = 2.2;
   } // namespace
 
@@ -50,6 +51,7 @@ namespace Touchstone
   GeneralContact::begin_interval()
   {
     renew = true;
+    candidates.begin_interval();
     rows.clear();
     numbers.clear();
     forget();
@@ -59,43 +61,51 @@ namespace Touchstone
 
 
   // Two nodes have come no nearer to each other, along an axis, than by the range of what all have
-  // moved since the candidates were made.
-  double
+  // moved.
+  GeneralContact::Range
   GeneralContact::range(const NodeField &u, const NodeField &v, const double step) const
   {
-    constexpr double            none = -std::numeric_limits<double>::max();
-    std::array<double, 2 * dim> most, all;
-    most.fill(none);
+    // Largest motions along the axes and against them: before, and in the cycle.
+    std::array<double, 4 * dim> most, all;
+    most.fill(-std::numeric_limits<double>::max());
+    const auto widen = [&](const unsigned int i, const double motion) {
+      most[i]       = std::max(most[i], motion);
+      most[i + dim] = std::max(most[i + dim], -motion);
+    };
     for (const unsigned int node : surface.owned_nodes())
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const double begin = u[node][d] - made_at[node][d], end = begin + step * v[node][d];
-          most[d]       = std::max({most[d], begin, end});
-          most[dim + d] = std::max({most[dim + d], -begin, -end});
+          widen(d, u[node][d] - made_at[node][d]);
+          widen(2 * dim + d, step * v[node][d]);
           // Comparisons do not see it.
-          if (!std::isfinite(end))
-            most[d] = std::numeric_limits<double>::infinity();
+          if (!std::isfinite(v[node][d]))
+            most[2 * dim + d] = std::numeric_limits<double>::infinity();
         }
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
                         nodes.communicator(),
                         ArrayView<double>(all.data(), all.size()));
-    double result = 0.;
+    Range result{0., 0.};
     for (unsigned int d = 0; d < dim; ++d)
-      result = std::max(result, all[d] + all[dim + d]);
+      {
+        result.before   = std::max(result.before, all[d] + all[dim + d]);
+        result.in_cycle = std::max(result.in_cycle, all[2 * dim + d] + all[3 * dim + d]);
+      }
     return result;
   }
 
 
 
   void
-  GeneralContact::renew_candidates(const NodeField &u, const NodeField &v, const double step)
+  GeneralContact::renew_candidates(const NodeField &u,
+                                   const NodeField &v,
+                                   const double     step,
+                                   const double     in_cycle)
   {
-    made_at               = u;
-    const double in_cycle = range(u, v, step);
+    made_at             = u;
+    const double wanted = parameters.margin_length();
     const double automatic =
       std::clamp(cycles_ahead * in_cycle, least_margin * smallest, most_margin * smallest);
-    const double wanted = parameters.margin_length();
-    margin              = std::max(wanted > 0. ? wanted : automatic, of_impulses * in_cycle);
+    margin = most_in_cycle + (wanted > 0. ? wanted : automatic);
     candidates.find(u, v, step, margin);
     motion.resize(candidates.at_slots.n());
     rows.clear();
@@ -158,18 +168,20 @@ namespace Touchstone
     cycle = step;
     for (Row &row : rows)
       row.used = false;
-    const double moved = range(u, v, step);
-    if (!std::isfinite(moved))
+    const Range moved = range(u, v, step);
+    if (!std::isfinite(moved.in_cycle))
       return; // what is wrong with the velocities is told where the cycle is checked
-    if (renew || moved > margin)
-      renew_candidates(u, v, step);
+    // What impulses may make of the motion: of the state alone, not of when candidates were made.
+    most_in_cycle = std::max(of_impulses * moved.in_cycle, least_margin * smallest);
+    if (renew || moved.before + most_in_cycle > margin)
+      renew_candidates(u, v, step, moved.in_cycle);
     if (!candidates.any())
       return;
     import(u, v);
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
-      find_crossings(u, v, step);
+      check_motion();
     else
       new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
   }
@@ -179,25 +191,32 @@ namespace Touchstone
   GeneralContact::Crossings
   GeneralContact::find_crossings(const NodeField &u, const NodeField &v, const double step)
   {
-    const double moved = range(u, v, step);
-    if (!candidates.any() || !std::isfinite(moved))
+    const double in_cycle = range(u, v, step).in_cycle;
+    if (!candidates.any() || !std::isfinite(in_cycle))
       return Crossings::none;
-    if (moved > margin)
+    if (in_cycle > most_in_cycle)
       return Crossings::too_far;
-    cycle = step;
     import(u, v);
+    return check_motion() ? Crossings::rows : Crossings::none;
+  }
+
+
+
+  bool
+  GeneralContact::check_motion()
+  {
     set_inner_positions();
     bool more = false;
     for (const ContactCandidates::NodeFace &pair : candidates.node_faces)
       more |= check_node({pair.node, false}, pair.face);
-    for (std::size_t k = 0; k < candidates.edge_pairs.size(); ++k)
-      more |= check_edges(ends_of(candidates.edge_pairs[k]), k);
+    for (const ContactCandidates::EdgePair &pair : candidates.edge_pairs)
+      more |= check_edges(ends_of(pair));
     for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
       more |= check_inner_edges(pair.one, pair.other);
     int found[2] = {more, new_rows};
     Utilities::MPI::max(found, nodes.communicator(), found);
     new_rows = found[1] > 0;
-    return found[0] > 0 ? Crossings::rows : Crossings::none;
+    return found[0] > 0;
   }
 
 

@@ -196,7 +196,7 @@ namespace Touchstone
 
 
   bool
-  GeneralContact::check_edges(const Points &ends, const std::size_t number)
+  GeneralContact::check_edges(const Points &ends)
   {
     std::array<Point<dim>, 4> a, b;
     for (unsigned int i = 0; i < 4; ++i)
@@ -228,7 +228,7 @@ namespace Touchstone
     const Tensor<1, dim> normal = edge_normal(ends, x[1] - x[0], x[3] - x[2], closing);
     if (!(closing * normal < 0.))
       return false;
-    set_edge_row(ends, at_edges, normal, number);
+    set_edge_row(ends, at_edges, normal);
     return true;
   }
 
@@ -291,10 +291,8 @@ namespace Touchstone
       return false;
     bool       more = false;
     const auto edge = [&](const unsigned int face, const unsigned int a, const bool inner) {
-      const SurfacePoint begin = corner(face, a), end = inner ? middle(face) : corner(face, a + 1);
-      // The direction of an edge is that of the keys of its nodes.
-      return inner || key(begin) < key(end) ? std::make_pair(begin, end)
-                                            : std::make_pair(end, begin);
+      const SurfacePoint begin = corner(face, a);
+      return inner ? std::array<SurfacePoint, 2>{{begin, middle(face)}} : ends_of(begin.slot);
     };
     for (const bool inner_one : {false, true})
       for (const bool inner_other : {false, true})
@@ -303,7 +301,7 @@ namespace Touchstone
             for (unsigned int b = 0; b < 4; ++b)
               {
                 const auto e = edge(one, a, inner_one), f = edge(other, b, inner_other);
-                more |= check_edges({{e.first, e.second, f.first, f.second}});
+                more |= check_edges({{e[0], e[1], f[0], f[1]}});
               }
     if (warped[0])
       more |= check_node(middle(one), other);

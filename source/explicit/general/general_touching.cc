@@ -168,11 +168,9 @@ namespace Touchstone
     const double          tolerance = touching * at(node).size;
     if ((one.middle - x) * other.normal > tolerance && (other.middle - x) * one.normal > tolerance)
       return true;
-    const auto &a = candidates.faces[one.face].nodes, &b = candidates.faces[other.face].nodes;
-    const bool  neighbours =
-      std::find_first_of(a.begin(), a.begin() + 4, b.begin(), b.begin() + 4) != a.begin() + 4;
     // Two plates that a node is between face each other.
-    return one.normal * other.normal <= 0. && !neighbours;
+    return one.normal * other.normal <= 0. &&
+           !candidates.faces[one.face].shares_node(candidates.faces[other.face]);
   }
 
 
@@ -205,19 +203,21 @@ namespace Touchstone
 
 
 
+  std::array<SurfacePoint, 2>
+  GeneralContact::ends_of(const std::size_t edge) const
+  {
+    const std::size_t other = ContactCandidates::next(edge);
+    const bool        first = candidates.key(edge) < candidates.key(other);
+    return {{{first ? edge : other, false}, {first ? other : edge, false}}};
+  }
+
+
+
   GeneralContact::Points
   GeneralContact::ends_of(const ContactCandidates::EdgePair &pair) const
   {
-    Points     result;
-    const auto set = [&](const std::size_t slot, SurfacePoint *const to) {
-      const std::size_t other = ContactCandidates::next(slot);
-      const bool        first = candidates.key(slot) < candidates.key(other);
-      to[0].slot              = first ? slot : other;
-      to[1].slot              = first ? other : slot;
-    };
-    set(pair.one, &result[0]);
-    set(pair.other, &result[2]);
-    return result;
+    const auto e = ends_of(pair.one), f = ends_of(pair.other);
+    return {{e[0], e[1], f[0], f[1]}};
   }
 
 
@@ -234,8 +234,7 @@ namespace Touchstone
   void
   GeneralContact::set_edge_row(const Points                &ends,
                                const std::array<double, 2> &at_edges,
-                               const Tensor<1, dim>        &normal,
-                               const std::size_t            number)
+                               const Tensor<1, dim>        &normal)
   {
     Row &row  = use_row({on_edges, key(ends[0]), {{key(ends[1]), key(ends[2]), key(ends[3])}}});
     row.sides = {};
@@ -251,7 +250,6 @@ namespace Touchstone
     row.normal = normal;
     row.size   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
     row.gap    = gap_at_start(row);
-    row.edges  = number;
   }
 
 
@@ -277,7 +275,7 @@ namespace Touchstone
         const double gap = (a - b) * normal;
         const double h   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
         if (gap <= touching * h && gap >= -overlapping * h)
-          set_edge_row(ends, {{s, t}}, normal, number);
+          set_edge_row(ends, {{s, t}}, normal);
       }
   }
 } // namespace Touchstone

@@ -49,6 +49,16 @@ namespace Touchstone
 
 
 
+  bool
+  ImpactFace::shares_node(const ImpactFace &other) const
+  {
+    const auto end = nodes.begin() + 4;
+    return std::find_first_of(nodes.begin(), end, other.nodes.begin(), other.nodes.begin() + 4) !=
+           end;
+  }
+
+
+
   ImpactSurface::ImpactSurface(const ImpactSurfaceInput &input,
                                const Solid              &solid,
                                const NodeMap            &nodes)

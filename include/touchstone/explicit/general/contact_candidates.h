@@ -6,6 +6,7 @@
 #include <touchstone/collision/broad_phase.h>
 #include <touchstone/explicit/general/contact_partition.h>
 #include <touchstone/explicit/general/impact_surface.h>
+#include <touchstone/explicit/impulse_work.h>
 #include <touchstone/explicit/row_nodes.h>
 
 #include <cstdint>
@@ -15,16 +16,6 @@
 
 namespace Touchstone
 {
-  /** @brief What general contact had to do for its candidates; sums over all ranks. */
-  struct CandidateCounts
-  {
-    /** Candidates of the last search; faces that were sent to other ranks, and messages with them,
-     * in all searches; searches. */
-    std::uint64_t candidates = 0, faces_sent = 0, messages = 0, searches = 0;
-    /** Faces in the largest region over the mean, the worst of all searches. */
-    double imbalance = 1.;
-  };
-
   /**
    * @brief The pairs of nodes and faces, and of edges, that can meet before anything has moved by
    * more than a margin, on the rank in whose region they are (doc/general_contact.md, sections 2
@@ -41,6 +32,11 @@ namespace Touchstone
                       const NodeMap          &nodes,
                       const dealii::IndexSet &owned_dofs,
                       const std::string      &search);
+
+    /** @brief Count from here, and divide space anew in the next search: by the state of then
+     * alone. */
+    void
+    begin_interval();
 
     /**
      * @brief Find them. Collective.

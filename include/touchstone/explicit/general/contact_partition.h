@@ -25,10 +25,18 @@ namespace Touchstone
   public:
     explicit ContactPartition(MPI_Comm communicator);
 
-    /** @brief Cut anew if a region has far more than the mean of these points, which are present
-     * positions on this rank, length. Collective. @return the largest over the mean. */
+    /** @brief Cut anew, after forget() or if a region has far more than the mean of these points,
+     * which are present positions on this rank, length. Collective.
+     * @return the largest over the mean. */
     double
     balance(const std::vector<dealii::Point<dim>> &points);
+
+    /** @brief The present cuts do not matter to the next ones. */
+    void
+    forget()
+    {
+      cut_anew = true;
+    }
 
     /** @brief The rank whose region has this point. */
     unsigned int
@@ -53,6 +61,7 @@ namespace Touchstone
     };
     /** Of a group, then those of its lower half, then those of its upper half. */
     std::vector<Cut> cuts;
+    bool             cut_anew = true;
 
     /** Ranks of the lower half of a group. */
     static unsigned int

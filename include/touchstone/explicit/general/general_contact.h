@@ -160,10 +160,7 @@ namespace Touchstone
       double size = 0., gap = 0.;
       /** Takes part in this cycle. */
       bool used = false;
-      /** Of rows on two edges that are a candidate: which. */
-      std::size_t edges = no_edges;
     };
-    static constexpr std::size_t no_edges = -1;
     /** What is known of a slot's node in a cycle. */
     struct NodeMotion
     {
@@ -190,10 +187,10 @@ namespace Touchstone
     double                  smallest     = 0.;
     static constexpr double least_margin = 0.05;
     /** Candidates hold as long as nodes have moved relative to each other by less than the margin
-     * since they stood here. */
+     * since they stood here. The present cycle may move them by its part of it. */
     NodeField made_at;
-    double    margin = 0.;
-    bool      renew  = true;
+    double    margin = 0., most_in_cycle = 0.;
+    bool      renew = true;
     /** By node of the candidates, at the start of the cycle. */
     std::vector<NodeMotion>         motion;
     double                          cycle = 0.;
@@ -218,10 +215,16 @@ namespace Touchstone
     std::vector<std::size_t>  watched;
     Energy                    energies;
 
-    double
+    /** By how much nodes have moved relative to each other since the candidates were made, and do
+     * so in the cycle; length. The latter is infinite if a velocity is not finite. Collective. */
+    struct Range
+    {
+      double before, in_cycle;
+    };
+    Range
     range(const NodeField &u, const NodeField &v, double step) const;
     void
-    renew_candidates(const NodeField &u, const NodeField &v, double step);
+    renew_candidates(const NodeField &u, const NodeField &v, double step, double in_cycle);
     void
     import(const NodeField &u, const NodeField &v);
     /** Take what is known of the cycle before to the ranks that have the rows now. */
@@ -276,11 +279,13 @@ namespace Touchstone
     void
     set_edge_row(const Points                 &ends,
                  const std::array<double, 2>  &at_edges,
-                 const dealii::Tensor<1, dim> &normal,
-                 std::size_t                   number);
+                 const dealii::Tensor<1, dim> &normal);
     /** The gap of a row at the start of the cycle, from its sides and normal. */
     double
     gap_at_start(const Row &row) const;
+    /** The ends of the edge of a slot, in ascending order of their keys; and of two. */
+    std::array<SurfacePoint, 2>
+    ends_of(std::size_t edge) const;
     Points
     ends_of(const ContactCandidates::EdgePair &pair) const;
     /** Roughly the direction from the material of the master to that of the slave. */
@@ -299,11 +304,15 @@ namespace Touchstone
     bool
     stand_together(const Hit &one, const Hit &other, std::size_t node) const;
 
-    /** Checks of the motion through the cycle. @return whether a row has been added or changed. */
+    /** Check the motion through the cycle that import() has brought: #new_rows is the same on all
+     * ranks then. @return whether rows have been added or changed, on any rank. Collective. */
+    bool
+    check_motion();
+    /** Its parts. @return whether a row has been added or changed. */
     bool
     check_node(const SurfacePoint &node, unsigned int face);
     bool
-    check_edges(const Points &ends, std::size_t number = no_edges);
+    check_edges(const Points &ends);
     bool
     check_inner_edges(unsigned int one, unsigned int other);
     bool

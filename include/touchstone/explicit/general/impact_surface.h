@@ -44,6 +44,9 @@ namespace Touchstone
     /** @brief Whether its cell has the node of this key. */
     bool
     of_cell(std::uint64_t node) const;
+    /** @brief Whether the faces have a node in common. */
+    bool
+    shares_node(const ImpactFace &other) const;
   };
 
   /**
