@@ -40,7 +40,11 @@ namespace Touchstone
     if (impulses && !press(length))
       {
         if (halved == most_halvings)
-          throw ExplicitFailure(impulses->general_contact()->failure(now.time));
+          {
+            // Surfaces cannot be kept apart where their cells have passed through themselves.
+            check_inverted();
+            throw ExplicitFailure(impulses->general_contact()->failure(now.time));
+          }
         now.v       = v_before;
         now.support = support_before;
         cycle(0.5 * length, halved + 1);

@@ -56,7 +56,7 @@ namespace Touchstone
 
 
 
-  unsigned int
+  ExplicitStep::Plan
   ExplicitStep::plan_cycles(const double t)
   {
     const StableStep stable = cells.stable_step(now.u, now.v);
@@ -88,6 +88,11 @@ namespace Touchstone
                               ": a cell has become very small; take a coarser mesh or a harder "
                               "material there, or 'Mass scaling step'");
       }
-    return std::max(1., n);
+    Plan plan;
+    plan.cycles = std::max(1., n);
+    // Cells that are compressed faster are looked at earlier.
+    const double ahead = std::floor(stable.holds / ((t - now.time) / plan.cycles));
+    plan.next          = std::clamp(ahead, 1., double(parameters.check_interval));
+    return plan;
   }
 } // namespace Touchstone

@@ -143,7 +143,7 @@ namespace Touchstone
     unsigned int n        = 1;
     try
       {
-        n          = plan_cycles(interval);
+        n          = plan_cycles(interval).cycles;
         now.length = interval / n;
         evaluate_forces(0.);
       }
@@ -203,12 +203,14 @@ namespace Touchstone
     std::fill(support_impulse.begin(), support_impulse.end(), Tensor<1, dim>());
     const double start  = now.time;
     double       length = 0.;
-    for (unsigned int left = 0, done = 0; now.time < t; ++done, --left)
+    for (unsigned int left = 0, done = 0, next = 0; now.time < t; ++done, --left)
       {
-        if (done % parameters.check_interval == 0)
+        if (done == next)
           {
-            left   = plan_cycles(t);
-            length = (t - now.time) / left;
+            const Plan plan = plan_cycles(t);
+            left            = plan.cycles;
+            next            = done + plan.next;
+            length          = (t - now.time) / left;
           }
         if (done == 0)
           counts.smallest_step = length;

@@ -67,7 +67,38 @@ namespace Touchstone
         if (other.length < result.length ||
             (other.length == result.length && other.cell.key < result.cell.key))
           result = other;
+    result.holds = time_to_shorten(result.length, u, v);
     return result;
+  }
+
+
+
+  // How long it takes until a cell needs a step that is well below the present one, if its edges go
+  // on to change as they do.
+  double
+  ExplicitCells::time_to_shorten(const double step, const NodeField &u, const NodeField &v) const
+  {
+    // A little above the stable step unstable modes grow slowly.
+    constexpr double below  = 0.2;
+    double           result = std::numeric_limits<double>::max();
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int c = 0; c < periods[b].size(); ++c)
+        {
+          const auto &nodes = map.cells()[of_bodies[b]->cell_numbers()[c]].nodes;
+          double      rate  = 0.;
+          for (unsigned int a = 0; a < nodes.size(); ++a)
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const unsigned int e = a | (1U << d); e != a)
+                {
+                  const unsigned int   i = nodes[a], j = nodes[e];
+                  const Tensor<1, dim> edge = map.positions()[j] + u[j] - map.positions()[i] - u[i];
+                  rate = std::max(rate, (v[j] - v[i]).norm_square() / edge.norm_square());
+                }
+          const double room = std::log(std::max(1., 2. * periods[b][c] / step)) + below;
+          if (rate > 0.)
+            result = std::min(result, room / std::sqrt(rate));
+        }
+    return Utilities::MPI::min(result, map.communicator());
   }
 
 

@@ -46,6 +46,7 @@ namespace Touchstone
     active.assign(rows.size(), 0);
     extrapolated.resize(rows.size());
     present.resize(rows.size());
+    on_rows.resize(rows.size());
   }
 
 

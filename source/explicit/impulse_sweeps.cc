@@ -12,6 +12,15 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** After so many sweeps the face that they have found is explored, and again after so many
+     * more. Those of declared pairs, whose rows say different things, mostly end before. */
+    constexpr unsigned int first_exploration = 20, between_explorations = 5;
+  } // namespace
+
+
+
   // The minimum of the bound in the impulse of one row: Coulomb's law with the radius of the new
   // normal impulse, so that friction opposes the slip at the end of the cycle and normal impulses
   // see no dilation.
@@ -117,11 +126,26 @@ namespace Touchstone
   bool
   ImpulseSolver::sweep(const ImpulseControl &control, const double tolerance, ImpulseCounts &counts)
   {
+    int rubs = 0;
     for (const std::size_t k : near)
-      extrapolated[k] = present[k] = active[k] ? rows[k].impulse : Tensor<1, dim>();
-    double momentum = 1.;
+      {
+        extrapolated[k] = present[k] = active[k] ? rows[k].impulse : Tensor<1, dim>();
+        rubs |= active[k] && rows[k].friction != nullptr;
+      }
+    const bool explores =
+      control.accelerate && Utilities::MPI::max(rubs, nodes.communicator()) == 0;
+    double       momentum = 1.;
+    unsigned int until    = first_exploration;
     while (counts.sweeps < control.sweeps)
       {
+        if (explores && until-- == 0)
+          {
+            explore_face(control, tolerance, counts);
+            for (const std::size_t k : near)
+              extrapolated[k] = present[k] = active[k] ? rows[k].impulse : Tensor<1, dim>();
+            momentum = 1.;
+            until    = between_explorations;
+          }
         ++counts.sweeps;
         apply(extrapolated);
         double   change = 0.;

@@ -6,8 +6,8 @@ minute, three quarters of one and two and a half minutes of processor time."""
 
 import math
 
-from graded_ball import GradedBall
 from touchstone_test import STEPS, below, contact_gives, finish, folder, relative, run
+from graded_ball import GradedBall  # of contrib/, which touchstone_test finds
 
 MATERIAL = """
   subsection Material

@@ -183,8 +183,14 @@ namespace Touchstone
      * step. @throws ExplicitFailure on all ranks */
     void
     evaluate_forces(double step);
-    /** Compute the stable step. @return number of equal cycles up to time @p t. */
-    unsigned int
+    /** Equal cycles up to the end of the interval, and after how many of them the stable step must
+     * be computed anew. */
+    struct Plan
+    {
+      unsigned int cycles = 1, next = 1;
+    };
+    /** Compute the stable step. @param t End of the interval. */
+    Plan
     plan_cycles(double t);
     /** The stable step of the cells and of contact springs of squared frequencies up to @p square.
      */
@@ -222,6 +228,12 @@ namespace Touchstone
     /** @throws ExplicitFailure if a cell of this rank has failed or a velocity is not finite. */
     void
     check(const CellPlace &failed) const;
+    /** @throws ExplicitFailure if corners of a cell have passed through each other. Collective. */
+    void
+    check_inverted() const;
+    /** Collective. */
+    double
+    round_off_of_energies() const;
     double
     work_ahead(const State &at, unsigned int node) const;
     /** Energies at the end of the present interval. Collective. */

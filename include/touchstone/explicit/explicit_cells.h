@@ -41,6 +41,8 @@ namespace Touchstone
   {
     double    length = 0.;
     CellPlace cell;
+    /** For so long no cell needs a much shorter one, if velocities stay as they are; time. */
+    double holds = 0.;
   };
 
   /**
@@ -135,6 +137,8 @@ namespace Touchstone
     update_periods(const NodeField &u);
     CellPlace
     place(unsigned int body, unsigned int c) const;
+    double
+    time_to_shorten(double step, const NodeField &u, const NodeField &v) const;
     double
     step_of(unsigned int body, unsigned int c, const NodeField &u, const NodeField &v) const;
   };

@@ -93,9 +93,10 @@ namespace Touchstone
    * each row, with friction (doc/explicit.md, sections 9.1 to 9.3).
    *
    * Each sweep moves all rows at once, by the steepest bound of the mass that they share,
-   * accelerated by Nesterov's method with restarts. Impulses act with the stencils that measure
-   * the velocity, so that momentum is exact after any sweep. Sums run in the order of row keys and
-   * convergence is judged by maxima: the result has the same bits on any number of ranks.
+   * accelerated by Nesterov's method with restarts and, where that is slow, by conjugate gradients
+   * on the impulses that press. Impulses act with the stencils that measure the velocity,
+   * so that momentum is exact after any sweep. Sums run in the order of row keys and convergence is
+   * judged by maxima: the result has the same bits on any number of ranks.
    */
   class ImpulseSolver
   {
@@ -166,7 +167,7 @@ namespace Touchstone
       dealii::Tensor<1, dim> tied;
     };
     std::vector<Metric>                 metric;
-    std::vector<dealii::Tensor<1, dim>> extrapolated, present;
+    std::vector<dealii::Tensor<1, dim>> extrapolated, present, on_rows;
     std::vector<dealii::Tensor<1, dim>> at_slots, sums, free;
     std::vector<unsigned char>          active; // 0 or 1
     std::vector<std::size_t>            order;
@@ -196,6 +197,16 @@ namespace Touchstone
     velocity_tolerance(double relative) const;
     bool
     sweep(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
+    /** Conjugate gradients from the present impulses on. @return whether they have ended at a
+     * minimum. */
+    bool
+    explore_face(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
+    dealii::Tensor<1, dim>
+    on_face(const ImpulseRow &row, const dealii::Tensor<1, dim> &vector) const;
+    dealii::Tensor<1, dim>
+    preconditioned(const ImpulseRow             &row,
+                   const Metric                 &m,
+                   const dealii::Tensor<1, dim> &residual) const;
     void
     restrain();
   };

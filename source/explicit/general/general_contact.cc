@@ -202,37 +202,48 @@ namespace Touchstone
 
 
 
+  // Rows of nodes of the finer side alone mostly keep surfaces apart. Those of the other side, and
+  // of edges, say nearly the same where surfaces are flat, which makes sweeps slow: they come only
+  // if something still crosses.
   bool
   GeneralContact::check_motion()
   {
     set_inner_positions();
-    bool more = false;
+    found.clear();
     for (const ContactCandidates::NodeFace &pair : candidates.node_faces)
-      more |= check_node({pair.node, false}, pair.face);
+      check_node({pair.node, false},
+                 pair.face,
+                 is_slave(pair.node, pair.face) ? Kind::slave_node : Kind::node);
     for (const ContactCandidates::EdgePair &pair : candidates.edge_pairs)
-      more |= check_edges(ends_of(pair));
+      check_edges(ends_of(pair), Kind::edges);
     for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
-      more |= check_inner_edges(pair.one, pair.other);
-    int found[2] = {more, new_rows};
-    Utilities::MPI::max(found, nodes.communicator(), found);
-    new_rows = found[1] > 0;
-    return found[0] > 0;
+      check_inner_edges(pair.one, pair.other);
+    // The first kind with a row that is not there yet; whether there is anything; rows to lay out.
+    int least[2] = {int(Kind::none), found.empty()};
+    for (const auto &[kind, row] : found)
+      if (const auto there = numbers.find(row.key);
+          there == numbers.end() || !rows[there->second].used)
+        least[0] = std::min(least[0], int(kind));
+    Utilities::MPI::min(least, nodes.communicator(), least);
+    for (const auto &[kind, row] : found)
+      if (int(kind) <= least[0])
+        use(row);
+    new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
+    return least[1] == 0;
   }
 
 
 
-  GeneralContact::Row &
-  GeneralContact::use_row(const RowKey &key)
+  void
+  GeneralContact::use(const Row &row)
   {
-    const auto [found, is_new] = numbers.try_emplace(key, rows.size());
+    const auto [there, is_new] = numbers.try_emplace(row.key, rows.size());
     if (is_new)
       {
         rows.emplace_back();
-        rows.back().key = key;
-        new_rows        = true;
+        new_rows = true;
       }
-    Row &row = rows[found->second];
-    row.used = true;
-    return row;
+    rows[there->second]      = row;
+    rows[there->second].used = true;
   }
 } // namespace Touchstone

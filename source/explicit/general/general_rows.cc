@@ -79,7 +79,9 @@ namespace Touchstone
     pressed[what.key] = what;
     if (what.sliding)
       sliding.insert(slave_of(what.key));
-    if (what.key.pair == on_edges)
+    if (what.key.pair == on_faces)
+      pressed_nodes.insert(what.key.slave);
+    else
       {
         const std::size_t number = candidates.find_edges(
           {{what.key.slave, what.key.others[0], what.key.others[1], what.key.others[2]}});
@@ -95,6 +97,7 @@ namespace Touchstone
   {
     pressed.clear();
     sliding.clear();
+    pressed_nodes.clear();
     watched.clear();
   }
 

@@ -16,7 +16,7 @@ namespace Touchstone
      * crossings, a gap that is closed, and an overlap that is still one of this pair. */
     constexpr double touching = 4. * GeneralContact::inset, overlapping = 0.01;
 
-    /** Relative, of sizes that are the same and of points on the line between two triangles. */
+    /** Relative, of sizes that are the same. */
     constexpr double round_off = 1e-9;
   } // namespace
 
@@ -78,15 +78,15 @@ namespace Touchstone
 
 
 
-  void
-  GeneralContact::set_node_row(const SurfacePoint          &node,
-                               const unsigned int           face,
-                               const unsigned int           triangle,
-                               const std::array<double, 3> &weights,
-                               const Tensor<1, dim>        &normal)
+  GeneralContact::Row
+  GeneralContact::node_row(const SurfacePoint          &node,
+                           const unsigned int           face,
+                           const unsigned int           triangle,
+                           const std::array<double, 3> &weights,
+                           const Tensor<1, dim>        &normal) const
   {
-    Row &row  = use_row({on_faces, key(node), {{candidates.faces[face].key, triangle}}});
-    row.sides = {};
+    Row row;
+    row.key = {on_faces, key(node), {{candidates.faces[face].key, triangle}}};
     row.sides[0].add(node, 1.);
     for (unsigned int a = 0; a < 4; ++a) // always all corners, in the order of the face
       row.sides[1].add(corner(face, a), 0.25 * weights[2]);
@@ -95,6 +95,7 @@ namespace Touchstone
     row.normal = normal;
     row.size   = std::min(size(node), size(corner(face, triangle)));
     row.gap    = gap_at_start(row);
+    return row;
   }
 
 
@@ -120,11 +121,12 @@ namespace Touchstone
                           const unsigned int face,
                           std::vector<Hit>  &hits) const
   {
-    if (!is_slave(node, face))
+    // The nodes of the other side only where they had to press in the cycle before.
+    if (!is_slave(node, face) && pressed_nodes.count(candidates.key(node)) == 0)
       return;
     const Tensor<1, dim> &x = at(node).x;
     Hit                   best;
-    double                inside = -round_off;
+    double                inside = -tie;
     for (unsigned int t = 0; t < 4; ++t)
       {
         const Tensor<1, dim> a          = mean(corner(face, t), &NodeMotion::x) - x,
@@ -160,7 +162,8 @@ namespace Touchstone
 
 
   // In a hollow a node has a row with each of several faces. Where they are flush, or where the
-  // edge between them stands out, it has one: with both it could not slide off the edge.
+  // edge between them stands out, it has one: with both it could not slide off the edge. But where
+  // both are opposed to it in the same way there is nothing to choose by.
   bool
   GeneralContact::stand_together(const Hit &one, const Hit &other, const std::size_t node) const
   {
@@ -193,11 +196,13 @@ namespace Touchstone
         });
         for (const Hit &hit : hits)
           if (std::all_of(kept.begin(), kept.end(), [&](const Hit &other) {
-                return stand_together(hit, other, node);
+                return stand_together(hit, other, node) ||
+                       (hit.opposed - kept.front().opposed < tie &&
+                        hit.normal * other.normal < 1. - tie);
               }))
             kept.push_back(hit);
         for (const Hit &hit : kept)
-          set_node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal);
+          use(node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal));
       }
   }
 
@@ -231,13 +236,13 @@ namespace Touchstone
 
 
 
-  void
-  GeneralContact::set_edge_row(const Points                &ends,
-                               const std::array<double, 2> &at_edges,
-                               const Tensor<1, dim>        &normal)
+  GeneralContact::Row
+  GeneralContact::edge_row(const Points                &ends,
+                           const std::array<double, 2> &at_edges,
+                           const Tensor<1, dim>        &normal) const
   {
-    Row &row  = use_row({on_edges, key(ends[0]), {{key(ends[1]), key(ends[2]), key(ends[3])}}});
-    row.sides = {};
+    Row row;
+    row.key = {on_edges, key(ends[0]), {{key(ends[1]), key(ends[2]), key(ends[3])}}};
     for (unsigned int side = 0; side < 2; ++side)
       {
         // Sides with a middle always have all corners, in the order of the face.
@@ -250,6 +255,7 @@ namespace Touchstone
     row.normal = normal;
     row.size   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
     row.gap    = gap_at_start(row);
+    return row;
   }
 
 
@@ -268,14 +274,14 @@ namespace Touchstone
           continue; // parallel: nodes on faces serve them
         const double s = cross_product_3d(b - a, f) * across / square,
                      t = cross_product_3d(b - a, e) * across / square;
-        if (std::min({s, t, 1. - s, 1. - t}) < 0.)
+        if (std::min({s, t, 1. - s, 1. - t}) < -tie)
           continue;
         const Tensor<1, dim> normal =
           (across * outward(ends) < 0. ? -1. : 1.) / std::sqrt(square) * across;
         const double gap = (a - b) * normal;
         const double h   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
         if (gap <= touching * h && gap >= -overlapping * h)
-          set_edge_row(ends, {{s, t}}, normal);
+          use(edge_row(ends, {{s, t}}, normal));
       }
   }
 } // namespace Touchstone

@@ -4,8 +4,10 @@
 #define touchstone_explicit_general_general_contact_h
 
 #include <touchstone/base/exact_sum.h>
+#include <touchstone/collision/first_crossing.h>
 #include <touchstone/explicit/general/contact_candidates.h>
 #include <touchstone/explicit/general/general_contact_parameters.h>
+#include <touchstone/explicit/general/moving_points.h>
 #include <touchstone/explicit/impulse_solver.h>
 
 #include <map>
@@ -136,6 +138,11 @@ namespace Touchstone
      * and nodes slide within a cycle, is no crossing (doc/general_contact.md, section 3). */
     static constexpr double inset = 1e-4;
 
+    /** Relative to a face, an edge, a cycle: what is so near to their ends is within, and what
+     * happens so nearly at once happens at once. Of what meets exactly on lines between faces or at
+     * ends of edges nothing is left to round-off. */
+    static constexpr double tie = 1e-6;
+
   private:
     /** First numbers of the keys of rows, above all numbers of pairs. */
     static constexpr std::uint64_t on_faces = std::uint64_t(1) << 32, on_edges = on_faces + 1;
@@ -195,13 +202,13 @@ namespace Touchstone
     std::vector<NodeMotion>         motion;
     double                          cycle = 0.;
     std::vector<dealii::Point<dim>> inner_from, inner_to;
-    /** Lower and upper corners of the boxes of faces through the cycle. */
-    std::vector<std::array<double, 2 * dim>> face_boxes;
-    std::vector<Row>                         rows;
-    std::map<RowKey, std::size_t>            numbers;
-    bool                                     new_rows = false;
+    /** Boxes of faces through the cycle. */
+    std::vector<MotionBox>        face_boxes;
+    std::vector<Row>              rows;
+    std::map<RowKey, std::size_t> numbers;
+    bool                          new_rows = false;
     /** Of the cycle before, by row: impulses, and whether it slides; by slave: whether it slides;
-     * and pairs of edges that pressed. */
+     * and nodes and pairs of edges that pressed. */
     struct Pressed
     {
       RowKey                 key;
@@ -212,6 +219,7 @@ namespace Touchstone
     };
     std::map<RowKey, Pressed> pressed;
     std::set<RowKey>          sliding;
+    std::set<std::uint64_t>   pressed_nodes;
     std::vector<std::size_t>  watched;
     Energy                    energies;
 
@@ -265,21 +273,34 @@ namespace Touchstone
       return at(point.slot).size;
     }
 
-    /** The row of this key, made if there is none, taking part in the cycle. */
-    Row &
-    use_row(const RowKey &key);
+    /** What crosses, in the order in which rows are added. */
+    enum class Kind
+    {
+      slave_node,
+      node,
+      edges,
+      /** Edges from corners of warped faces to their middle, and the middle. */
+      inner,
+      none
+    };
+    /** Crossings of the last check, with the rows that prevent them. */
+    std::vector<std::pair<Kind, Row>> found;
+
+    /** The row takes part in the cycle, as it is or instead of the one of its key. */
+    void
+    use(const Row &row);
     /** Rows of a node and the triangle between two corners of a face and its middle, and of points
      * on two edges. */
-    void
-    set_node_row(const SurfacePoint           &node,
-                 unsigned int                  face,
-                 unsigned int                  triangle,
-                 const std::array<double, 3>  &weights,
-                 const dealii::Tensor<1, dim> &normal);
-    void
-    set_edge_row(const Points                 &ends,
-                 const std::array<double, 2>  &at_edges,
-                 const dealii::Tensor<1, dim> &normal);
+    Row
+    node_row(const SurfacePoint           &node,
+             unsigned int                  face,
+             unsigned int                  triangle,
+             const std::array<double, 3>  &weights,
+             const dealii::Tensor<1, dim> &normal) const;
+    Row
+    edge_row(const Points                 &ends,
+             const std::array<double, 2>  &at_edges,
+             const dealii::Tensor<1, dim> &normal) const;
     /** The gap of a row at the start of the cycle, from its sides and normal. */
     double
     gap_at_start(const Row &row) const;
@@ -308,12 +329,23 @@ namespace Touchstone
      * ranks then. @return whether rows have been added or changed, on any rank. Collective. */
     bool
     check_motion();
-    /** Its parts. @return whether a row has been added or changed. */
-    bool
-    check_node(const SurfacePoint &node, unsigned int face);
-    bool
-    check_edges(const Points &ends);
-    bool
+    /** Its parts, which add to #found. */
+    void
+    check_node(const SurfacePoint &node, unsigned int face, Kind kind);
+    FourPoints
+    node_and_triangle(const SurfacePoint &node,
+                      unsigned int        face,
+                      unsigned int        triangle,
+                      bool                at_end) const;
+    void
+    keep_out(const SurfacePoint &node,
+             unsigned int        face,
+             unsigned int        triangle,
+             const Crossing     &crossing,
+             Kind                kind);
+    void
+    check_edges(const Points &ends, Kind kind);
+    void
     check_inner_edges(unsigned int one, unsigned int other);
     bool
     is_warped(unsigned int face) const;
