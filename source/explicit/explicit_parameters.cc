@@ -24,7 +24,7 @@ namespace Touchstone
                         "The latter is for laws without history, and without bulk viscosity.");
     prm.add_parameter("Step check interval",
                       check_interval,
-                      "Of 'central_differences': cycles after which the stable step is computed "
+                      "Of 'central_differences': most cycles after which the stable step is computed "
                       "anew. [no unit]",
                       Patterns::Integer(1));
     prm.add_parameter("Linear bulk viscosity",

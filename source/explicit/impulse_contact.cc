@@ -123,10 +123,11 @@ namespace Touchstone
       check_feasible(step, counts.converged || rule.method == ImpulseRule::Method::one_sweep);
     keep_drives();
     ++counted.cycles;
-    counted.sweeps += counts.sweeps;
+    counted.sweeps += counts.sweeps + counts.on_faces;
     counted.rounds += counts.rounds;
-    counted.most_sweeps = std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps);
-    fresh               = false;
+    counted.most_sweeps =
+      std::max<std::uint64_t>(counted.most_sweeps, counts.sweeps + counts.on_faces);
+    fresh = false;
     if (counts.rounds == 0)
       {
         end_of_action();
@@ -184,6 +185,7 @@ namespace Touchstone
         set_geometry(time, step);
         const ImpulseCounts more = solve(time, step);
         counts.sweeps += more.sweeps;
+        counts.on_faces += more.on_faces;
         counts.rounds += more.rounds;
         counts.converged = more.converged;
       }

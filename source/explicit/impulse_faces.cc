@@ -75,9 +75,9 @@ namespace Touchstone
           direction[k]    = scaled[k];
         }
     double size = dot([&](const std::size_t k) { return residual[k] * scaled[k]; });
-    while (counts.sweeps < control.sweeps && size > 0.)
+    for (unsigned int i = 0; i < control.sweeps && size > 0.; ++i)
       {
-        ++counts.sweeps;
+        ++counts.on_faces;
         apply(direction);
         for (const std::size_t k : near)
           if (active[k])

@@ -16,7 +16,7 @@ namespace Touchstone
   {
     /** After so many sweeps the face that they have found is explored, and again after so many
      * more. Those of declared pairs, whose rows say different things, mostly end before. */
-    constexpr unsigned int first_exploration = 20, between_explorations = 5;
+    constexpr unsigned int first_exploration = 20, between_explorations = 1;
   } // namespace
 
 

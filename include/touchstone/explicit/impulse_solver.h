@@ -83,6 +83,8 @@ namespace Touchstone
   struct ImpulseCounts
   {
     unsigned int sweeps = 0, rounds = 0;
+    /** Conjugate gradient iterations between sweeps, each of which costs as much as one. */
+    unsigned int on_faces = 0;
     /** Rows that took part, of this rank. */
     std::size_t active    = 0;
     bool        converged = true;

@@ -55,6 +55,7 @@ namespace Touchstone
     rows.clear();
     numbers.clear();
     forget();
+    normal_now.clear();
     energies = Energy();
   }
 
@@ -152,9 +153,31 @@ namespace Touchstone
         motion[node]             = {surface.position(local, u),
                                     v[local],
                                     surface.normal(local, u),
+                                    normal_before[local],
                                     surface.size(local)};
       }
     on.forward(motion);
+  }
+
+
+
+  // The surfaces of the check go on from where the cycle before has left them, with its normals, so
+  // that nothing passes through them as normals turn from one cycle to the next.
+  void
+  GeneralContact::set_normals(const NodeField &u)
+  {
+    bool same = !normal_now.empty();
+    for (const unsigned int node : surface.owned_nodes())
+      same = same && u[node] == begun_at[node];
+    // A cycle that is halved begins where it has begun.
+    if (Utilities::MPI::min(int(same), nodes.communicator()) == 1)
+      return;
+    NodeField normal(nodes.n_local());
+    for (const unsigned int node : surface.owned_nodes())
+      normal[node] = surface.normal(node, u);
+    normal_before = normal_now.empty() ? normal : normal_now;
+    normal_now    = std::move(normal);
+    begun_at      = u;
   }
 
 
@@ -175,6 +198,7 @@ namespace Touchstone
     most_in_cycle = std::max(of_impulses * moved.in_cycle, least_margin * smallest);
     if (renew || moved.before + most_in_cycle > margin)
       renew_candidates(u, v, step, moved.in_cycle);
+    set_normals(u);
     if (!candidates.any())
       return;
     import(u, v);

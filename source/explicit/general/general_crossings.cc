@@ -56,8 +56,8 @@ namespace Touchstone
     for (std::size_t node = 0; node < motion.size(); ++node)
       {
         const NodeMotion &of = motion[node];
-        inner_from[node]     = Point<dim>(of.x - inset * of.size * of.normal);
-        inner_to[node]       = inner_from[node] + cycle * of.v;
+        inner_from[node]     = Point<dim>(of.x - inset * of.size * of.normal_before);
+        inner_to[node]       = Point<dim>(of.x + cycle * of.v - inset * of.size * of.normal);
       }
     face_boxes.resize(candidates.faces.size());
     for (unsigned int f = 0; f < face_boxes.size(); ++f)

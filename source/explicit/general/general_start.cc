@@ -57,6 +57,7 @@ namespace Touchstone
     margin  = least_margin * smallest;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
     motion.resize(candidates.at_slots.n());
+    set_normals(u);
     import(u, at_rest);
     cycle = 0.;
     set_inner_positions();

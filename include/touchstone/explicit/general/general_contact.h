@@ -168,10 +168,11 @@ namespace Touchstone
       /** Takes part in this cycle. */
       bool used = false;
     };
-    /** What is known of a slot's node in a cycle. */
+    /** What is known of a slot's node in a cycle. The normals are those at its start and at the
+     * start of the cycle before. */
     struct NodeMotion
     {
-      dealii::Tensor<1, dim> x, v, normal;
+      dealii::Tensor<1, dim> x, v, normal, normal_before;
       double                 size = 0.;
     };
     /** The ends of two edges, of the slave first. */
@@ -235,6 +236,11 @@ namespace Touchstone
     renew_candidates(const NodeField &u, const NodeField &v, double step, double in_cycle);
     void
     import(const NodeField &u, const NodeField &v);
+    /** Of owned nodes of surfaces: normals at the start of this cycle, of the one before, and where
+     * this one begins. Empty before the first cycle of an interval. */
+    NodeField normal_now, normal_before, begun_at;
+    void
+    set_normals(const NodeField &u);
     /** Take what is known of the cycle before to the ranks that have the rows now. */
     void
     carry_over();

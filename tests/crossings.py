@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Finds surfaces that cross each other in VTU files of bodies, by brute force and apart from what
+the program does: edges against triangles, signs of volumes in rational numbers where they are small."""
+
+import pathlib
+import re
+from collections import defaultdict
+from fractions import Fraction
+from math import floor, sqrt
+
+from fuzzing.vtu import unpack  # pylint: disable=import-error
+
+# The corners of the faces of a hexahedron, outward.
+FACES = (0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)
+FORMS = {"Float32": "f", "Float64": "d", "Int32": "i", "UInt8": "B"}
+
+
+def minus(a, b):
+    """Difference."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+def cross(a, b):
+    """Vector product."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def dot(a, b):
+    """Scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def side(a, b, c, d):
+    """Sign of the volume of a tetrahedron."""
+    u, v, w = minus(b, a), minus(c, a), minus(d, a)
+    volume = dot(cross(u, v), w)
+    if abs(volume) < 1e-12 * sqrt(dot(u, u) * dot(v, v) * dot(w, w)):
+        a, b, c, d = (tuple(map(Fraction, point)) for point in (a, b, c, d))
+        volume = dot(cross(minus(b, a), minus(c, a)), minus(d, a))
+    return (volume > 0) - (volume < 0)
+
+
+def passes(p, q, triangle):
+    """Whether a segment passes through the inside of a triangle."""
+    a, b, c = triangle
+    if side(a, b, c, p) * side(a, b, c, q) >= 0:
+        return False
+    signs = side(p, q, a, b), side(p, q, b, c), side(p, q, c, a)
+    return signs in ((1, 1, 1), (-1, -1, -1))
+
+
+def read(path):
+    """Positions of nodes by (body, place before deformation), and the cells with these names."""
+    nodes, cells = {}, []
+    text = pathlib.Path(path).read_text(encoding="utf-8", errors="replace")
+    for piece in re.findall(r"<Piece (.*?)</Piece>", text, re.S):
+        arrays = {}
+        for form, attributes, data in re.findall(
+                r'<DataArray type="(\w+)"([^>]*)>\s*(.*?)\s*</DataArray>', piece, re.S):
+            name = re.search(r'Name="([^"]*)"', attributes)
+            if (name[1] if name else "position") in ("position", "displacement", "body", "connectivity"):
+                arrays[name[1] if name else "position"] = unpack(data, FORMS[form])
+        at, u, body = arrays["position"], arrays["displacement"], arrays["body"]
+        names = [(int(body[i]), at[3 * i:3 * i + 3]) for i in range(len(body))]
+        for i, name in enumerate(names):
+            nodes[name] = tuple(x + d for x, d in zip(name[1], u[3 * i:3 * i + 3]))
+        corners = arrays["connectivity"]
+        cells += [tuple(names[c] for c in corners[i:i + 8]) for i in range(0, len(corners), 8)]
+    return nodes, cells
+
+
+def surface(nodes, cells):
+    """Faces that belong to one cell, as (corners, cell)."""
+    found = defaultdict(list)
+    for cell in cells:
+        for face in FACES:
+            corners = tuple(cell[i] for i in face)
+            found[frozenset(corners)].append((corners, cell))
+    return [faces[0] for faces in found.values() if len(faces) == 1]
+
+
+def moved_inwards(nodes, faces, part):
+    """Positions of the nodes of surfaces, moved inwards by a part of the size of their faces."""
+    normals, sizes = defaultdict(lambda: (0, 0, 0)), {}
+    for corners, _ in faces:
+        x = [nodes[c] for c in corners]
+        area = cross(minus(x[2], x[0]), minus(x[3], x[1]))
+        size = sqrt(dot(area, area)) ** 0.5
+        for corner in corners:
+            normals[corner] = tuple(n + a for n, a in zip(normals[corner], area))
+            sizes[corner] = min(size, sizes.get(corner, size))
+    result = {}
+    for corner, normal in normals.items():
+        length = sqrt(dot(normal, normal)) or 1
+        result[corner] = tuple(x - part * sizes[corner] * n / length
+                               for x, n in zip(nodes[corner], normal))
+    return result
+
+
+def find(path, inset=3e-4):
+    """Places where an edge of a surface passes through a face."""
+    nodes, cells = read(path)
+    faces = surface(nodes, cells)
+    at = moved_inwards(nodes, faces, inset)
+    triangles, edges, lengths = [], {}, []
+    for corners, cell in faces:
+        x = [at[c] for c in corners]
+        middle = tuple(sum(p[d] for p in x) / 4 for d in range(3))
+        for i in range(4):
+            j = (i + 1) % 4
+            triangles.append(((x[i], x[j], middle), frozenset(cell)))
+            edges[frozenset((corners[i], corners[j]))] = x[i], x[j]
+            lengths.append(sqrt(dot(minus(x[i], x[j]), minus(x[i], x[j]))))
+    size = sorted(lengths)[len(lengths) // 2]
+
+    def buckets(points):
+        low = [floor(min(p[d] for p in points) / size) for d in range(3)]
+        high = [floor(max(p[d] for p in points) / size) for d in range(3)]
+        return [(x, y, z) for x in range(low[0], high[0] + 1) for y in range(low[1], high[1] + 1)
+                for z in range(low[2], high[2] + 1)]
+
+    grid = defaultdict(list)
+    for number, (triangle, _) in enumerate(triangles):
+        for bucket in buckets(triangle):
+            grid[bucket].append(number)
+    places = []
+    for ends, (p, q) in edges.items():
+        for number in {number for bucket in buckets((p, q)) for number in grid[bucket]}:
+            triangle, cell = triangles[number]
+            if any(max(p[d], q[d]) < min(x[d] for x in triangle) or
+                   min(p[d], q[d]) > max(x[d] for x in triangle) for d in range(3)):
+                continue
+            if not ends & cell and passes(p, q, triangle):
+                places.append(tuple(0.5 * (a + b) for a, b in zip(p, q)))
+                break
+    return places
