@@ -140,6 +140,13 @@ namespace Touchstone
   Scene::declare(const SceneText &text)
   {
     prm.add_parameter("Title", title, "What the scene is about.", Patterns::Anything());
+    // Taken out of the text before (SceneText): here for the documentation alone.
+    prm.declare_entry("Constants",
+                      "",
+                      Patterns::Anything(),
+                      "Names for numbers, 'R = 10, p0 = 5*R', which formulas and numbers of the "
+                      "scene may use. In a scene that the program prints, numbers stand in their "
+                      "place.");
     const Patterns::List list(Patterns::Anything{});
     prm.declare_entry("Bodies",
                       "",

@@ -65,7 +65,7 @@ namespace Touchstone
         const std::string letter(1, "xyz"[d]);
         const auto        formula =
           [&](const std::string &key, std::string &value, const std::string &what) {
-            prm.add_parameter(key + " " + letter, value, what, Patterns::Anything());
+            prm.add_parameter(key + " " + letter, value, what, FormulaPattern());
           };
         formula("Initial velocity",
                 initial_velocity[d],
