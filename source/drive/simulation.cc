@@ -2,6 +2,7 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/drive/model_report.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
 #include <touchstone/scene/parameter_changes.h>
@@ -255,8 +256,24 @@ namespace Touchstone
     // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial
     // gaps and formulas, and finds bodies that nothing holds.
     const std::unique_ptr<Step>    problem = Step::make(scene, forest, solid, timer);
-    const std::vector<std::string> lines   = problem->start();
+    const std::vector<std::string> start   = problem->start();
     problem->prepare(scene.load_stepping.end_time / scene.load_stepping.steps);
-    return problem->cycle_counts() != nullptr ? lines : std::vector<std::string>();
+
+    std::vector<std::string> lines = {
+      std::to_string(forest.triangulation.n_global_active_cells()) + " cells, " +
+      std::to_string(solid.dof_handler.n_dofs() / dim) + " nodes, " +
+      std::to_string(solid.dof_handler.n_dofs()) + " unknowns"};
+    const auto add = [&lines](const std::vector<std::string> &more) {
+      lines.insert(lines.end(), more.begin(), more.end());
+    };
+    add(describe_bodies(scene, forest, solid));
+    add(start);
+    if (!problem->held_by_contact().empty())
+      lines.push_back("held by contact alone: " + problem->held_by_contact());
+    const CycleCounts *cycles = problem->cycle_counts();
+    if (cycles != nullptr)
+      add(describe_gaps(scene, forest, solid));
+    lines.push_back(expected_cost(scene, solid, cycles));
+    return lines;
   }
 } // namespace Touchstone

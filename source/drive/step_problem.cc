@@ -178,6 +178,14 @@ namespace Touchstone
 
 
 
+  std::string
+  StepProblem::held_by_contact() const
+  {
+    return system->unsupported();
+  }
+
+
+
   StepState
   StepProblem::state() const
   {

@@ -200,7 +200,8 @@ namespace Touchstone
   };
 
   /** @brief Build all that a run needs, without solving.
-   * @return lines on what the run would cost, if that is known: cycles of explicit dynamics.
+   * @return what it has understood, in lines: bodies and their boundaries, gaps of the contact
+   * pairs, what contact alone holds, cycles of explicit dynamics, memory and time.
    * @throws InputError */
   std::vector<std::string>
   validate(const Scene &scene, const std::string &folder_of_scene, MPI_Comm communicator);

@@ -164,6 +164,14 @@ namespace Touchstone
     virtual StepState
     state() const = 0;
 
+    /** @brief The rigid motions that supports leave free, so that contact alone resists them, as a
+     * sentence; empty if there are none, or if inertia resists them. Known after start(). */
+    virtual std::string
+    held_by_contact() const
+    {
+      return "";
+    }
+
     /** @brief The cycles of the present step; null for steps that are solved by iterations. */
     virtual const CycleCounts *
     cycle_counts() const
