@@ -85,6 +85,8 @@ namespace Touchstone
     if (summary.motion)
       archive.put("motion", *summary.motion);
     archive.put("statistics", statistics.rows());
+    archive.put("statistics csv", statistics.csv_rows());
+    archive.put("probes", probes.histories());
     archive.put("quantities", statistics.memories());
     archive.put("last quantities", statistics.for_summary());
     archive.put("volume pictures", volume_output.series().list());
@@ -147,6 +149,7 @@ namespace Touchstone
         forest.refine(refined);
         solid.reinit();
         volume_output.reinit();
+        probes.reinit();
         problem = Step::make(scene, forest, solid, timer);
       }
     try
@@ -189,10 +192,14 @@ namespace Touchstone
     // Checkpoints of earlier versions have no quantities but the table.
     const bool any_quantities = archive.has("quantities");
     statistics.restore(archive.get<TableHandler>("statistics"),
+                       archive.has("statistics csv") ? archive.get<StatisticsCsv>("statistics csv")
+                                                     : StatisticsCsv(),
                        any_quantities ? archive.get<Statistics::Memories>("quantities")
                                       : Statistics::Memories(),
                        any_quantities ? archive.get<std::vector<StepValue>>("last quantities")
                                       : std::vector<StepValue>());
+    if (archive.has("probes"))
+      probes.restore(archive.get<Probes::Histories>("probes"));
     volume_output.series().restore(archive.get<VtuSeries::List>("volume pictures"));
     contact_output.series().restore(archive.get<VtuSeries::List>("contact pictures"));
     last_vtu_step = archive.get<unsigned int>("last picture");

@@ -76,6 +76,7 @@ namespace Touchstone
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
     , volume_output(solid, folder)
+    , probes(scene.probes, forest, solid)
     , contact_output(folder)
     , reference(make_reference(scene))
     , checkpoints(folder, origin.checkpoint)
@@ -151,6 +152,40 @@ namespace Touchstone
 
 
   void
+  Simulation::record_start()
+  {
+    const Vector  u       = problem->state().ghosted_displacement();
+    const auto    results = pair_results(problem->state().contact, u);
+    ConvergedStep record;
+    record.solid        = &solid;
+    record.displacement = &u;
+    record.points       = contact_points(problem->state().contact, u);
+    for (unsigned int p = 0; p < results.size(); ++p)
+      record.pairs[scene.pairs[p].name] = results[p];
+    for (const Reaction &reaction : problem->state().reactions())
+      record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
+    const CommittedMotion &motion = problem->state().time_integration;
+    record.energies["strain"]     = motion.committed_energies().strain;
+    if (motion.dynamic())
+      {
+        record.energies["kinetic"] = motion.committed_energies().kinetic;
+        record.momentum.emplace();
+        record.angular_momentum.emplace();
+        for (const BodyMomentum &momentum : motion.momenta())
+          {
+            *record.momentum += momentum.linear;
+            *record.angular_momentum += momentum.angular;
+          }
+      }
+    statistics.add_start(record);
+    probes.record(folder, volume_output, u, 0.);
+    if (scene.output.vtu_interval > 0)
+      write_vtu(0, 0.);
+  }
+
+
+
+  void
   Simulation::record_step(const unsigned int step,
                           const double       time,
                           const double       size,
@@ -190,6 +225,7 @@ namespace Touchstone
     {
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);
+      probes.record(folder, volume_output, u, time);
     }
     for (const auto &observer : observers)
       observer(record);
@@ -215,6 +251,8 @@ namespace Touchstone
     // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
+    if (!origin.checkpoint)
+      record_start();
     try
       {
         load_stepping();
@@ -252,6 +290,7 @@ namespace Touchstone
     make_reference(scene);
     const Forest forest(scene.forest_input(), folder_of_scene, communicator);
     Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
+    const Probes probes(scene.probes, forest, solid);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial
     // gaps and formulas, and finds bodies that nothing holds.

@@ -189,12 +189,19 @@ namespace Touchstone
   StepState
   StepProblem::state() const
   {
-    return {u, contact, *integration, solid, {linear_counts(), assemblies, n_searches()}, [this]() {
-              // What the supports must add for the nodes to be in balance.
-              Vector support(unbalanced);
-              support *= -1.;
-              return boundary_conditions.reactions(support);
-            }};
+    // What the supports must add for the nodes to be in balance.
+    const auto needed = [this]() {
+      Vector support(unbalanced);
+      support *= -1.;
+      return support;
+    };
+    return {u,
+            contact,
+            *integration,
+            solid,
+            {linear_counts(), assemblies, n_searches()},
+            [this, needed]() { return boundary_conditions.reactions(needed()); },
+            [this, needed]() { return boundary_conditions.nodal_reactions(needed()); }};
   }
 
 

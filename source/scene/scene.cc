@@ -111,6 +111,11 @@ namespace Touchstone
         obstacles.emplace_back();
         obstacles.back().name = name;
       }
+    for (const std::string &name : names_of_list(text, "", "Probes", "Probe "))
+      {
+        probes.emplace_back();
+        probes.back().name = name;
+      }
     // "all" needs no subsection: everything touches everything without friction.
     if (text.value("", "Contact pairs", "") == "all" &&
         text.sections().count("Contact pair all") == 0)
@@ -165,6 +170,12 @@ namespace Touchstone
                       "Names of the contact pairs; each has a subsection "
                       "'Contact pair NAME'.");
 
+    prm.declare_entry("Probes",
+                      "",
+                      list,
+                      "Names of places whose history is wanted; each has a subsection "
+                      "'Probe NAME'.");
+
     // The values that are needed before the handler has them.
     const auto look_up    = [&text](const auto &...arguments) { return text.value(arguments...); };
     const auto declare_in = [&](const std::string &section, auto &parameters) {
@@ -203,6 +214,8 @@ namespace Touchstone
     declare_in("Newton", newton);
     declare_in("Linear solver", linear_solver);
     declare_in("Output", output);
+    for (ProbeParameters &probe : probes)
+      declare_in(probe.section(), probe);
     declare_in("Checkpoints", checkpoints);
     declare_choices_in("Reference solution", reference);
   }

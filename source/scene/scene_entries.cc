@@ -50,6 +50,8 @@ namespace Touchstone
         declared[section];
       for (const SceneEntry &entry : text.entries())
         declared[entry.section].push_back(entry.key);
+      // Taken out of each text, for it is no entry; here so that messages can suggest it.
+      declared[""].insert(declared[""].begin(), "Constants");
       return declared;
     }
 
@@ -97,6 +99,7 @@ namespace Touchstone
             {"Body ", "Bodies"},
             {"Contact pair ", "Contact pairs"},
             {"Obstacle ", "Obstacles"},
+            {"Probe ", "Probes"},
             {"Boundary ", "Boundary conditions"}};
           for (const auto &[prefix, list] : lists)
             if (part.compare(0, prefix.size(), prefix) == 0 &&

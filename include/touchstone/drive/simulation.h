@@ -11,6 +11,7 @@
 #include <touchstone/output/contact_output.h>
 #include <touchstone/output/converged_step.h>
 #include <touchstone/output/log.h>
+#include <touchstone/output/probes.h>
 #include <touchstone/output/progress.h>
 #include <touchstone/output/statistics.h>
 #include <touchstone/output/summary.h>
@@ -83,6 +84,7 @@ namespace Touchstone
     Progress                           progress;
     Statistics                         statistics;
     VolumeOutput                       volume_output;
+    Probes                             probes;
     ContactOutput                      contact_output;
     std::shared_ptr<ReferenceSolution> reference;
     Checkpoints                        checkpoints;
@@ -153,6 +155,9 @@ namespace Touchstone
     /** Energies, momenta and cycles of a converged step. */
     void
     record_energies(const std::vector<PairResult> &results, ConvergedStep &record);
+    /** The state that the run starts from, before any balance. */
+    void
+    record_start();
     void
     record_step(unsigned int step,
                 double       time,

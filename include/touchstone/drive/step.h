@@ -38,6 +38,8 @@ namespace Touchstone
     StepCounts             counts;
     /** Forces of the supports. */
     std::function<std::vector<Reaction>()> reactions;
+    /** The same forces at the nodes, without ghosts; collective. */
+    std::function<Vector()> nodal_reactions;
 
     /** @brief The displacement with the ghosts of the mesh. */
     Vector
