@@ -126,8 +126,11 @@ namespace Touchstone
     // Compared by fingerprint: a mesh file that has changed could have the same number of cells in
     // another order, and nodal fields would be assigned to the wrong nodes without any error.
     for (unsigned int b = 0; b < mesh_files.size(); ++b)
-      if (b >= before.size() || before[b] != mesh_files[b])
-        throw InputError(scene.bodies[b].section() + "/Geometry",
+      // Checkpoints of earlier versions have none of obstacles, which were not made from files.
+      if ((b < before.size() ? before[b] : "") != mesh_files[b])
+        throw InputError(b < scene.bodies.size()
+                           ? scene.bodies[b].section() + "/Geometry"
+                           : scene.obstacles[b - scene.bodies.size()].section(),
                          "File",
                          "",
                          "the mesh file is not the one that the checkpoint was written with",

@@ -5,6 +5,7 @@
 #include <touchstone/drive/model_report.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
+#include <touchstone/mesh/obstacle_shape.h>
 #include <touchstone/scene/parameter_changes.h>
 
 #include <deal.II/base/mpi.h>
@@ -94,6 +95,8 @@ namespace Touchstone
       summary.motion.emplace();
     for (const BodyParameters &body : scene.bodies)
       mesh_files.push_back(body.geometry->fingerprint(folder_of_scene));
+    for (const ObstacleParameters &obstacle : scene.obstacles)
+      mesh_files.push_back(obstacle.shape.make()->fingerprint());
   }
 
 

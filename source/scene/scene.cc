@@ -2,6 +2,7 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
+#include <touchstone/mesh/obstacle_shape.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/scene_entries.h>
 #include <touchstone/scene/scene_text.h>
@@ -9,6 +10,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -229,6 +231,10 @@ namespace Touchstone
       // Resolved once, so that everything else sees the element that is used.
       if (body.element_type == ElementType::automatic)
         body.element_type = body.automatic_element(discretisation.degree);
+
+    // Each shape holds its own parameters: it is the one that contact will ask for its surface.
+    for (ObstacleParameters &obstacle : obstacles)
+      obstacle.shape.make()->set_folder(std::filesystem::path(file_name).parent_path().string());
 
     for (ContactPairParameters &pair : pairs)
       if (pair.tied() && !text.is_set(pair.section(), "Sliding"))

@@ -94,7 +94,7 @@ namespace Touchstone
     std::vector<std::function<void(const ConvergedStep &)>> observers;
     /** By the names of pairs: the last time at which they had contact. */
     std::map<std::string, double> had_contact;
-    /** Fingerprints of the mesh files, by body. */
+    /** Fingerprints of the mesh files, of bodies and then of obstacles. */
     std::vector<std::string> mesh_files;
     /** Of the last Newton iteration. */
     NewtonState     last_state;
