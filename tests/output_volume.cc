@@ -116,7 +116,7 @@ end
 
     VolumeOutput output(solid, folder);
     output.write(displacement, nullptr, 0, 0.);
-    output.write(displacement, &displacement, 1, 0.5);
+    output.write(displacement, &displacement, 1, 0.5, &displacement);
     if (folder.rank == 0)
       {
         std::cout << lines.at(0) << std::endl;

@@ -48,16 +48,23 @@ def unpack(text, form):
     return struct.unpack(f"<{len(result) // width}{form}", result)
 
 
-def read(path):
-    """All nodes of a file, each once."""
+def pieces(path):
+    """The arrays of real numbers of each piece of a file, by their names; "position" are the
+    points."""
     text = path.read_text(encoding="utf-8", errors="replace")
-    nodes = {}
     for piece in re.findall(r"<Piece (.*?)</Piece>", text, re.S):
-        arrays = {}
+        found = {}
         for bits, attributes, data in re.findall(
                 r'<DataArray type="Float(32|64)"([^>]*)>\s*(.*?)\s*</DataArray>', piece, re.S):
             name = re.search(r'Name="([^"]*)"', attributes)
-            arrays[name[1] if name else "position"] = unpack(data, "f" if bits == "32" else "d")
+            found[name[1] if name else "position"] = unpack(data, "f" if bits == "32" else "d")
+        yield found
+
+
+def read(path):
+    """All nodes of a contact surface, each once."""
+    nodes = {}
+    for arrays in pieces(path):
         if "pair" not in arrays:
             continue
         for i in range(len(arrays["pair"])):

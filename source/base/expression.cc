@@ -65,6 +65,42 @@ namespace Touchstone
 
 
 
+  std::string
+  FormulaPattern::description(const OutputStyle) const
+  {
+    return "[Formula]";
+  }
+
+
+
+  std::unique_ptr<dealii::Patterns::PatternBase>
+  FormulaPattern::clone() const
+  {
+    return std::make_unique<FormulaPattern>();
+  }
+
+
+
+  std::optional<double>
+  constant_value(const std::string &expression)
+  {
+    if (has_comma_outside_of_brackets(expression) || expression.find(';') != std::string::npos ||
+        std::regex_search(expression, std::regex("\\b([xyzt]|rand|rand_seed)\\b")))
+      return {};
+    const CaptureErrors errors;
+    try
+      {
+        const double value = Formula("", "", expression).value(dealii::Point<dim>(), 0.);
+        return std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
+      }
+    catch (const std::exception &)
+      {
+        return {};
+      }
+  }
+
+
+
   void
   check_expression(const std::string &section,
                    const std::string &key,

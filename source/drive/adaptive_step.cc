@@ -70,6 +70,7 @@ namespace Touchstone
           transfer        = problem->transfer();
           transfer.fields = refinement.execute(transfer.fields);
           volume_output.reinit();
+          probes.reinit();
         }
         problem = Step::make(scene, forest, solid, timer);
         problem->start();

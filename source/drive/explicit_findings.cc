@@ -105,8 +105,16 @@ namespace Touchstone
   StepState
   ExplicitStep::state() const
   {
-    return {displacement, contact, *this, solid, {}, [this]() {
-              return supports.reactions(kept.support);
+    return {displacement,
+            contact,
+            *this,
+            solid,
+            {},
+            [this]() { return supports.reactions(kept.support); },
+            [this]() {
+              Vector result(displacement);
+              map.to_vector(supports.nodal_reactions(kept.support), result);
+              return result;
             }};
   }
 

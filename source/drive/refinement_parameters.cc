@@ -61,7 +61,7 @@ namespace Touchstone
                       region,
                       "Formula of x, y, z and t: cells at whose centre it is positive are refined "
                       "in each cycle.",
-                      Patterns::Anything());
+                      FormulaPattern());
   }
 
 

@@ -85,6 +85,8 @@ namespace Touchstone
     if (summary.motion)
       archive.put("motion", *summary.motion);
     archive.put("statistics", statistics.rows());
+    archive.put("statistics csv", statistics.csv_rows());
+    archive.put("probes", probes.histories());
     archive.put("quantities", statistics.memories());
     archive.put("last quantities", statistics.for_summary());
     archive.put("volume pictures", volume_output.series().list());
@@ -124,8 +126,11 @@ namespace Touchstone
     // Compared by fingerprint: a mesh file that has changed could have the same number of cells in
     // another order, and nodal fields would be assigned to the wrong nodes without any error.
     for (unsigned int b = 0; b < mesh_files.size(); ++b)
-      if (b >= before.size() || before[b] != mesh_files[b])
-        throw InputError(scene.bodies[b].section() + "/Geometry",
+      // Checkpoints of earlier versions have none of obstacles, which were not made from files.
+      if ((b < before.size() ? before[b] : "") != mesh_files[b])
+        throw InputError(b < scene.bodies.size()
+                           ? scene.bodies[b].section() + "/Geometry"
+                           : scene.obstacles[b - scene.bodies.size()].section(),
                          "File",
                          "",
                          "the mesh file is not the one that the checkpoint was written with",
@@ -147,6 +152,7 @@ namespace Touchstone
         forest.refine(refined);
         solid.reinit();
         volume_output.reinit();
+        probes.reinit();
         problem = Step::make(scene, forest, solid, timer);
       }
     try
@@ -189,10 +195,14 @@ namespace Touchstone
     // Checkpoints of earlier versions have no quantities but the table.
     const bool any_quantities = archive.has("quantities");
     statistics.restore(archive.get<TableHandler>("statistics"),
+                       archive.has("statistics csv") ? archive.get<StatisticsCsv>("statistics csv")
+                                                     : StatisticsCsv(),
                        any_quantities ? archive.get<Statistics::Memories>("quantities")
                                       : Statistics::Memories(),
                        any_quantities ? archive.get<std::vector<StepValue>>("last quantities")
                                       : std::vector<StepValue>());
+    if (archive.has("probes"))
+      probes.restore(archive.get<Probes::Histories>("probes"));
     volume_output.series().restore(archive.get<VtuSeries::List>("volume pictures"));
     contact_output.series().restore(archive.get<VtuSeries::List>("contact pictures"));
     last_vtu_step = archive.get<unsigned int>("last picture");

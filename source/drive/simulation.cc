@@ -2,8 +2,10 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/drive/model_report.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
+#include <touchstone/mesh/obstacle_shape.h>
 #include <touchstone/scene/parameter_changes.h>
 
 #include <deal.II/base/mpi.h>
@@ -75,6 +77,7 @@ namespace Touchstone
     , progress(log, scene.load_stepping.end_time)
     , statistics(folder)
     , volume_output(solid, folder)
+    , probes(scene.probes, forest, solid)
     , contact_output(folder)
     , reference(make_reference(scene))
     , checkpoints(folder, origin.checkpoint)
@@ -92,6 +95,8 @@ namespace Touchstone
       summary.motion.emplace();
     for (const BodyParameters &body : scene.bodies)
       mesh_files.push_back(body.geometry->fingerprint(folder_of_scene));
+    for (const ObstacleParameters &obstacle : scene.obstacles)
+      mesh_files.push_back(obstacle.shape.make()->fingerprint());
   }
 
 
@@ -150,6 +155,40 @@ namespace Touchstone
 
 
   void
+  Simulation::record_start()
+  {
+    const Vector  u       = problem->state().ghosted_displacement();
+    const auto    results = pair_results(problem->state().contact, u);
+    ConvergedStep record;
+    record.solid        = &solid;
+    record.displacement = &u;
+    record.points       = contact_points(problem->state().contact, u);
+    for (unsigned int p = 0; p < results.size(); ++p)
+      record.pairs[scene.pairs[p].name] = results[p];
+    for (const Reaction &reaction : problem->state().reactions())
+      record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
+    const CommittedMotion &motion = problem->state().time_integration;
+    record.energies["strain"]     = motion.committed_energies().strain;
+    if (motion.dynamic())
+      {
+        record.energies["kinetic"] = motion.committed_energies().kinetic;
+        record.momentum.emplace();
+        record.angular_momentum.emplace();
+        for (const BodyMomentum &momentum : motion.momenta())
+          {
+            *record.momentum += momentum.linear;
+            *record.angular_momentum += momentum.angular;
+          }
+      }
+    statistics.add_start(record);
+    probes.record(folder, volume_output, u, 0.);
+    if (scene.output.vtu_interval > 0)
+      write_vtu(0, 0.);
+  }
+
+
+
+  void
   Simulation::record_step(const unsigned int step,
                           const double       time,
                           const double       size,
@@ -189,6 +228,7 @@ namespace Touchstone
     {
       TimerOutput::Scope scope(timer, "output");
       statistics.add_step(record);
+      probes.record(folder, volume_output, u, time);
     }
     for (const auto &observer : observers)
       observer(record);
@@ -214,6 +254,8 @@ namespace Touchstone
     // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
+    if (!origin.checkpoint)
+      record_start();
     try
       {
         load_stepping();
@@ -251,12 +293,29 @@ namespace Touchstone
     make_reference(scene);
     const Forest forest(scene.forest_input(), folder_of_scene, communicator);
     Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
+    const Probes probes(scene.probes, forest, solid);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial
     // gaps and formulas, and finds bodies that nothing holds.
     const std::unique_ptr<Step>    problem = Step::make(scene, forest, solid, timer);
-    const std::vector<std::string> lines   = problem->start();
+    const std::vector<std::string> start   = problem->start();
     problem->prepare(scene.load_stepping.end_time / scene.load_stepping.steps);
-    return problem->cycle_counts() != nullptr ? lines : std::vector<std::string>();
+
+    std::vector<std::string> lines = {
+      std::to_string(forest.triangulation.n_global_active_cells()) + " cells, " +
+      std::to_string(solid.dof_handler.n_dofs() / dim) + " nodes, " +
+      std::to_string(solid.dof_handler.n_dofs()) + " unknowns"};
+    const auto add = [&lines](const std::vector<std::string> &more) {
+      lines.insert(lines.end(), more.begin(), more.end());
+    };
+    add(describe_bodies(scene, forest, solid));
+    add(start);
+    if (!problem->held_by_contact().empty())
+      lines.push_back("held by contact alone: " + problem->held_by_contact());
+    const CycleCounts *cycles = problem->cycle_counts();
+    if (cycles != nullptr)
+      add(describe_gaps(scene, forest, solid));
+    lines.push_back(expected_cost(scene, solid, cycles));
+    return lines;
   }
 } // namespace Touchstone

@@ -31,7 +31,8 @@ namespace Touchstone
     Vector       velocity;
     if (!rates.empty())
       velocity = solid.ghosted(*rates.front());
-    volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time);
+    const Vector reaction = solid.ghosted(problem->state().nodal_reactions());
+    volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time, &reaction);
     contact_output.write(contact_faces(problem->state().contact),
                          contact_points(problem->state().contact, u),
                          step,

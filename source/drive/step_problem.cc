@@ -178,15 +178,30 @@ namespace Touchstone
 
 
 
+  std::string
+  StepProblem::held_by_contact() const
+  {
+    return system->unsupported();
+  }
+
+
+
   StepState
   StepProblem::state() const
   {
-    return {u, contact, *integration, solid, {linear_counts(), assemblies, n_searches()}, [this]() {
-              // What the supports must add for the nodes to be in balance.
-              Vector support(unbalanced);
-              support *= -1.;
-              return boundary_conditions.reactions(support);
-            }};
+    // What the supports must add for the nodes to be in balance.
+    const auto needed = [this]() {
+      Vector support(unbalanced);
+      support *= -1.;
+      return support;
+    };
+    return {u,
+            contact,
+            *integration,
+            solid,
+            {linear_counts(), assemblies, n_searches()},
+            [this, needed]() { return boundary_conditions.reactions(needed()); },
+            [this, needed]() { return boundary_conditions.nodal_reactions(needed()); }};
   }
 
 

@@ -229,6 +229,7 @@ namespace Touchstone
   {
     prescribe(0., u);
     const FreeMotion motion = modes.free_motion(graph.accepted());
+    unsupported_motions     = motion.description;
     for (const unsigned int body : motion.bodies)
       {
         const std::string &name  = parts.scene.bodies[body].name;

@@ -149,4 +149,15 @@ namespace Touchstone
         result[s].force[d] = sums[s][d].value(map.communicator());
     return result;
   }
+
+
+
+  NodeField
+  NodeSupports::nodal_reactions(const NodeField &force) const
+  {
+    NodeField result(map.n_local());
+    for (const Direction &one : all)
+      result[one.node] += (one.unit * force[place(one.node)]) * one.unit;
+    return result;
+  }
 } // namespace Touchstone

@@ -344,6 +344,18 @@ namespace Touchstone
 
 
 
+  std::map<BoundaryIds, std::string>
+  Forest::names_of_boundaries(const unsigned int body) const
+  {
+    std::map<BoundaryIds, std::string> result;
+    // Numbers come before letters, a name is better.
+    for (const auto &[name, ids] : names[body])
+      result[ids] = name;
+    return result;
+  }
+
+
+
   std::shared_ptr<const AnalyticSurface>
   Forest::surface(const types::boundary_id id) const
   {

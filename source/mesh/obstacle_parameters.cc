@@ -10,7 +10,6 @@
 namespace Touchstone
 {
   using dealii::ParameterHandler;
-  namespace Patterns = dealii::Patterns;
 
   std::string
   ObstacleParameters::section() const
@@ -29,9 +28,9 @@ namespace Touchstone
                       "The rigid surface, which decides on the other keys here.");
     shape.declare_own_keys(prm);
     const std::string motion = " component of the rigid motion, a formula in t (time). [length]";
-    prm.add_parameter("Motion x", motion_x, "The x" + motion, Patterns::Anything());
-    prm.add_parameter("Motion y", motion_y, "The y" + motion, Patterns::Anything());
-    prm.add_parameter("Motion z", motion_z, "The z" + motion, Patterns::Anything());
+    prm.add_parameter("Motion x", motion_x, "The x" + motion, FormulaPattern());
+    prm.add_parameter("Motion y", motion_y, "The y" + motion, FormulaPattern());
+    prm.add_parameter("Motion z", motion_z, "The z" + motion, FormulaPattern());
   }
 
 

@@ -49,16 +49,36 @@ namespace Touchstone
 
 
   void
+  Statistics::add_start(const ConvergedStep &start)
+  {
+    csv.begin_row();
+    for (const auto &[name, quantity] : quantities)
+      if (quantity->at_start())
+        {
+          StepValues values;
+          quantity->evaluate(start, values);
+          for (const StepValue &value : values.entries)
+            csv.add(value);
+        }
+  }
+
+
+
+  void
   Statistics::add_step(const ConvergedStep &step)
   {
     last_values.clear();
+    csv.begin_row();
     for (const auto &[name, quantity] : quantities)
       {
         StepValues values;
         quantity->evaluate(step, values); // collective, though only rank 0 writes
-        if (folder.rank == 0)
-          for (const StepValue &value : values.entries)
-            add(value);
+        for (const StepValue &value : values.entries)
+          {
+            if (folder.rank == 0)
+              add(value);
+            csv.add(value);
+          }
         // The summary has the values of the last step.
         if (quantity->in_summary())
           last_values.insert(last_values.end(), values.entries.begin(), values.entries.end());
@@ -83,12 +103,14 @@ namespace Touchstone
 
   void
   Statistics::restore(const dealii::TableHandler   &rows,
+                      const StatisticsCsv          &csv_rows,
                       const Memories               &memories,
                       const std::vector<StepValue> &values)
   {
     // The rows of the earlier run, then write(): the file on disk may have steps after the
     // checkpoint.
     table       = rows;
+    csv         = csv_rows;
     last_values = values;
     for (const auto &[name, quantity] : quantities)
       if (const auto memory = memories.find(name); memory != memories.end())
@@ -106,5 +128,6 @@ namespace Touchstone
       table.write_text(text, dealii::TableHandler::table_with_separate_column_description);
     // The whole table is written after each step: a run that dies leaves a complete file.
     folder.write_file_atomically("statistics", text.str());
+    folder.write_file_atomically("statistics.csv", csv.text());
   }
 } // namespace Touchstone

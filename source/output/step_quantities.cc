@@ -28,6 +28,12 @@ namespace Touchstone
         return false;
       }
 
+      bool
+      at_start() const override
+      {
+        return true;
+      }
+
       unsigned int
       order() const override
       {

@@ -79,6 +79,60 @@ namespace Touchstone
 
 
 
+    class ReactionField : public VolumeField
+    {
+    public:
+      unsigned int
+      n_components() const override
+      {
+        return dim;
+      }
+      unsigned int
+      order() const override
+      {
+        return 2;
+      }
+      bool
+      available(const VolumeState &state) const override
+      {
+        return state.reaction != nullptr;
+      }
+      void
+      evaluate(const VolumeState &state, std::vector<double> &values) const override
+      {
+        copy_owned(state.solid, *state.reaction, values);
+      }
+    };
+
+
+
+    /** All of the nodal Cauchy stress at once, for filters that take tensors. */
+    class StressTensor : public VolumeField
+    {
+    public:
+      unsigned int
+      n_components() const override
+      {
+        return dim * dim;
+      }
+      unsigned int
+      order() const override
+      {
+        return 9;
+      }
+      void
+      evaluate(const VolumeState &state, std::vector<double> &values) const override
+      {
+        std::size_t k = 0;
+        for (const SymmetricTensor<2, dim> &stress : state.node_stress)
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              values[k++] = stress[i][j];
+      }
+    };
+
+
+
     /** A scalar function of the nodal Cauchy stress. */
     template <unsigned int number>
     class StressField : public VolumeField
@@ -195,6 +249,10 @@ namespace Touchstone
                                                                            "Displacement; length.");
     const VolumeFieldRegistry::Entry<VelocityField>     velocity_field("velocity",
                                                                    "Velocity; length per time.");
+    const VolumeFieldRegistry::Entry<ReactionField>
+      reaction_field("reaction", "Forces of the supports at the nodes; force.");
+    const VolumeFieldRegistry::Entry<StressTensor> stress_field("stress",
+                                                                "Cauchy stress; force per area.");
     const VolumeFieldRegistry::Entry<StressComponent<0, 0, 0>>
       stress_xx_field("stress_xx", "Cauchy stress; force per area.");
     const VolumeFieldRegistry::Entry<StressComponent<1, 1, 1>>

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <list>
+#include <tuple>
 
 /**
  * @file
@@ -17,6 +18,44 @@
 
 namespace Touchstone
 {
+  namespace
+  {
+    /** DataOut that joins scalars called NAME_0 to NAME_8 to a tensor. */
+    class TensorDataOut : public dealii::DataOut<dim>
+    {
+    public:
+      std::vector<std::string> tensors;
+
+    private:
+      using Ranges =
+        std::vector<std::tuple<unsigned int,
+                               unsigned int,
+                               std::string,
+                               dealii::DataComponentInterpretation::DataComponentInterpretation>>;
+
+      Ranges
+      get_nonscalar_data_ranges() const override
+      {
+        Ranges     ranges = dealii::DataOut<dim>::get_nonscalar_data_ranges();
+        const auto names  = get_dataset_names();
+        for (const std::string &tensor : tensors)
+          {
+            const unsigned int first =
+              std::find(names.begin(), names.end(), tensor + "_0") - names.begin();
+            ranges.emplace_back(first,
+                                first + dim * dim - 1,
+                                tensor,
+                                dealii::DataComponentInterpretation::component_is_part_of_tensor);
+          }
+        // The writers go through them in the order of the components.
+        std::sort(ranges.begin(), ranges.end());
+        return ranges;
+      }
+    };
+  } // namespace
+
+
+
   VolumeOutput::VolumeOutput(const Solid &solid, const OutputFolder &folder)
     : solid(solid)
     , node_fe(solid.fe.degree)
@@ -118,6 +157,23 @@ namespace Touchstone
 
 
 
+  std::array<Vector, 2>
+  VolumeOutput::nodal_stress(const Vector &displacement)
+  {
+    if (!node_dofs.has_active_dofs())
+      number_nodes();
+    const auto          stress = node_stress(displacement);
+    std::vector<double> normal, shear;
+    for (const dealii::SymmetricTensor<2, dim> &one : stress)
+      {
+        normal.insert(normal.end(), {one[0][0], one[1][1], one[2][2]});
+        shear.insert(shear.end(), {one[0][1], one[1][2], one[0][2]});
+      }
+    return {{vector_field(normal), vector_field(shear)}};
+  }
+
+
+
   VolumeOutput::NodeField
   VolumeOutput::scalar_field(const std::vector<double> &values) const
   {
@@ -145,12 +201,13 @@ namespace Touchstone
   VolumeOutput::write(const Vector      &displacement,
                       const Vector      *velocity,
                       const unsigned int step,
-                      const double       time)
+                      const double       time,
+                      const Vector      *reaction)
   {
     if (!node_dofs.has_active_dofs())
       number_nodes();
     const auto        stress = node_stress(displacement);
-    const VolumeState state{solid, displacement, velocity, time, stress};
+    const VolumeState state{solid, displacement, velocity, reaction, time, stress};
     const std::size_t n_nodes = node_in_solid.size();
     // Cell fields have entries for ghost cells, too, since deal.II indexes them by active cell;
     // those are not written.
@@ -161,7 +218,7 @@ namespace Touchstone
     std::list<NodeField>              scalars;
     std::list<Vector>                 vectors;
     std::list<dealii::Vector<double>> cells;
-    dealii::DataOut<dim>              data_out;
+    TensorDataOut                     data_out;
     for (const auto &[name, field] : fields)
       if (field->available(state))
         {
@@ -177,6 +234,22 @@ namespace Touchstone
             {
               scalars.push_back(scalar_field(values));
               data_out.add_data_vector(node_dofs, scalars.back(), name);
+            }
+          else if (field->n_components() == dim * dim)
+            {
+              // A scalar for each component, which together are a tensor to the viewer.
+              const std::size_t   n = dim * dim;
+              std::vector<double> component(n_nodes);
+              for (std::size_t c = 0; c < n; ++c)
+                {
+                  for (std::size_t i = 0; i < n_nodes; ++i)
+                    component[i] = values[n * i + c];
+                  scalars.push_back(scalar_field(component));
+                  data_out.add_data_vector(node_dofs,
+                                           scalars.back(),
+                                           name + "_" + std::to_string(c));
+                }
+              data_out.tensors.push_back(name);
             }
           else
             {

@@ -156,34 +156,61 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** The text of a file. @p refuse throws what is wrong with it, and a remedy. */
+    template <class Refuse>
+    std::string
+    read_text(const std::string &name, const Refuse &refuse)
+    {
+      // iostreams do not report why they failed; errno usually tells, if it was cleared before.
+      errno = 0;
+      std::ifstream      file(name, std::ios::binary);
+      std::ostringstream content;
+      // A folder opens without an error and fails at the first read only, hence peek(). An empty
+      // file sets eof(), which is no failure of reading.
+      const bool was_read =
+        file && (file.peek(), !file.bad()) && (file.eof() || (content << file.rdbuf()));
+      if (!was_read)
+        refuse(std::string("cannot be read: ") + std::strerror(errno == 0 ? EIO : errno),
+               "check the name and the permissions of the file");
+      const std::string text = content.str();
+      if (text.empty())
+        refuse("is empty", "give another");
+      // Binary files, such as meshes, have zero bytes.
+      if (text.find('\0') != std::string::npos)
+        refuse("is not a text file", "give a scene file, whose name usually ends in .prm");
+      return text;
+    }
+  } // namespace
+
+
+
   std::string
   read_scene_file(const std::string &name)
   {
-    // iostreams do not report why they failed; errno usually tells, if it was cleared before.
-    errno = 0;
-    std::ifstream      file(name, std::ios::binary);
-    std::ostringstream content;
-    // A folder opens without an error and fails at the first read only, hence peek(). An empty file
-    // sets eof(), which is no failure of reading.
-    const bool was_read =
-      file && (file.peek(), !file.bad()) && (file.eof() || (content << file.rdbuf()));
-    if (!was_read)
+    return read_text(name, [&name](const std::string &problem, const std::string &remedy) {
       throw InputError(section,
                        "",
                        name,
-                       std::string("this scene file cannot be read: ") +
-                         std::strerror(errno == 0 ? EIO : errno),
-                       "check the name and the permissions of the file");
-    const std::string text = content.str();
-    if (text.empty())
-      throw InputError(section, "", name, "this scene file is empty", "give another");
-    // Binary files, such as meshes, have zero bytes.
-    if (text.find('\0') != std::string::npos)
-      throw InputError(section,
+                       (problem == "is not a text file" ? "this " : "this scene file ") + problem,
+                       remedy);
+    });
+  }
+
+
+
+  std::string
+  read_included_file(const std::string &name,
+                     const std::string &open_section,
+                     const std::string &location)
+  {
+    return read_text(name, [&](const std::string &problem, const std::string &remedy) {
+      throw InputError(open_section,
                        "",
                        name,
-                       "this is not a text file",
-                       "give a scene file, whose name usually ends in .prm");
-    return text;
+                       "the included file " + problem + " (" + location + ")",
+                       remedy + "; names are relative to the file that includes");
+    });
   }
 } // namespace Touchstone

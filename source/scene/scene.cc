@@ -2,6 +2,7 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
+#include <touchstone/mesh/obstacle_shape.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/scene_entries.h>
 #include <touchstone/scene/scene_text.h>
@@ -9,6 +10,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <ostream>
 #include <set>
 #include <sstream>
@@ -111,6 +113,11 @@ namespace Touchstone
         obstacles.emplace_back();
         obstacles.back().name = name;
       }
+    for (const std::string &name : names_of_list(text, "", "Probes", "Probe "))
+      {
+        probes.emplace_back();
+        probes.back().name = name;
+      }
     // "all" needs no subsection: everything touches everything without friction.
     if (text.value("", "Contact pairs", "") == "all" &&
         text.sections().count("Contact pair all") == 0)
@@ -140,6 +147,13 @@ namespace Touchstone
   Scene::declare(const SceneText &text)
   {
     prm.add_parameter("Title", title, "What the scene is about.", Patterns::Anything());
+    // Taken out of the text before (SceneText): here for the documentation alone.
+    prm.declare_entry("Constants",
+                      "",
+                      Patterns::Anything(),
+                      "Names for numbers, 'R = 10, p0 = 5*R', which formulas and numbers of the "
+                      "scene may use. In a scene that the program prints, numbers stand in their "
+                      "place.");
     const Patterns::List list(Patterns::Anything{});
     prm.declare_entry("Bodies",
                       "",
@@ -157,6 +171,12 @@ namespace Touchstone
                       list,
                       "Names of the contact pairs; each has a subsection "
                       "'Contact pair NAME'.");
+
+    prm.declare_entry("Probes",
+                      "",
+                      list,
+                      "Names of places whose history is wanted; each has a subsection "
+                      "'Probe NAME'.");
 
     // The values that are needed before the handler has them.
     const auto look_up    = [&text](const auto &...arguments) { return text.value(arguments...); };
@@ -196,6 +216,8 @@ namespace Touchstone
     declare_in("Newton", newton);
     declare_in("Linear solver", linear_solver);
     declare_in("Output", output);
+    for (ProbeParameters &probe : probes)
+      declare_in(probe.section(), probe);
     declare_in("Checkpoints", checkpoints);
     declare_choices_in("Reference solution", reference);
   }
@@ -209,6 +231,10 @@ namespace Touchstone
       // Resolved once, so that everything else sees the element that is used.
       if (body.element_type == ElementType::automatic)
         body.element_type = body.automatic_element(discretisation.degree);
+
+    // Each shape holds its own parameters: it is the one that contact will ask for its surface.
+    for (ObstacleParameters &obstacle : obstacles)
+      obstacle.shape.make()->set_folder(std::filesystem::path(file_name).parent_path().string());
 
     for (ContactPairParameters &pair : pairs)
       if (pair.tied() && !text.is_set(pair.section(), "Sliding"))

@@ -69,6 +69,11 @@ namespace Touchstone
     newton.check("Newton");
     linear_solver.check("Linear solver");
     output.check("Output");
+    for (const ProbeParameters &probe : probes)
+      {
+        check_name(probe.section(), "Body", probe.body, "Bodies", names(bodies));
+        probe.check();
+      }
     check_combinations(*this);
     check_reference();
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
 #include <touchstone/scene/scene_entries.h>
@@ -7,7 +8,13 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+// Boost's parser of JSON says on each compilation that this is old.
+#ifndef BOOST_BIND_GLOBAL_PLACEHOLDERS
+#  define BOOST_BIND_GLOBAL_PLACEHOLDERS
+#endif
+#include <boost/property_tree/json_parser.hpp>
 #include <regex>
+#include <set>
 #include <sstream>
 
 /**
@@ -43,6 +50,8 @@ namespace Touchstone
         declared[section];
       for (const SceneEntry &entry : text.entries())
         declared[entry.section].push_back(entry.key);
+      // Taken out of each text, for it is no entry; here so that messages can suggest it.
+      declared[""].insert(declared[""].begin(), "Constants");
       return declared;
     }
 
@@ -90,6 +99,7 @@ namespace Touchstone
             {"Body ", "Bodies"},
             {"Contact pair ", "Contact pairs"},
             {"Obstacle ", "Obstacles"},
+            {"Probe ", "Probes"},
             {"Boundary ", "Boundary conditions"}};
           for (const auto &[prefix, list] : lists)
             if (part.compare(0, prefix.size(), prefix) == 0 &&
@@ -153,6 +163,61 @@ namespace Touchstone
 
 
     /**
+     * Undo the mangled names of ParameterHandler ("Body_20inner.Young_20modulus"): _XX is a
+     * character by its hexadecimal code, a dot separates sections.
+     */
+    std::string
+    demangle(const std::string &name)
+    {
+      std::string result;
+      for (std::size_t i = 0; i < name.size(); ++i)
+        if (name[i] == '_' && i + 2 < name.size())
+          {
+            // Two hexadecimal digits after the underscore.
+            result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
+            i += 2;
+          }
+        else
+          result += name[i] == '.' ? '/' : name[i];
+      return result;
+    }
+
+
+
+    /** (section, key) of the keys that take a formula. Patterns of declared entries can be had from
+     * the listing as JSON alone. */
+    std::set<std::pair<std::string, std::string>>
+    formula_keys(const dealii::ParameterHandler &prm)
+    {
+      std::stringstream listing;
+      prm.print_parameters(listing, dealii::ParameterHandler::JSON);
+      boost::property_tree::ptree tree;
+      boost::property_tree::read_json(listing, tree);
+
+      std::set<std::pair<std::string, std::string>> keys;
+      std::function<void(const boost::property_tree::ptree &, const std::vector<std::string> &)>
+        walk = [&](const auto &node, const auto &path) {
+          for (const auto &[name, child] : node)
+            if (const auto pattern = child.find("pattern_description");
+                pattern != child.not_found())
+              {
+                if (pattern->second.data() == FormulaPattern().description())
+                  keys.emplace(join_path(path), demangle(name));
+              }
+            else
+              {
+                std::vector<std::string> inner = path;
+                inner.push_back(demangle(name));
+                walk(child, inner);
+              }
+        };
+      walk(tree, {});
+      return keys;
+    }
+
+
+
+    /**
      * A remedy in words, from deal.II's description of the pattern that @p value does not match.
      * Bounds at the limits of the type are no bounds to the user.
      */
@@ -195,18 +260,16 @@ namespace Touchstone
 
 
     /**
-     * Set one entry; a value that does not match the declared pattern is an InputError. The pattern
+     * Set the present key. @return an empty text, or the pattern that the value does not match; it
      * is cut out of deal.II's message, the only place that has it.
      */
-    void
-    set_entry(const SceneEntry &entry, const std::string &location, dealii::ParameterHandler &prm)
+    std::string
+    try_value(const std::string &key, const std::string &value, dealii::ParameterHandler &prm)
     {
-      const std::vector<std::string> path = split_path(entry.section);
-      for (const std::string &part : path)
-        prm.enter_subsection(part);
       try
         {
-          prm.set(entry.key, entry.value);
+          prm.set(key, value);
+          return "";
         }
       catch (const dealii::ParameterHandler::ExcValueDoesNotMatchPattern &exception)
         {
@@ -215,38 +278,50 @@ namespace Touchstone
           const std::string start   = "given pattern <";
           std::string       pattern = text.str();
           pattern                   = pattern.substr(pattern.find(start) + start.size());
-          pattern                   = pattern.substr(0, pattern.rfind('>'));
-          throw InputError(entry.section,
-                           entry.key,
-                           entry.value,
-                           (entry.value.empty() ? "an empty value" : "this value") +
-                             std::string(" is not possible here (") + location + ")",
-                           remedy(pattern, entry.value));
+          return pattern.substr(0, pattern.rfind('>'));
         }
-      for (std::size_t i = 0; i < path.size(); ++i)
-        prm.leave_subsection();
     }
 
 
 
-    /**
-     * Undo the mangled names of ParameterHandler ("Body_20inner.Young_20modulus"): _XX is a
-     * character by its hexadecimal code, a dot separates sections.
-     */
-    std::string
-    demangle(const std::string &name)
+    /** Set one entry; a value that does not match the declared pattern, nor does as an expression
+     * where numbers are expected, is an InputError. */
+    void
+    set_entry(const SceneEntry         &entry,
+              const std::string        &location,
+              const Constants          &constants,
+              const bool                is_formula,
+              dealii::ParameterHandler &prm)
     {
-      std::string result;
-      for (std::size_t i = 0; i < name.size(); ++i)
-        if (name[i] == '_' && i + 2 < name.size())
-          {
-            // Two hexadecimal digits after the underscore.
-            result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-          }
-        else
-          result += name[i] == '.' ? '/' : name[i];
-      return result;
+      const std::vector<std::string> path = split_path(entry.section);
+      for (const std::string &part : path)
+        prm.enter_subsection(part);
+      std::string pattern =
+        try_value(entry.key, is_formula ? constants.insert(entry.value) : entry.value, prm);
+      if (!pattern.empty())
+        {
+          // Numbers, and lists and lists of lists of them.
+          static const std::regex number(R"((\[List of <)*\[(Double|Integer) .*)");
+          std::smatch             found;
+          const bool              is_number = std::regex_match(pattern, found, number);
+          const auto              value =
+            is_number ? constants.numbers(entry.value, found[2] == "Integer", found[1].matched)
+                                   : std::nullopt;
+          if (!value || !try_value(entry.key, *value, prm).empty())
+            throw InputError(
+              entry.section,
+              entry.key,
+              entry.value,
+              (entry.value.empty() ? "an empty value" : "this value") +
+                (value && *value != entry.value ? ", which is " + *value + "," : std::string()) +
+                " is not possible here (" + location + ")",
+              remedy(pattern, entry.value) +
+                (is_number && !value && !constants.names().empty()
+                   ? ", or an expression in the constants " + quoted_list(constants.names())
+                   : ""));
+        }
+      for (std::size_t i = 0; i < path.size(); ++i)
+        prm.leave_subsection();
     }
   } // namespace
 
@@ -267,6 +342,14 @@ namespace Touchstone
           (unknown == text.sections().end() || order(section->second) < order(unknown->second)))
         unknown = section;
 
+    const auto formulas = formula_keys(prm);
+    const auto set      = [&](const SceneEntry &entry) {
+      set_entry(entry,
+                text.location(entry.line),
+                text.constants(),
+                formulas.count({entry.section, entry.key}) > 0,
+                prm);
+    };
     const auto known = [&declared](const SceneEntry &entry) {
       const auto keys = declared.find(entry.section);
       return keys != declared.end() &&
@@ -282,13 +365,15 @@ namespace Touchstone
             // mistake to report.
             for (const SceneEntry &other : text.entries())
               if (other.section == entry.section && known(other))
-                set_entry(other, text.location(other.line), prm);
+                set(other);
             throw_unknown_key(declared, entry, text.location(entry.line));
           }
-        set_entry(entry, text.location(entry.line), prm);
+        set(entry);
       }
     if (unknown != text.sections().end())
       throw_unknown_section(declared, unknown->first, text.location(unknown->second));
+
+    text.constants().check_used();
 
     // Last of all, since a misspelt key also leaves the right one unset, and the misspelling is the
     // better message.

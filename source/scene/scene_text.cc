@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/input_error.h>
+#include <touchstone/scene/command_line.h>
 #include <touchstone/scene/scene_text.h>
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 /**
@@ -78,11 +81,12 @@ namespace Touchstone
   SceneText::SceneText(const std::string              &text,
                        const std::string              &file_name,
                        const std::vector<std::string> &overrides)
-    : file_name(file_name)
   {
-    read_file(text);
+    std::vector<std::string> path;
+    read_file(text, file_name, path);
     for (const std::string &override_text : overrides)
       read_override(override_text);
+    all_constants.evaluate();
   }
 
 
@@ -103,10 +107,20 @@ namespace Touchstone
 
 
 
+  const Constants &
+  SceneText::constants() const
+  {
+    return all_constants;
+  }
+
+
+
   std::string
   SceneText::location(const unsigned int line) const
   {
-    return line == 0 ? "command line" : "line " + std::to_string(line) + " of " + file_name;
+    return line == 0
+             ? "command line"
+             : "line " + std::to_string(places[line - 1].second) + " of " + places[line - 1].first;
   }
 
 
@@ -157,20 +171,23 @@ namespace Touchstone
 
 
   void
-  SceneText::read_file(const std::string &text)
+  SceneText::read_file(const std::string        &text,
+                       const std::string        &name,
+                       std::vector<std::string> &path)
   {
-    std::istringstream       stream(text);
-    std::vector<std::string> path;
-    std::string              line, physical;
-    unsigned int             number = 0, first = 0;
+    open_files.push_back({name, std::filesystem::weakly_canonical(name).string()});
+    const std::size_t  outside = path.size();
+    std::istringstream stream(text);
+    std::string        line, physical;
+    unsigned int       number = 0, first = 0;
     while (std::getline(stream, physical))
       {
-        ++number;
+        places.emplace_back(name, ++number);
         if (number == 1 && physical.compare(0, 3, "\xEF\xBB\xBF") == 0)
           physical.erase(0, 3); // the mark with which some editors begin UTF-8
         if (line.empty())
           // The line on which a (continued) entry starts.
-          first = number;
+          first = places.size();
         // A comment ends with its physical line, even if a backslash precedes the line break. A
         // continued line has the number of its first part in messages.
         physical           = trim(physical.substr(0, physical.find('#')));
@@ -180,12 +197,22 @@ namespace Touchstone
         line += physical;
         if (goes_on)
           continue;
-        read_line(trim(line), first, path);
+        const std::string whole = trim(line);
         line.clear();
+        read_line(whole, first, path);
+        if (path.size() < outside)
+          throw InputError(join_path(path),
+                           "",
+                           whole,
+                           "the subsection that this closes was opened in a file that includes "
+                           "this one (" +
+                             location(first) + ")",
+                           "close each subsection in the file that opens it");
       }
     if (!line.empty())
       read_line(trim(line), first, path);
-    if (!path.empty())
+    open_files.pop_back();
+    if (path.size() > outside)
       {
         const std::string section = join_path(path);
         throw InputError(section,
@@ -238,39 +265,83 @@ namespace Touchstone
         path.pop_back();
       }
     else if (take_word(rest, "set"))
-      {
-        const std::size_t equals = rest.find('=');
-        // Only the first '=' separates: values are formulas and may contain comparisons.
-        const std::string key = single_blanks(rest.substr(0, equals));
-        if (equals == std::string::npos || key.empty())
-          throw InputError(section,
-                           "",
-                           line,
-                           "this line cannot be read (" + location(number) + ")",
-                           "write 'set KEY = VALUE'");
-        // Two values for one key in a file are an oversight; only the command line may override.
-        if (const SceneEntry *other = find(section, key))
-          throw InputError(section,
-                           key,
-                           trim(rest.substr(equals + 1)),
-                           "this key is set twice, in " + location(other->line) + " and " +
-                             location(number),
-                           "keep one of them");
-        all_entries.push_back({section, key, trim(rest.substr(equals + 1)), number});
-      }
+      read_key(rest, number, section);
     else if (take_word(rest, "include"))
-      throw InputError(section,
-                       "",
-                       line,
-                       "scenes cannot include other files (" + location(number) + ")",
-                       "copy the lines of that file to here");
+      include(rest, number, path);
     else
       throw InputError(section,
                        "",
                        line,
                        "this line cannot be read (" + location(number) + ")",
-                       "a line is 'set KEY = VALUE', 'subsection NAME', 'end' or "
+                       "a line is 'set KEY = VALUE', 'subsection NAME', 'end', 'include FILE' or "
                        "a comment that begins with '#'");
+  }
+
+
+
+  void
+  SceneText::read_key(const std::string &line,
+                      const unsigned int number,
+                      const std::string &section)
+  {
+    const std::size_t equals = line.find('=');
+    // Only the first '=' separates: values are formulas and may contain comparisons.
+    const std::string key = single_blanks(line.substr(0, equals));
+    if (equals == std::string::npos || key.empty())
+      throw InputError(section,
+                       "",
+                       "set " + line,
+                       "this line cannot be read (" + location(number) + ")",
+                       "write 'set KEY = VALUE'");
+    const std::string  value = trim(line.substr(equals + 1));
+    const unsigned int depth = open_files.size() - 1;
+    if (section.empty() && key == "Constants")
+      {
+        all_constants.define(value, depth, location(number));
+        return;
+      }
+    // Two values for one key in a file are an oversight; the command line may override, and a file
+    // may override what it has included before.
+    const SceneEntry *other = find(section, key);
+    if (other != nullptr && other->depth <= depth)
+      throw InputError(section,
+                       key,
+                       value,
+                       "this key is set twice, in " + location(other->line) + " and " +
+                         location(number),
+                       other->depth < depth
+                         ? "keep one of them; a file may change a key that it has included before, "
+                           "not the other way round"
+                         : "keep one of them");
+    all_entries.push_back({section, key, value, number, depth});
+  }
+
+
+
+  void
+  SceneText::include(const std::string        &file,
+                     const unsigned int        number,
+                     std::vector<std::string> &path)
+  {
+    namespace fs              = std::filesystem;
+    const std::string section = join_path(path);
+    const auto        refuse  = [&](const std::string &problem, const std::string &remedy) {
+      throw InputError(
+        section, "", "include " + file, problem + " (" + location(number) + ")", remedy);
+    };
+    if (file.empty())
+      refuse("there is no file name", "write 'include FILE'");
+    // Named relative to the file that includes it: a folder of scenes can be moved as a whole.
+    const std::string name =
+      (fs::path(open_files.back().name).parent_path() / file).lexically_normal().string();
+    const std::string canonical = fs::weakly_canonical(name).string();
+    std::string       way;
+    for (const OpenFile &open : open_files)
+      if (!way.empty() || open.canonical_name == canonical)
+        way += open.name + " includes ";
+    if (!way.empty())
+      refuse("this file includes itself: " + way + name, "remove one of these lines");
+    read_file(read_included_file(name, section, location(number)), name, path);
   }
 
 
@@ -305,9 +376,14 @@ namespace Touchstone
     const std::string key = path.back();
     path.pop_back();
     const std::string section = join_path(path);
+    if (section.empty() && key == "Constants")
+      {
+        all_constants.define(text.substr(equals + 1), -1, location(0));
+        return;
+      }
     if (!section.empty())
       // Overrides have line 0: location() then says "command line".
       note_section(section, 0);
-    all_entries.push_back({section, key, trim(text.substr(equals + 1)), 0});
+    all_entries.push_back({section, key, trim(text.substr(equals + 1)), 0, 0});
   }
 } // namespace Touchstone

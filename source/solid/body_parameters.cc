@@ -3,7 +3,7 @@
 #include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
-#include <touchstone/mesh/geometry.h>
+#include <touchstone/mesh/placed_geometry.h>
 #include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/material_law.h>
 
@@ -65,7 +65,7 @@ namespace Touchstone
         const std::string letter(1, "xyz"[d]);
         const auto        formula =
           [&](const std::string &key, std::string &value, const std::string &what) {
-            prm.add_parameter(key + " " + letter, value, what, Patterns::Anything());
+            prm.add_parameter(key + " " + letter, value, what, FormulaPattern());
           };
         formula("Initial velocity",
                 initial_velocity[d],
@@ -109,7 +109,8 @@ namespace Touchstone
                            did_you_mean(geometry_type.chosen(), GeometryRegistry::names()),
                          "take one of " + quoted_list(GeometryRegistry::names()));
       geometry_type.declare_own_keys(prm);
-      geometry = geometry_type.make();
+      geometry = std::make_shared<PlacedGeometry>(geometry_type.make());
+      geometry->declare(prm);
     }
     prm.leave_subsection();
   }
@@ -195,6 +196,7 @@ namespace Touchstone
                        "is neither 'automatic' nor a number from 0 to 1",
                        "take 'automatic'");
     geometry_type.check(section() + "/Geometry");
+    geometry->check(section() + "/Geometry");
     material.check(section() + "/Material");
     for (unsigned int d = 0; d < 3; ++d)
       {

@@ -403,13 +403,14 @@ namespace Touchstone
 
 
 
-  std::vector<Reaction>
-  BoundaryConditions::reactions(const Vector &unbalanced) const
+  void
+  BoundaryConditions::for_each_share(
+    const Vector                                                          &unbalanced,
+    const std::function<void(const Prescribed &, const Tensor<1, dim> &)> &visit) const
   {
     // Each prescribed direction takes its share of the unbalanced force of the
     // node, in the order of precedence and without what earlier directions have
     // taken: so the shares add up to the whole.
-    std::vector<Reaction>                        result = supports;
     std::map<Index, std::vector<Tensor<1, dim>>> taken;
     for (const Prescribed &p : prescribed)
       {
@@ -425,8 +426,33 @@ namespace Touchstone
         double share = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           share += direction[d] * unbalanced(dim * p.node + d);
-        result[p.support].force += share * direction;
+        visit(p, share * direction);
       }
+  }
+
+
+
+  Vector
+  BoundaryConditions::nodal_reactions(const Vector &unbalanced) const
+  {
+    Vector result(solid.owned, solid.communicator);
+    for_each_share(unbalanced, [&result](const Prescribed &p, const Tensor<1, dim> &force) {
+      for (unsigned int d = 0; d < dim; ++d)
+        result(dim * p.node + d) += force[d];
+    });
+    result.compress(VectorOperation::add);
+    return result;
+  }
+
+
+
+  std::vector<Reaction>
+  BoundaryConditions::reactions(const Vector &unbalanced) const
+  {
+    std::vector<Reaction> result = supports;
+    for_each_share(unbalanced, [&result](const Prescribed &p, const Tensor<1, dim> &force) {
+      result[p.support].force += force;
+    });
     for (Reaction &reaction : result)
       reaction.force = Utilities::MPI::sum(reaction.force, solid.communicator);
     return result;

@@ -9,7 +9,6 @@
 namespace Touchstone
 {
   using dealii::ParameterHandler;
-  namespace Patterns = dealii::Patterns;
 
   void
   BoundaryParameters::declare(ParameterHandler &prm)
@@ -17,7 +16,7 @@ namespace Touchstone
     const std::string formula = " A formula in x, y, z (reference coordinates) and t (time); ";
     const auto        component =
       [&](const std::string &name, std::string &value, const std::string &what) {
-        prm.add_parameter(name, value, what, Patterns::Anything());
+        prm.add_parameter(name, value, what, FormulaPattern());
       };
     const std::string moved = "component of the displacement." + formula + "empty: free. [length]";
     component("Displacement x", displacement_x, "Prescribed x " + moved);

@@ -36,7 +36,7 @@ namespace Touchstone
                       "Contact pressure that the result is compared with if the type is "
                       "'formula', a formula in x, y, z (reference coordinates of the slave "
                       "surface) and t; empty: not compared. [force per reference area]",
-                      Patterns::Anything());
+                      FormulaPattern());
     type.declare_own_keys(prm);
   }
 

@@ -11,6 +11,7 @@
 #include <touchstone/output/contact_output.h>
 #include <touchstone/output/converged_step.h>
 #include <touchstone/output/log.h>
+#include <touchstone/output/probes.h>
 #include <touchstone/output/progress.h>
 #include <touchstone/output/statistics.h>
 #include <touchstone/output/summary.h>
@@ -83,6 +84,7 @@ namespace Touchstone
     Progress                           progress;
     Statistics                         statistics;
     VolumeOutput                       volume_output;
+    Probes                             probes;
     ContactOutput                      contact_output;
     std::shared_ptr<ReferenceSolution> reference;
     Checkpoints                        checkpoints;
@@ -92,7 +94,7 @@ namespace Touchstone
     std::vector<std::function<void(const ConvergedStep &)>> observers;
     /** By the names of pairs: the last time at which they had contact. */
     std::map<std::string, double> had_contact;
-    /** Fingerprints of the mesh files, by body. */
+    /** Fingerprints of the mesh files, of bodies and then of obstacles. */
     std::vector<std::string> mesh_files;
     /** Of the last Newton iteration. */
     NewtonState     last_state;
@@ -153,6 +155,9 @@ namespace Touchstone
     /** Energies, momenta and cycles of a converged step. */
     void
     record_energies(const std::vector<PairResult> &results, ConvergedStep &record);
+    /** The state that the run starts from, before any balance. */
+    void
+    record_start();
     void
     record_step(unsigned int step,
                 double       time,
@@ -200,7 +205,8 @@ namespace Touchstone
   };
 
   /** @brief Build all that a run needs, without solving.
-   * @return lines on what the run would cost, if that is known: cycles of explicit dynamics.
+   * @return what it has understood, in lines: bodies and their boundaries, gaps of the contact
+   * pairs, what contact alone holds, cycles of explicit dynamics, memory and time.
    * @throws InputError */
   std::vector<std::string>
   validate(const Scene &scene, const std::string &folder_of_scene, MPI_Comm communicator);

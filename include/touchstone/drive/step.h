@@ -38,6 +38,8 @@ namespace Touchstone
     StepCounts             counts;
     /** Forces of the supports. */
     std::function<std::vector<Reaction>()> reactions;
+    /** The same forces at the nodes, without ghosts; collective. */
+    std::function<Vector()> nodal_reactions;
 
     /** @brief The displacement with the ghosts of the mesh. */
     Vector
@@ -163,6 +165,14 @@ namespace Touchstone
 
     virtual StepState
     state() const = 0;
+
+    /** @brief The rigid motions that supports leave free, so that contact alone resists them, as a
+     * sentence; empty if there are none, or if inertia resists them. Known after start(). */
+    virtual std::string
+    held_by_contact() const
+    {
+      return "";
+    }
 
     /** @brief The cycles of the present step; null for steps that are solved by iterations. */
     virtual const CycleCounts *

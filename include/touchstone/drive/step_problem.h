@@ -34,6 +34,8 @@ namespace Touchstone
     findings() const override;
     StepDifficulty
     difficulty() const override;
+    std::string
+    held_by_contact() const override;
     double
     try_commit(double smallest_part) override;
     void

@@ -109,6 +109,13 @@ namespace Touchstone
       return free_motions;
     }
 
+    /** @brief The motions that supports leave free, in words, by check_bodies_without_support(). */
+    const std::string &
+    unsupported() const
+    {
+      return unsupported_motions;
+    }
+
     /** @brief Bodies that were stabilised in this step because only contact holds them. */
     const std::set<unsigned int> &
     loose_bodies() const
@@ -132,7 +139,7 @@ namespace Touchstone
     std::unique_ptr<CondensedSystem> condensed;
     /** Solution of the dofs beyond the displacements: multipliers. */
     std::vector<double>    extra;
-    std::string            free_motions;
+    std::string            free_motions, unsupported_motions;
     std::set<unsigned int> loose;
     /** Diameter of the smallest cell, length. */
     double length;

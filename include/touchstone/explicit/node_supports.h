@@ -66,6 +66,11 @@ namespace Touchstone
     std::vector<Reaction>
     reactions(const NodeField &force) const;
 
+    /** @brief The same forces at each owned node. */
+    NodeField
+    nodal_reactions(const NodeField &force) const;
+
+
     /** @brief Owned nodes that are supported, ascending. */
     const std::vector<unsigned int> &
     nodes() const

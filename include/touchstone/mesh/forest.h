@@ -131,6 +131,10 @@ namespace Touchstone
     std::string
     boundary_name(dealii::types::boundary_id id) const;
 
+    /** @brief The boundaries of a body with their names, or numbers if they have no names. */
+    std::map<BoundaryIds, std::string>
+    names_of_boundaries(unsigned int body) const;
+
     /** @brief Exact shape of a boundary, or null where only the mesh is known. */
     std::shared_ptr<const AnalyticSurface>
     surface(dealii::types::boundary_id id) const;

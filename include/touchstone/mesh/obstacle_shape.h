@@ -7,6 +7,7 @@
 #include <touchstone/mesh/analytic_surface.h>
 
 #include <memory>
+#include <string>
 
 namespace Touchstone
 {
@@ -20,6 +21,19 @@ namespace Touchstone
     /** @brief The surface at time 0; normals point to where the bodies are. */
     virtual std::shared_ptr<const AnalyticSurface>
     surface() const = 0;
+
+    /** @brief Folder of the scene file, for relative names of files; comes before surface(). */
+    virtual void
+    set_folder(const std::string & /*of_scene*/)
+    {
+    }
+
+    /** @brief As Geometry::fingerprint(). */
+    virtual std::string
+    fingerprint() const
+    {
+      return "";
+    }
   };
 
   using ObstacleShapeRegistry = Registry<ObstacleShape>;

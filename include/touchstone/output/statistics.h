@@ -4,6 +4,7 @@
 #define touchstone_output_statistics_h
 
 #include <touchstone/base/folder.h>
+#include <touchstone/output/statistics_csv.h>
 #include <touchstone/output/step_quantity.h>
 
 #include <deal.II/base/table_handler.h>
@@ -34,6 +35,11 @@ namespace Touchstone
     void
     add_step(const ConvergedStep &step);
 
+    /** @brief Add the row of the state that the run starts from to `statistics.csv`. The table
+     * `statistics` has none, as ever: programs count its rows. Collective. */
+    void
+    add_start(const ConvergedStep &start);
+
     /** @brief Values of the last step for summary.json. */
     const std::vector<StepValue> &
     for_summary() const
@@ -52,6 +58,11 @@ namespace Touchstone
       return table;
     }
 
+    const StatisticsCsv &
+    csv_rows() const
+    {
+      return csv;
+    }
     Memories
     memories() const;
 
@@ -59,6 +70,7 @@ namespace Touchstone
      * @throws OutputError */
     void
     restore(const dealii::TableHandler   &rows,
+            const StatisticsCsv          &csv_rows,
             const Memories               &memories,
             const std::vector<StepValue> &last_values);
     /** @} */
@@ -66,6 +78,7 @@ namespace Touchstone
   private:
     const OutputFolder  &folder;
     dealii::TableHandler table;
+    StatisticsCsv        csv;
     /** By name, in the order of their columns. */
     std::vector<std::pair<std::string, std::shared_ptr<StepQuantity>>> quantities;
     std::vector<StepValue>                                             last_values;

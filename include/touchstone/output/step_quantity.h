@@ -97,6 +97,14 @@ namespace Touchstone
       return true;
     }
 
+    /** @brief Whether it also has values of the state that the run starts from, which evaluate()
+     * is then called for once more, with number, time and length zero. */
+    virtual bool
+    at_start() const
+    {
+      return false;
+    }
+
     /** @brief Columns are sorted by this number, then by the names of the classes. */
     virtual unsigned int
     order() const

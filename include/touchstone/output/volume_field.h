@@ -23,6 +23,8 @@ namespace Touchstone
     const Vector &displacement;
     /** With ghosts, length per time; null where there is no inertia. */
     const Vector *velocity;
+    /** Forces of the supports at the nodes, with ghosts; null where nobody provides them. */
+    const Vector *reaction;
     double        time;
     /** Cauchy stress at the owned nodes in the order of their numbers, averaged over the
      * cells around with their volumes as weights; force per area. */
@@ -50,7 +52,8 @@ namespace Touchstone
       return Location::nodes;
     }
 
-    /** @brief 1, or 3 for a vector, which only nodes can have. */
+    /** @brief 1, or 3 for a vector or 9 for a tensor (its rows one after the other), which only
+     * nodes can have. */
     virtual unsigned int
     n_components() const
     {

@@ -41,9 +41,19 @@ namespace Touchstone
     /** @brief Write the file of one step.
      * @param displacement With ghosts.
      * @param velocity     With ghosts; null if there is none.
+     * @param reaction     Forces of the supports at the nodes, with ghosts; null if not known.
      * @throws OutputError on all ranks. Collective. */
     void
-    write(const Vector &displacement, const Vector *velocity, unsigned int step, double time);
+    write(const Vector &displacement,
+          const Vector *velocity,
+          unsigned int  step,
+          double        time,
+          const Vector *reaction = nullptr);
+
+    /** @brief The averaged stress as fields over the dofs, with ghosts: xx, yy, zz, and xy, yz, xz;
+     * force per area. Collective. */
+    std::array<Vector, 2>
+    nodal_stress(const Vector &displacement);
 
     /** @brief The files so far, which a resumed run adds to. */
     VtuSeries &

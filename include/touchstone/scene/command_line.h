@@ -43,6 +43,15 @@ namespace Touchstone
    * @throws InputError if it cannot be read, is empty or is not text. */
   std::string
   read_scene_file(const std::string &name);
+
+  /** @brief The contents of a file that another one includes.
+   * @param section  The subsections that are open there, for messages.
+   * @param location File and line that include it, for messages.
+   * @throws InputError as read_scene_file(). */
+  std::string
+  read_included_file(const std::string &name,
+                     const std::string &section,
+                     const std::string &location);
 } // namespace Touchstone
 
 #endif

@@ -15,6 +15,7 @@
 #include <touchstone/mesh/forest.h>
 #include <touchstone/mesh/obstacle_parameters.h>
 #include <touchstone/output/output_parameters.h>
+#include <touchstone/output/probe_parameters.h>
 #include <touchstone/solid/body_parameters.h>
 #include <touchstone/verification/reference_parameters.h>
 
@@ -50,6 +51,7 @@ namespace Touchstone
     NewtonParameters                      newton;
     LinearSolverParameters                linear_solver;
     OutputParameters                      output;
+    std::vector<ProbeParameters>          probes;
     ReferenceParameters                   reference;
     CheckpointParameters                  checkpoints;
 

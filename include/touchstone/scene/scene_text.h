@@ -3,6 +3,8 @@
 #ifndef touchstone_scene_scene_text_h
 #define touchstone_scene_scene_text_h
 
+#include <touchstone/scene/constants.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -16,8 +18,11 @@ namespace Touchstone
     std::string section;
     std::string key;
     std::string value;
-    /** Line of the scene file; 0 for an override of the command line. */
+    /** Line of the scene file, counted on through the files that it includes (location() says
+     * which it is); 0 for an override of the command line. */
     unsigned int line;
+    /** How many files include the one that the entry stands in. */
+    unsigned int depth = 0;
   };
 
   /**
@@ -27,6 +32,9 @@ namespace Touchstone
    * and not there because a message that helps needs the section, the key and
    * the line all at once, and because the names of the subsections are only
    * known when the lists that name them have been read.
+   *
+   * 'include FILE' reads another file in its place. A key that it sets may be
+   * set once more by the file that includes it, after that line.
    */
   class SceneText
   {
@@ -53,17 +61,35 @@ namespace Touchstone
     bool
     is_set(const std::string &section, const std::string &key) const;
 
+    /** @brief What the keys "Constants" define; they are no entries. */
+    const Constants &
+    constants() const;
+
     /** @brief "line 12 of x.prm" or "command line". */
     std::string
     location(unsigned int line) const;
 
   private:
-    const std::string                   file_name;
+    /** A file that is being read: its name, and one that is the same for all ways to it. */
+    struct OpenFile
+    {
+      std::string name, canonical_name;
+    };
+    std::vector<OpenFile> open_files;
+    /** File and line of each line, in the order in which they are read. */
+    std::vector<std::pair<std::string, unsigned int>> places;
+
     std::vector<SceneEntry>             all_entries;
+    Constants                           all_constants;
     std::map<std::string, unsigned int> all_sections;
 
+    /** @param path The subsections that are open. */
     void
-    read_file(const std::string &text);
+    read_file(const std::string &text, const std::string &name, std::vector<std::string> &path);
+    void
+    include(const std::string &file, unsigned int number, std::vector<std::string> &path);
+    void
+    read_key(const std::string &line, unsigned int number, const std::string &section);
     void
     read_line(const std::string &line, unsigned int number, std::vector<std::string> &path);
     void

@@ -8,6 +8,7 @@
 #include <touchstone/solid/follower_pressure.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -148,7 +149,16 @@ namespace Touchstone
     std::vector<Reaction>
     reactions(const Vector &unbalanced) const;
 
+    /** @brief The same forces at the nodes, without ghosts. Collective. */
+    Vector
+    nodal_reactions(const Vector &unbalanced) const;
+
   private:
+    /** Visit the shares of the unbalanced forces that each prescribed direction takes. */
+    void
+    for_each_share(
+      const Vector                                                                  &unbalanced,
+      const std::function<void(const Prescribed &, const dealii::Tensor<1, dim> &)> &visit) const;
     const Solid            &solid;
     Formulas                formulas;
     std::vector<Prescribed> prescribed;

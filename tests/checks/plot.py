@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""contrib/plot: the curves that it takes from a run, with matplotlib its pictures and without it
+what to install, and what it says of folders that are none of a run."""
+
+import argparse
+import importlib.machinery
+import importlib.util
+import math
+import subprocess
+import sys
+
+from touchstone_test import STEPS, check, checks, finish, folder, run, source
+
+SCENE = folder / "plot.prm"
+SCENE.write_text(f"""
+include {checks / "restart.prm"}
+set Probes = top
+subsection Probe top
+  set Body     = block
+  set Place    = boundary
+  set Boundary = top
+end
+""", encoding="utf-8")
+
+loader = importlib.machinery.SourceFileLoader("plot", str(source / "contrib/plot"))
+plot = importlib.util.module_from_spec(importlib.util.spec_from_loader("plot", loader))
+loader.exec_module(plot)
+
+one = run("one", SCENE, {STEPS: 4}, vtu=1)
+run("two", SCENE, {STEPS: 4}, ranks=2, vtu=1)
+
+
+def curves(kind, name="one", **options):
+    """Curves by their labels, and the names of the axes."""
+    settings = {"column": None, "over": None, "axis": "x", "width": 1e-3, "steps": 6, **options}
+    found, *axes = plot.curves(kind, folder / name, argparse.Namespace(**settings))
+    return {label: (list(x), list(y)) for label, x, y in found}, axes
+
+
+force, axes = curves("force")
+time, pressed = force["contact.force_z"]
+check(axes == ["time [time]", "force [force]"] and time == [0.] + one.column("time"), f"{axes}")
+check(pressed == [0.] + one.column("contact: force z") and pressed[-1] > 0, f"force {pressed}")
+over, axes = curves("force", over="top:displacement_z", column="contact.force_z")
+check(list(over) == ["contact.force_z"] and axes[0] == "displacement_z [length]", f"{axes}")
+check(math.isclose(over["contact.force_z"][0][-1], -0.037), f"{over}")
+check("energy.strain" in curves("energy")[0], "energies")
+newton, _ = curves("newton")
+check(len(newton) == 4 and [len(y) for _, y in newton.values()] == one.column("Newton iterations"),
+      f"{newton}")
+for name in "one", "two":
+    (x, p), = curves("pressure", name)[0].values()
+    nodes = plot.surface(folder / name)
+    check(len(x) == 4 and x == sorted(x), f"line at {x}")
+    check(max(p) == max(node.pressure for node in nodes) > 0, f"pressures {p}")
+check(len({node.position for node in plot.surface(folder / "two")}) == 16, "surface of two ranks")
+
+
+def call(*arguments):
+    return subprocess.run([sys.executable, source / "contrib/plot", *arguments],
+                          capture_output=True, text=True, check=False)
+
+
+done = call("one", "two", "--output", "pictures", "--over", "top")
+if importlib.util.find_spec("matplotlib"):
+    files = sorted(path.name for path in (folder / "pictures").iterdir())
+    check(done.returncode == 0 and files == sorted(
+        f"{kind}.{suffix}" for kind in plot.KINDS for suffix in ("png", "svg")),
+          f"{files} {done.stderr}")
+    check(all((folder / "pictures" / file).stat().st_size > 5000 for file in files), "empty pictures")
+else:
+    check(done.returncode == 1 and "apt-get install python3-matplotlib" in done.stderr, done.stderr)
+check("no statistics.csv" in call("nothing").stderr, "a folder that is none of a run")
+check("no history probe_tip.csv" in call("one", "--over", "tip").stderr, "a probe that is not there")
+finish()

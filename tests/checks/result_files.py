@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Result files: VTU series and statistics.csv begin with t = 0; the stress tensor is that of its
+components; nodal reactions add up to the reactions of the boundaries; statistics.csv has the values
+of 'statistics' under names of one word; probes have prescribed displacements and the stress of the
+VTU files; on two ranks and after a restart as well."""
+
+import csv
+import math
+import xml.etree.ElementTree as xml
+
+from touchstone_test import STEPS, check, checks, finish, folder, launch, run, settings_options
+from fuzzing import vtu  # pylint: disable=wrong-import-order
+
+SCENE, SETTINGS = folder / "probes.prm", {STEPS: 4}
+SCENE.write_text(f"""
+include {checks / "restart.prm"}
+set Probes = tip, path, top side
+subsection Probe tip
+  set Body  = block
+  set Point = 1.1, 1.2, 1.001
+end
+subsection Probe path
+  set Body      = block
+  set Place     = line
+  set Point     = 0.3, 0.2, 0.501
+  set End point = 1.1, 1.2, 0.501
+  set Points    = 5
+end
+subsection Probe top side
+  set Body     = block
+  set Place    = boundary
+  set Boundary = top
+end
+""", encoding="utf-8")
+PROBES = "probe_tip", "probe_path", "probe_top_side"
+
+
+def table(path):
+    """The rows of a CSV file, by the names of its columns without their units."""
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    check(all(len(row) == len(rows[0]) for row in rows), f"{path}: rows of different lengths")
+    check(all(name and " " not in name for name in rows[0]), f"{path}: {rows[0]}")
+    names = [name.partition("[")[0] for name in rows[0]]
+    return [{name: float(text) if text else math.nan for name, text in zip(names, row)}
+            for row in rows[1:]]
+
+
+def times(series):
+    """Times of a .pvd file."""
+    return [float(d.get("timestep")) for d in xml.parse(series).iter("DataSet")]
+
+
+def compare(result):
+    """The two tables of a run."""
+    rows, plain = table(result.folder / "statistics.csv"), result.rows()
+    check(len(rows) == len(plain) + 1 and rows[0]["step"] == rows[0]["time"] == 0,
+          f"{result}: {len(rows)} rows, the first {rows[0]}")
+    for row, other in zip(rows[1:], plain):
+        for title, value in other.items():
+            name = title.replace(": ", ".").replace("/", ".").replace(" ", "_")
+            check(row.get(name) == value, f"{result}: {name} is {row.get(name)}, not {value}")
+    for name in ("solution", "contact"):
+        check(times(result.folder / f"{name}.pvd") == [row["time"] for row in rows],
+              f"{result}: times of {name}.pvd {times(result.folder / f'{name}.pvd')}")
+    return rows
+
+
+one = run("one", SCENE, SETTINGS, vtu=1)
+rows = compare(one)
+def near(what, a, b, tolerance=1e-6):
+    """Two rows have the same numbers."""
+    for name, value in a.items():
+        check(name == "linear_iterations" or math.isnan(value) and math.isnan(b[name]) or
+              math.isclose(value, b[name], rel_tol=tolerance, abs_tol=tolerance),
+              f"{what}: {name} is {value} and {b[name]}")
+
+
+two = run("two", SCENE, SETTINGS, ranks=2, vtu=1)
+for a, b in zip(rows, compare(two)):
+    near("two ranks", a, b)
+probes = {name: table(one.folder / f"{name}.csv") for name in PROBES}
+for name, history in probes.items():
+    for a, b in zip(history, table(two.folder / f"{name}.csv")):
+        near(f"{name} on two ranks", a, b)
+
+# A run in two parts.
+parts = {**SETTINGS, "Checkpoints/Steps between": 2}
+run("parts", SCENE, {**parts, "Load stepping/End time": rows[2]["time"], STEPS: 2})
+done = launch("--resume", "--output", "parts", *settings_options(parts), SCENE)
+check(done.returncode == 0, done.stdout)
+check(table(folder / "parts/statistics.csv") == rows, "the table of a run that was resumed")
+for name, history in probes.items():
+    check(table(folder / f"parts/{name}.csv") == history, f"{name} of a run that was resumed")
+
+data = next(vtu.pieces(one.folder / "solution_0004.vtu"))
+places, tensor = data["position"], data["stress"]
+check(len(tensor) == 9 * (len(places) // 3) > 0, f"{len(tensor)} components of stress")
+for name, entries in (("xx", (0,)), ("yy", (4,)), ("zz", (8,)), ("xy", (1, 3)), ("yz", (5, 7)),
+                      ("xz", (2, 6))):
+    for entry in entries:
+        check(list(tensor[entry::9]) == list(data[f"stress_{name}"]), f"stress {name}")
+# deal.II writes a node for each of its cells: each place once.
+force = {tuple(places[3 * i:3 * i + 3]) + (data["body"][i],): data["reaction"][3 * i:3 * i + 3]
+         for i in range(len(places) // 3)}
+for d in range(3):
+    summed = sum(value[d] for value in force.values())
+    named = sum(value for name, value in rows[-1].items() if name.endswith("reaction_" + "xyz"[d]))
+    size = max(abs(value[d]) for value in force.values())
+    check(math.isclose(summed, named, rel_tol=1e-4, abs_tol=1e-4 * size),
+          f"nodal reactions {summed}, those of boundaries {named}")
+check(max(abs(x) for value in force.values() for x in value) > 0, "no reactions")
+
+# Prescribed at the tip, and in the mean over the side; no balance at t = 0.
+for name, x, y in (("probe_tip", 1.1, 1.2), ("probe_top_side", 0.7, 0.7)):
+    for row, other in zip(probes[name], rows):
+        t = other["time"]
+        near(name, dict(zip("txyz", (t, 0.05 * max(t - 0.5, 0) * (1 + y), 0.02 * t,
+                                     -0.03 * min(t, 1) - 0.01 * x if t else 0))),
+             dict(zip("txyz", (row["time"], *(row[f"displacement_{d}"] for d in "xyz")))), 1e-9)
+check(all(math.isclose(row["area"], 0.8) for row in probes["probe_top_side"]), "area of the side")
+check(all(math.isclose(row["s"], math.hypot(0.8, 1) * (i % 5) / 4, abs_tol=1e-12)
+          for i, row in enumerate(probes["probe_path"])), "places along the line")
+check(len(probes["probe_path"]) == 5 * len(rows), "rows of the line")
+for row, place in ((probes["probe_tip"][-1], (1.1, 1.2, 1.001)),
+                   (probes["probe_path"][-1], (1.1, 1.2, 0.501))):
+    at = min(range(len(places) // 3), key=lambda i, place=place: math.dist(place, places[3 * i:3 * i + 3]) +
+             (0 if data["body"][i] == 1 else 1))
+    for i, name in ((0, "xx"), (4, "yy"), (8, "zz"), (1, "xy"), (5, "yz"), (2, "xz")):
+        check(math.isclose(row[f"stress_{name}"], tensor[9 * at + i], rel_tol=1e-5, abs_tol=1e-5),
+              f"stress {name} at {place}: {row[f'stress_{name}']}, not {tensor[9 * at + i]}")
+    check(math.isclose(row["von_mises"], data["von_mises"][at], rel_tol=1e-5), "von Mises")
+finish()
