@@ -22,11 +22,12 @@ namespace Touchstone
                         "'cells' by itself; or, by 'power iteration' at the start of each output "
                         "interval, for all of them together, which is longer on regular meshes. "
                         "The latter is for laws without history, and without bulk viscosity.");
-    prm.add_parameter("Step check interval",
-                      check_interval,
-                      "Of 'central_differences': most cycles after which the stable step is computed "
-                      "anew. [no unit]",
-                      Patterns::Integer(1));
+    prm.add_parameter(
+      "Step check interval",
+      check_interval,
+      "Of 'central_differences': most cycles after which the stable step is computed "
+      "anew. [no unit]",
+      Patterns::Integer(1));
     prm.add_parameter("Linear bulk viscosity",
                       linear_viscosity,
                       "Of 'central_differences': damping of changes of volume that are as fast as "
