@@ -353,37 +353,4 @@ namespace Touchstone
              "', between slave nodes that touch nothing";
     return "";
   }
-
-
-
-  std::string
-  obstacle_within_face(const Solid                                     &solid,
-                       const ContactPairParameters                     &parameters,
-                       const Surface                                   &slave,
-                       const Vector                                    &forces,
-                       const std::function<double(const Point<dim> &)> &gap)
-  {
-    std::vector<Located> found;
-    for (const Face &face : slave.owned_faces())
-      if (idle(slave, face, forces))
-        // An obstacle has no nodes: nine points inside the face are tested instead. Nodes of the
-        // face have rows of their own.
-        for (const double a : {-0.5, 0., 0.5})
-          for (const double b : {-0.5, 0., 0.5})
-            {
-              const Point<dim> x     = evaluate(face, slave.exact_surface(face), {{a, b}}).x;
-              const double     depth = -gap(x);
-              if (depth > Tolerances::deep_smooth_node * size_of(face))
-                found.push_back({depth, x});
-            }
-    Located worst;
-    for (const auto &part : gather_records(found, solid.communicator))
-      for (const Located &point : part)
-        worst = std::max(worst, point);
-    if (worst.size == 0.)
-      return "";
-    return "the obstacle '" + parameters.obstacle + "' reaches " + number(worst.size) + " into '" +
-           parameters.slave_body + "' at " + at(worst.x) +
-           ", between slave nodes that touch nothing";
-  }
 } // namespace Touchstone

@@ -198,6 +198,7 @@ namespace Touchstone
     result.remarks  = remarks();
     result.warnings = check_loose_bodies();
     check_contact();
+    result.missed = MissedPairs::shallow(missed_contact(contact));
     return result;
   }
 

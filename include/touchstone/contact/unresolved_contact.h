@@ -8,7 +8,6 @@
 
 #include <deal.II/base/bounding_box.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -82,16 +81,6 @@ namespace Touchstone
     Overlap
     deepest(const std::vector<Overlap> &found, bool edges) const;
   };
-
-  /** @brief The same for an obstacle that reaches into a slave face whose nodes touch nothing;
-   * empty if it does not. Collective.
-   * @param gap Distance of a point from the obstacle, negative within, length. */
-  std::string
-  obstacle_within_face(const Solid                                             &solid,
-                       const ContactPairParameters                             &parameters,
-                       const Surface                                           &slave,
-                       const Vector                                            &forces,
-                       const std::function<double(const dealii::Point<dim> &)> &gap);
 } // namespace Touchstone
 
 #endif
