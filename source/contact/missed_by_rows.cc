@@ -6,6 +6,8 @@
 #include <touchstone/contact/overlapping_bodies.h>
 #include <touchstone/contact/tolerances.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -41,6 +43,19 @@ namespace Touchstone
 
 
 
+    /** Tributary area of the slave nodes that press. Collective. */
+    double
+    carrying_area(const Contact &contact, const ContactPair &pair)
+    {
+      double result = 0.;
+      for (const ContactRow &row : pair.rows())
+        if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
+          result += row.area;
+      return Utilities::MPI::sum(result, contact.communicator());
+    }
+
+
+
     /** Add pairs without any force whose bodies have come to lie within each other so far that the
      * faces which met do not tell of it. @param idle Such pairs, by the numbers of their bodies. */
     void
@@ -70,7 +85,8 @@ namespace Touchstone
                                     overlap.text(solid) +
                                     ". Refine the slave surface, exchange slave and master, or "
                                     "take smaller steps",
-                                  true};
+                                  true,
+                                  1.};
         }
     }
   } // namespace
@@ -102,9 +118,10 @@ namespace Touchstone
         if (pair.small_sliding() && !nothing)
           continue;
         if (const MissedContact::Place place = missed.deepest(); place.depth > 0.)
-          result[pair.parameters().name] = {text(pair.parameters(), place),
-                                            place.depth >
-                                              Tolerances::deep_smooth_node * place.size};
+          result[pair.parameters().name] = {
+            text(pair.parameters(), place),
+            place.depth > Tolerances::deep_smooth_node * place.size,
+            nothing ? 1. : place.area / (place.area + carrying_area(contact, pair))};
       }
     for (const auto &bodies : carried)
       idle.erase(bodies);

@@ -3,6 +3,7 @@
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/measured_face.h>
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/tolerances.h>
@@ -135,7 +136,10 @@ namespace Touchstone
 
 
   void
-  MissedContact::add_points(const MeasuredFace &of, const MeasuredFace &in, Overlap &worst) const
+  MissedContact::add_points(const MeasuredFace &of,
+                            const MeasuredFace &in,
+                            const Face         &slave,
+                            Overlap            &worst) const
   {
     const double size  = worst.place.size,
                  least = Tolerances::touching * size + of.sagitta() + in.sagitta();
@@ -163,8 +167,11 @@ namespace Touchstone
                                           .depth(evaluate(before, of.exact, xi).x, 0., unused)
                                           .value_or(0.));
             }
+          // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
+          const double sure = Tolerances::touching * size + of.facet_error() + in.facet_error();
+          const double area = counts > sure ? face_area(slave) : worst.place.area;
           if (counts > std::max(least, worst.place.depth))
-            worst = {{counts, point.x, size},
+            worst = {{counts, point.x, size, area},
                      in.face.body,
                      point.x + in.to_straight_edges(foot),
                      true};
@@ -194,8 +201,8 @@ namespace Touchstone
             const Face        &other = masters[entry.second];
             const MeasuredFace master(other, pair.master()->exact_surface(other));
             // Both ways: a ridge between master nodes has none of them within.
-            add_points(master, slave, worst);
-            add_points(slave, master, worst);
+            add_points(master, slave, face, worst);
+            add_points(slave, master, face, worst);
           }
         if (worst.place.depth > 0.)
           result.push_back(worst);
@@ -239,10 +246,16 @@ namespace Touchstone
     for (const Overlap &overlap : all)
       inside.push_back(!overlap.in_doubt || cells.at(overlap.body).contain(overlap.inside));
     Utilities::MPI::max(inside, contact.communicator(), inside);
+    Place result;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (inside[k] == 1)
-        return all[k].place;
-    return {};
+        {
+          const double area = result.area + all[k].place.area;
+          if (result.depth == 0.)
+            result = all[k].place;
+          result.area = area;
+        }
+    return result;
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/measured_face.h>
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/tolerances.h>
@@ -74,6 +75,7 @@ namespace Touchstone
           continue;
         // An obstacle may be smaller than the distance of points of the face, and may lie behind
         // it altogether.
+        double area = face_area(face);
         for (const double farthest : {0., size})
           {
             const Behind at     = smallest(gap, farthest);
@@ -88,11 +90,12 @@ namespace Touchstone
                                                                   MeasuredFace::Xi{{at[0], at[1]}})
                                                            .x,
                                                          0.));
-            if (counts > Tolerances::touching * size + slave.sagitta())
-              result.push_back({{counts, position({{at[0], at[1], 0.}}), size},
-                                face.body,
-                                at[2] > 0. ? position(at) : Point<dim>(),
-                                at[2] > 0.});
+            if (counts <= Tolerances::touching * size + slave.sagitta())
+              continue;
+            const Point<dim> on_face = position({{at[0], at[1], 0.}});
+            result.push_back({{counts, on_face, size, area}, face.body, position(at), at[2] > 0.});
+            // Counted once.
+            area = 0.;
           }
       }
     return result;

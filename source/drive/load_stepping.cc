@@ -77,8 +77,7 @@ namespace Touchstone
       }
     if (scene.output.vtu_interval > 0)
       write_vtu(at.step - 1, at.time);
-    if (const std::string reason = missed_pairs.failure(summary.contact, had_contact);
-        !reason.empty())
+    if (const std::string reason = missed_pairs.failure(had_contact); !reason.empty())
       {
         stop(reason, at);
         return;

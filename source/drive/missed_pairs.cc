@@ -3,49 +3,52 @@
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/missed_pairs.h>
 
+#include <cstdio>
+
 // Contact that rows have missed is told of in the step in which it happens, and judged at the end
 // of the run: until then the rows may still come to carry it.
 namespace Touchstone
 {
-  MissedPairs::Texts
-  MissedPairs::shallow(const std::map<std::string, MissedByRows> &missed)
+  MissedPairs::Missed
+  MissedPairs::shallow(const Missed &missed)
   {
-    Texts result;
     for (const auto &[pair, found] : missed)
-      {
-        if (found.deep)
-          throw UnresolvedContactFailure(found.text);
-        result[pair] = found.text;
-      }
-    return result;
+      if (found.deep)
+        throw UnresolvedContactFailure(found.text);
+    return missed;
   }
 
 
 
   void
-  MissedPairs::end_step(const Texts &missed, Warnings &warnings)
+  MissedPairs::end_step(const Missed &missed, Warnings &warnings)
   {
     last = missed;
-    for (const auto &[pair, text] : missed)
-      if (first.emplace(pair, text).second)
-        warnings.add(text);
+    for (const auto &[pair, found] : missed)
+      if (first.emplace(pair, found).second)
+        warnings.add(found.text);
   }
 
 
 
   std::string
-  MissedPairs::failure(const std::map<std::string, PairResult> &results,
-                       const std::map<std::string, double>     &had_contact) const
+  MissedPairs::failure(const std::map<std::string, double> &had_contact) const
   {
-    for (const auto &[pair, text] : first)
-      {
-        const auto now   = last.find(pair);
-        const auto found = results.find(pair);
-        if (now != last.end() && (found == results.end() || found->second.active == 0))
-          return now->second + ". The pair carries nothing at the end of the run";
-        if (had_contact.count(pair) == 0)
-          return text + ". The pair has carried nothing in the whole run";
-      }
+    // Of the area that should carry, the part from which on the rest says nothing of the force.
+    constexpr double most = 0.4;
+    for (const auto &[pair, found] : last)
+      if (found.share > most)
+        {
+          char percent[20];
+          std::snprintf(percent, sizeof(percent), "%.0f", 100. * found.share);
+          return found.text + (found.share == 1.
+                                 ? ". The pair carries nothing at the end of the run"
+                                 : std::string(". At the end of the run these are ") + percent +
+                                     " % of the faces that should carry the pair");
+        }
+    for (const auto &[pair, found] : first)
+      if (had_contact.count(pair) == 0)
+        return found.text + ". The pair has carried nothing in the whole run";
     return "";
   }
 } // namespace Touchstone

@@ -40,6 +40,17 @@ namespace Touchstone
     std::string text;
     /** By more than the height of arcs over coarse faces, which rows make good once they touch. */
     bool deep = false;
+    /** Area of the faces on which it was missed, by that and the area which carries a force; 1 if
+     * nothing does. */
+    double share = 0.;
+
+    /** @brief For checkpoints. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &text &deep &share;
+    }
   };
 
   /** @brief What rows have missed, by the names of the pairs, see MissedContact. Collective. */

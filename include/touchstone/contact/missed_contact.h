@@ -30,6 +30,8 @@ namespace Touchstone
       dealii::Point<dim> x;
       /** Of the slave face; length. */
       double size = 0.;
+      /** Of all slave faces with an overlap that is more than facets may be off. */
+      double area = 0.;
     };
 
     /** @param forces Normal contact forces of the pair on its slave nodes, with the ghosts
@@ -79,7 +81,10 @@ namespace Touchstone
     within_faces(const std::vector<Face> &slaves, const std::vector<Face> &masters) const;
     /** Take the deepest point of one face within another, if it is deeper than @p worst. */
     void
-    add_points(const MeasuredFace &of, const MeasuredFace &in, Overlap &worst) const;
+    add_points(const MeasuredFace &of,
+               const MeasuredFace &in,
+               const Face         &slave,
+               Overlap            &worst) const;
     /** The deepest point of an obstacle in each idle face, and behind it. */
     std::vector<Overlap>
     obstacle_within(const std::vector<Face> &slaves) const;

@@ -77,7 +77,7 @@ namespace Touchstone
     /** Bodies that have come off what they touched without going far. */
     std::vector<std::string> warnings;
     /** What the rows of a pair have missed, by its name: overlaps that are not deep. */
-    MissedPairs::Texts missed;
+    MissedPairs::Missed missed;
   };
 
   /** @brief Where a step that was not solved is farthest from a solution, and why it may be. */

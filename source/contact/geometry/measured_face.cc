@@ -26,10 +26,13 @@ namespace Touchstone
       {
         bulge = std::max(bulge, std::abs((face.position(c[k]) - centre.x) * normal));
         for (unsigned int l = 0; l < k && !exact && face.degree == 1; ++l)
-          // Of an arc with these normals at its ends.
-          before = std::max(before,
-                            -0.125 * (face.normals[c[k]] - face.normals[c[l]]) *
-                              (face.position(c[k]) - face.position(c[l])));
+          {
+            // Of an arc with these normals at its ends.
+            const double arc = -0.125 * (face.normals[c[k]] - face.normals[c[l]]) *
+                               (face.position(c[k]) - face.position(c[l]));
+            before = std::max(before, arc);
+            off    = std::max(off, std::abs(arc));
+          }
       }
   }
 

@@ -44,6 +44,13 @@ namespace Touchstone
       return before;
     }
 
+    /** @brief How far facets of a curved surface, hollow or not, lie from it at most; length. */
+    double
+    facet_error() const
+    {
+      return off;
+    }
+
     /** @brief Whether a surface with the normal @p other can meet the face: the sides of a thin
      * body that are turned away from each other do not. */
     bool
@@ -71,7 +78,7 @@ namespace Touchstone
     const FaceGeometry           geometry;
     const FacePoint              centre;
     const dealii::Tensor<1, dim> normal;
-    double                       side = 0., before = 0., bulge = 0.;
+    double                       side = 0., before = 0., off = 0., bulge = 0.;
 
     std::array<unsigned int, 4>
     corners() const;
