@@ -47,7 +47,8 @@ namespace Touchstone
               pair.slave_body(),
               pair.master_body(),
               contact.ghosted_displacement(),
-              forces};
+              forces,
+              contact.planes_of_symmetry()};
     }
 
 

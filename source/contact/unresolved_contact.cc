@@ -64,6 +64,24 @@ namespace Touchstone
       return true;
     }
 
+    /** The part of a force along all of some planes, whose normals need not be orthogonal. */
+    Tensor<1, dim>
+    along_all(const std::vector<Tensor<1, dim>> &planes, Tensor<1, dim> force)
+    {
+      std::vector<Tensor<1, dim>> across;
+      for (Tensor<1, dim> normal : planes)
+        {
+          for (const Tensor<1, dim> &other : across)
+            normal -= (normal * other) * other;
+          // The same plane again.
+          if (normal.norm() < Tolerances::parallel_sine)
+            continue;
+          across.push_back(normal / normal.norm());
+          force -= (force * across.back()) * across.back();
+        }
+      return force;
+    }
+
     double
     size_of(const Face &face)
     {
@@ -102,7 +120,8 @@ namespace Touchstone
                                        const unsigned int           slave_body,
                                        const unsigned int           master_body,
                                        const Vector                &u,
-                                       const Vector                &forces)
+                                       const Vector                &forces,
+                                       const ContactPair::Mirrors  &mirrors)
     : solid(solid)
     , parameters(parameters)
     , slave(slave)
@@ -111,6 +130,7 @@ namespace Touchstone
     , master_body(master_body)
     , u(u)
     , forces(forces)
+    , mirrors(mirrors)
   {
   }
 
@@ -308,6 +328,10 @@ namespace Touchstone
             around += force_on(other, forces);
             largest = largest && force_on(other, forces).norm() <= size;
           }
+        // On a plane of symmetry what the mirrored half has is part of the sum, and cancels it
+        // across the plane.
+        if (const auto planes = mirrors.find(node.node); planes != mirrors.end())
+          around = along_all(planes->second, around);
         // Only the largest force of a neighbourhood tells where the bodies touch.
         if (largest && around.norm() >= Tolerances::small_force * sum &&
             cone.distance(-1. * around / around.norm()) > Tolerances::oblique_sine)

@@ -214,6 +214,7 @@ namespace Touchstone
       if (const std::string place = unstable_place(); !place.empty())
         suspicion += "; the material of " + place +
                      " is compressed so far that by its 'Law' it resists no longer";
+    suspicion += friction_without_pressure();
     return {worst_place(), suspicion};
   }
 
