@@ -82,7 +82,7 @@ namespace Touchstone
               }))
             continue;
           result[pair->second] = {"contact pair '" + pair->second + "' carries nothing, but " +
-                                    overlap.text(solid) +
+                                    overlap.place(solid) +
                                     ". Refine the slave surface, exchange slave and master, or "
                                     "take smaller steps",
                                   true,

@@ -200,7 +200,7 @@ namespace Touchstone
 
 
   std::string
-  BodyOverlap::text(const Solid &solid) const
+  BodyOverlap::place(const Solid &solid) const
   {
     char where[120];
     std::snprintf(where,
@@ -210,11 +210,17 @@ namespace Touchstone
                   x[1] + 0.,
                   x[2] + 0.,
                   depth);
-    const bool self = body == other;
     return "body '" + solid.bodies[body].name + "' reaches into " +
-           (self ? "itself" : "body '" + solid.bodies[other].name + "'") + where +
-           ": no contact pair keeps these surfaces apart" +
-           (self ? "" : ", or its rows did not see them");
+           (body == other ? "itself" : "body '" + solid.bodies[other].name + "'") + where;
+  }
+
+
+
+  std::string
+  BodyOverlap::text(const Solid &solid) const
+  {
+    return place(solid) + ": no contact pair keeps these surfaces apart" +
+           (body == other ? "" : ", or its rows did not see them");
   }
 
 

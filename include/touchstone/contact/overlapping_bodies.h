@@ -22,6 +22,10 @@ namespace Touchstone
 
     /** @brief Bodies, place and depth in words. */
     std::string
+    place(const Solid &solid) const;
+
+    /** @brief The same with why that may be. */
+    std::string
     text(const Solid &solid) const;
   };
 

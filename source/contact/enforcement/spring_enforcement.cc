@@ -73,9 +73,24 @@ namespace Touchstone
   double
   SpringEnforcement::round_off_squared(const ContactRows &rows, const double length) const
   {
-    // The spring turns the error of a gap into a force, and so does a linear solve with the
-    // spring.
-    return factor * factor * round_off_of_gaps_squared(rows, length);
+    // Positions of magnitude `length` are known up to machine precision; a gap is the
+    // difference of a few of them, and the spring turns its error into a force.
+    double sum = 0.;
+    for (const ContactRow &row : rows)
+      if (row_states[row].active() && by_gap(row))
+        sum +=
+          std::pow(4. * std::numeric_limits<double>::epsilon() * length * factor * row.stiffness,
+                   2);
+    return sum;
+  }
+
+
+
+  double
+  SpringEnforcement::round_off_of_gaps_squared(const ContactRows &rows, const double length) const
+  {
+    // Springs are stiffer than the bodies.
+    return factor * factor * Enforcement::round_off_of_gaps_squared(rows, length);
   }
 
 
