@@ -86,15 +86,6 @@ namespace Touchstone
 
 
 
-  double
-  SpringEnforcement::round_off_of_gaps_squared(const ContactRows &rows, const double length) const
-  {
-    // Springs are stiffer than the bodies.
-    return factor * factor * Enforcement::round_off_of_gaps_squared(rows, length);
-  }
-
-
-
   void
   SpringEnforcement::evaluate(const Contact &contact, const Vector &, const ConstraintGraph &)
   {

@@ -194,8 +194,8 @@ namespace Touchstone
     }
 
     /** @brief Force that the round-off of such positions makes of gaps with the stiffness of the
-     * bodies, or of springs: smaller forces are none. Of the active rows of this rank, squared. */
-    virtual double
+     * bodies: smaller forces are none. Of the active rows of this rank, squared. */
+    double
     round_off_of_gaps_squared(const ContactRows &rows, double length) const;
 
     void

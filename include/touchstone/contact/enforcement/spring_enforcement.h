@@ -55,9 +55,6 @@ namespace Touchstone
     double
     round_off_squared(const ContactRows &rows, double length) const override;
 
-    double
-    round_off_of_gaps_squared(const ContactRows &rows, double length) const override;
-
   protected:
     /** Force at the last augmentation: normal force, and the rest of it. */
     struct Augmentation
