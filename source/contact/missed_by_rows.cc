@@ -102,7 +102,8 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
-        if (pair.tied())
+        // Points of a body always lie within itself.
+        if (pair.tied() || pair.slave_body() == pair.master_body())
           continue;
         const Vector                                forces = normal_forces(contact, pair);
         const MissedContact                         missed(contact, pair, forces);
@@ -111,7 +112,7 @@ namespace Touchstone
           std::minmax({pair.slave_body(), pair.master_body()});
         if (!nothing)
           carried.insert(bodies);
-        else if (pair.master() && pair.slave_body() != pair.master_body())
+        else if (pair.master())
           idle.emplace(bodies, pair.parameters().name);
         // Surfaces that slide farther than small sliding knows may overlap anywhere; but a pair
         // without any force has missed what it is for.

@@ -37,6 +37,9 @@ namespace Touchstone
     , pair(pair)
     , forces(forces)
   {
+    for (std::size_t k = 0; k < pair.rows().size(); ++k)
+      adjusted = std::max(adjusted, -pair.overlap(k));
+    adjusted = part_adjusted() * Utilities::MPI::max(adjusted, contact.communicator());
   }
 
 
@@ -162,10 +165,10 @@ namespace Touchstone
               const Face before = MeasuredFace::in_reference(of.face),
                          there  = MeasuredFace::in_reference(in.face);
               Xi unused;
-              counts -= part * std::max(0.,
-                                        MeasuredFace(there, in.exact)
-                                          .depth(evaluate(before, of.exact, xi).x, 0., unused)
-                                          .value_or(0.));
+              // None if the point has slid here from another face: then what rows have at most.
+              const auto start =
+                MeasuredFace(there, in.exact).depth(evaluate(before, of.exact, xi).x, 0., unused);
+              counts -= std::max(adjusted, part * start.value_or(0.));
             }
           // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
           const double sure = Tolerances::touching * size + of.facet_error() + in.facet_error();

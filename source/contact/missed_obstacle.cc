@@ -84,8 +84,8 @@ namespace Touchstone
               counts += at[2];
             if (part > 0.)
               counts -=
-                part * std::max(0.,
-                                -pair.pairing().distance(evaluate(MeasuredFace::in_reference(face),
+                std::max(adjusted,
+                         -part * pair.pairing().distance(evaluate(MeasuredFace::in_reference(face),
                                                                   slave.exact,
                                                                   MeasuredFace::Xi{{at[0], at[1]}})
                                                            .x,

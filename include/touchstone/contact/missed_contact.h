@@ -35,7 +35,8 @@ namespace Touchstone
     };
 
     /** @param forces Normal contact forces of the pair on its slave nodes, with the ghosts
-     *                of the slave surface. */
+     *                of the slave surface.
+     * Collective. */
     MissedContact(const Contact &contact, const ContactPair &pair, const Vector &forces);
 
     /** @brief Whether no node of the pair carries a force. Collective. */
@@ -50,6 +51,8 @@ namespace Touchstone
     const Contact     &contact;
     const ContactPair &pair;
     const Vector      &forces;
+    /** The largest initial overlap of a row that does not count now; length. */
+    double adjusted = 0.;
 
     /** A point of one surface within the other. */
     struct Overlap
