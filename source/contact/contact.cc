@@ -42,6 +42,7 @@ namespace Touchstone
                    const Solid                         &solid,
                    const Mirrors                       &mirrors)
     : solid(solid)
+    , mirrors(mirrors)
     , friction_rows(solid)
     , method(parameters.enforcement.make(parameters))
     , impulse_forces("impulse force")

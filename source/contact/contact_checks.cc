@@ -18,25 +18,25 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  Vector
+  normal_forces(const Contact &contact, const ContactPair &pair)
+  {
+    const Solid &solid = contact.solid_model();
+    Vector       owned(solid.owned, solid.communicator);
+    for (const ContactRow &row : pair.rows())
+      // Only compression: the cone of normals has no meaning for a small force in tension, which
+      // the tolerance of the active set admits.
+      if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
+        for (unsigned int d = 0; d < dim; ++d)
+          owned(dim * row.slave + d) = state.lambda * row.normal[d];
+    owned.compress(VectorOperation::insert);
+    return contact.with_ghosts(owned);
+  }
+
+
+
   namespace
   {
-    /** Normal forces of a pair at the nodes, with ghosts. */
-    Vector
-    normal_forces(const Contact &contact, const ContactPair &pair, const Solid &solid)
-    {
-      Vector owned(solid.owned, solid.communicator);
-      for (const ContactRow &row : pair.rows())
-        // Only compression: the cone of normals has no meaning for a small force in tension, which
-        // the tolerance of the active set admits.
-        if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
-          for (unsigned int d = 0; d < dim; ++d)
-            owned(dim * row.slave + d) = state.lambda * row.normal[d];
-      owned.compress(VectorOperation::insert);
-      return contact.with_ghosts(owned);
-    }
-
-
-
     UnresolvedContact
     check_of(const ContactPair &pair, const Contact &contact, const Vector &forces)
     {
@@ -47,27 +47,24 @@ namespace Touchstone
               pair.slave_body(),
               pair.master_body(),
               contact.ghosted_displacement(),
-              forces};
+              forces,
+              contact.planes_of_symmetry()};
     }
 
 
 
-    /** The deepest overlap of a pair, empty without one. Obstacles have no edges that could cross
-     * those of a body, so that only points within slave faces are looked for. */
+    /** The deepest overlap of a pair with its master, empty without one. */
     std::string
     overlap_of_pair(const Contact &contact, const ContactPair &pair, const Vector &forces)
     {
       // An initial overlap that is adjusted or grows with time is no sign of unresolved contact:
-      // overlaps are looked for only where they count from the start.
-      if (pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
+      // overlaps are looked for only where they count from the start. Obstacles have no edges that
+      // could cross those of a body. With small sliding the surfaces are not moved, so that their
+      // overlap means nothing. MissedContact looks at all of these for points within slave faces.
+      if (pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference ||
+          !pair.master() || pair.small_sliding())
         return "";
-      if (!pair.master())
-        return obstacle_within_face(
-          contact.solid_model(), pair.parameters(), pair.slave(), forces, [&](const Point<dim> &x) {
-            return pair.pairing().distance(x, contact.time());
-          });
-      // With small sliding the surfaces are not moved, so that their overlap means nothing.
-      return pair.small_sliding() ? "" : check_of(pair, contact, forces).overlap();
+      return check_of(pair, contact, forces).overlap();
     }
 
 
@@ -89,9 +86,7 @@ namespace Touchstone
       // Tied pairs may be in tension and along any direction, so forces prove nothing there.
       for (unsigned int p = 0; p < contact.n_pairs(); ++p)
         if (const ContactPair &pair = contact.pair(p); !pair.tied())
-          if (const std::string text =
-                find(pair, normal_forces(contact, pair, contact.solid_model()));
-              !text.empty())
+          if (const std::string text = find(pair, normal_forces(contact, pair)); !text.empty())
             return "contact pair '" + pair.parameters().name + "': " + text +
                    ". Rows of slave nodes cannot describe this contact: refine the slave surface" +
                    (pair.master() ? ", exchange slave and master, or round the edges" : "");
@@ -126,10 +121,7 @@ namespace Touchstone
   has_oblique_force(const Contact &contact, const ContactPair &pair)
   {
     return !pair.tied() &&
-           !oblique_force_of_pair(contact,
-                                  pair,
-                                  normal_forces(contact, pair, contact.solid_model()))
-              .empty();
+           !oblique_force_of_pair(contact, pair, normal_forces(contact, pair)).empty();
   }
 
 

@@ -50,24 +50,18 @@ namespace Touchstone
       Point<dim>   x;
     };
 
-    struct Overlap
-    {
-      /** Bodies of the point and of the cell. */
-      unsigned int body, other;
-      /** Of the point in the other body, at least; length. */
-      double     depth;
-      Point<dim> x;
-    };
-
     /** Call @p use with each cell of this rank: cells are made one at a time, as there may be many.
      */
     template <class Use>
     void
-    for_each_cell(const Solid &solid, const Vector &u, const Use &use)
+    for_each_cell(const Solid                  &solid,
+                  const Vector                 &u,
+                  const std::set<unsigned int> &bodies,
+                  const Use                    &use)
     {
       BodyCell one;
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
+        if (cell->is_locally_owned() && bodies.count(cell->material_id()) > 0)
           {
             one.body    = cell->material_id();
             one.corners = deformed_vertices(cell, u);
@@ -91,12 +85,12 @@ namespace Touchstone
 
     /** What this rank's cells have of the surfaces, and the box around all of them. */
     std::pair<std::vector<SurfacePoint>, Box>
-    own_surfaces(const Solid &solid, const Vector &u)
+    own_surfaces(const Solid &solid, const Vector &u, const std::set<unsigned int> &bodies)
     {
       std::vector<SurfacePoint> points;
       std::set<Index>           done;
       std::vector<Point<dim>>   extremes;
-      for_each_cell(solid, u, [&](const BodyCell &cell) {
+      for_each_cell(solid, u, bodies, [&](const BodyCell &cell) {
         const Box box = box_of(cell);
         if (extremes.empty())
           extremes = {box.get_boundary_points().first, box.get_boundary_points().second};
@@ -175,18 +169,19 @@ namespace Touchstone
 
 
     /** Points within cells of this rank. */
-    std::vector<Overlap>
+    std::vector<BodyOverlap>
     own_overlaps(const Solid                                           &solid,
                  const Vector                                          &u,
+                 const std::set<unsigned int>                          &bodies,
                  const std::vector<SurfacePoint>                       &points,
                  const std::set<std::pair<unsigned int, unsigned int>> &left_out)
     {
       std::vector<std::pair<Point<dim>, std::size_t>> places;
       for (std::size_t k = 0; k < points.size(); ++k)
         places.emplace_back(points[k].x, k);
-      const auto           tree = pack_rtree(places);
-      std::vector<Overlap> result;
-      for_each_cell(solid, u, [&](const BodyCell &cell) {
+      const auto               tree = pack_rtree(places);
+      std::vector<BodyOverlap> result;
+      for_each_cell(solid, u, bodies, [&](const BodyCell &cell) {
         for (const auto &entry : tree | boost::geometry::index::adaptors::queried(
                                           boost::geometry::index::intersects(box_of(cell))))
           {
@@ -200,32 +195,38 @@ namespace Touchstone
       });
       return result;
     }
-
-
-
-    std::string
-    text(const Overlap &overlap, const std::vector<BodyParameters> &bodies)
-    {
-      char where[120];
-      std::snprintf(where,
-                    sizeof(where),
-                    " at (%.3g, %.3g, %.3g), by %.3g or more",
-                    overlap.x[0] + 0.,
-                    overlap.x[1] + 0.,
-                    overlap.x[2] + 0.,
-                    overlap.depth);
-      const bool self = overlap.body == overlap.other;
-      return "body '" + bodies[overlap.body].name + "' reaches into " +
-             (self ? "itself" : "body '" + bodies[overlap.other].name + "'") + where +
-             ": no contact pair keeps these surfaces apart" +
-             (self ? "" : ", or its rows did not see them");
-    }
   } // namespace
 
 
 
-  std::vector<std::string>
-  overlapping_bodies(const Contact &contact, const Vector &u)
+  std::string
+  BodyOverlap::place(const Solid &solid) const
+  {
+    char where[120];
+    std::snprintf(where,
+                  sizeof(where),
+                  " at (%.3g, %.3g, %.3g), by %.3g or more",
+                  x[0] + 0.,
+                  x[1] + 0.,
+                  x[2] + 0.,
+                  depth);
+    return "body '" + solid.bodies[body].name + "' reaches into " +
+           (body == other ? "itself" : "body '" + solid.bodies[other].name + "'") + where;
+  }
+
+
+
+  std::string
+  BodyOverlap::text(const Solid &solid) const
+  {
+    return place(solid) + ": no contact pair keeps these surfaces apart" +
+           (body == other ? "" : ", or its rows did not see them");
+  }
+
+
+
+  std::vector<BodyOverlap>
+  overlapping_bodies(const Contact &contact, const Vector &u, const std::set<unsigned int> &bodies)
   {
     const Solid                                    &solid = contact.solid_model();
     std::set<std::pair<unsigned int, unsigned int>> left_out;
@@ -235,21 +236,21 @@ namespace Touchstone
           pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
         left_out.insert(std::minmax(pair.slave_body(), pair.master_body()));
 
-    const auto                      surfaces = own_surfaces(solid, u);
+    const auto                      surfaces = own_surfaces(solid, u, bodies);
     const std::vector<SurfacePoint> points =
       points_around(surfaces.first, surfaces.second, solid.communicator);
 
     // Of each two bodies, in an order that does not depend on the partition.
-    std::vector<Overlap> all;
+    std::vector<BodyOverlap> all;
     for (const auto &part :
-         gather_records(own_overlaps(solid, u, points, left_out), solid.communicator))
+         gather_records(own_overlaps(solid, u, bodies, points, left_out), solid.communicator))
       all.insert(all.end(), part.begin(), part.end());
     double deepest = 0.;
-    for (const Overlap &overlap : all)
+    for (const BodyOverlap &overlap : all)
       deepest = std::max(deepest, overlap.depth);
     // Rounded: of points that are equally deep the first, whatever round-off makes of them.
     const double unit = 1e-4 * deepest;
-    const auto   key  = [unit](const Overlap &o) {
+    const auto   key  = [unit](const BodyOverlap &o) {
       return std::make_tuple(o.body,
                              o.other,
                              -std::round(o.depth / unit),
@@ -257,13 +258,27 @@ namespace Touchstone
                              std::round(o.x[1] / unit),
                              std::round(o.x[2] / unit));
     };
-    std::sort(all.begin(), all.end(), [&](const Overlap &a, const Overlap &b) {
+    std::sort(all.begin(), all.end(), [&](const BodyOverlap &a, const BodyOverlap &b) {
       return key(a) < key(b);
     });
-    std::vector<std::string> result;
+    std::vector<BodyOverlap> result;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (k == 0 || all[k].body != all[k - 1].body || all[k].other != all[k - 1].other)
-        result.push_back(text(all[k], solid.bodies));
+        result.push_back(all[k]);
+    return result;
+  }
+
+
+
+  std::vector<std::string>
+  overlapping_bodies(const Contact &contact, const Vector &u)
+  {
+    std::set<unsigned int> bodies;
+    for (unsigned int b = 0; b < contact.solid_model().bodies.size(); ++b)
+      bodies.insert(b);
+    std::vector<std::string> result;
+    for (const BodyOverlap &overlap : overlapping_bodies(contact, u, bodies))
+      result.push_back(overlap.text(contact.solid_model()));
     return result;
   }
 } // namespace Touchstone

@@ -64,6 +64,24 @@ namespace Touchstone
       return true;
     }
 
+    /** The part of a force along all of some planes, whose normals need not be orthogonal. */
+    Tensor<1, dim>
+    along_all(const std::vector<Tensor<1, dim>> &planes, Tensor<1, dim> force)
+    {
+      std::vector<Tensor<1, dim>> across;
+      for (Tensor<1, dim> normal : planes)
+        {
+          for (const Tensor<1, dim> &other : across)
+            normal -= (normal * other) * other;
+          // The same plane again.
+          if (normal.norm() < Tolerances::parallel_sine)
+            continue;
+          across.push_back(normal / normal.norm());
+          force -= (force * across.back()) * across.back();
+        }
+      return force;
+    }
+
     double
     size_of(const Face &face)
     {
@@ -102,7 +120,8 @@ namespace Touchstone
                                        const unsigned int           slave_body,
                                        const unsigned int           master_body,
                                        const Vector                &u,
-                                       const Vector                &forces)
+                                       const Vector                &forces,
+                                       const ContactPair::Mirrors  &mirrors)
     : solid(solid)
     , parameters(parameters)
     , slave(slave)
@@ -111,6 +130,7 @@ namespace Touchstone
     , master_body(master_body)
     , u(u)
     , forces(forces)
+    , mirrors(mirrors)
   {
   }
 
@@ -308,6 +328,10 @@ namespace Touchstone
             around += force_on(other, forces);
             largest = largest && force_on(other, forces).norm() <= size;
           }
+        // On a plane of symmetry what the mirrored half has is part of the sum, and cancels it
+        // across the plane.
+        if (const auto planes = mirrors.find(node.node); planes != mirrors.end())
+          around = along_all(planes->second, around);
         // Only the largest force of a neighbourhood tells where the bodies touch.
         if (largest && around.norm() >= Tolerances::small_force * sum &&
             cone.distance(-1. * around / around.norm()) > Tolerances::oblique_sine)
@@ -352,38 +376,5 @@ namespace Touchstone
              number(vertices.depth) + " within '" + parameters.slave_body +
              "', between slave nodes that touch nothing";
     return "";
-  }
-
-
-
-  std::string
-  obstacle_within_face(const Solid                                     &solid,
-                       const ContactPairParameters                     &parameters,
-                       const Surface                                   &slave,
-                       const Vector                                    &forces,
-                       const std::function<double(const Point<dim> &)> &gap)
-  {
-    std::vector<Located> found;
-    for (const Face &face : slave.owned_faces())
-      if (idle(slave, face, forces))
-        // An obstacle has no nodes: nine points inside the face are tested instead. Nodes of the
-        // face have rows of their own.
-        for (const double a : {-0.5, 0., 0.5})
-          for (const double b : {-0.5, 0., 0.5})
-            {
-              const Point<dim> x     = evaluate(face, slave.exact_surface(face), {{a, b}}).x;
-              const double     depth = -gap(x);
-              if (depth > Tolerances::deep_smooth_node * size_of(face))
-                found.push_back({depth, x});
-            }
-    Located worst;
-    for (const auto &part : gather_records(found, solid.communicator))
-      for (const Located &point : part)
-        worst = std::max(worst, point);
-    if (worst.size == 0.)
-      return "";
-    return "the obstacle '" + parameters.obstacle + "' reaches " + number(worst.size) + " into '" +
-           parameters.slave_body + "' at " + at(worst.x) +
-           ", between slave nodes that touch nothing";
   }
 } // namespace Touchstone

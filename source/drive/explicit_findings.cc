@@ -97,7 +97,9 @@ namespace Touchstone
         if (!persistent.empty())
           throw UnresolvedContactFailure(persistent);
       }
-    return found;
+    StepFindings result = found;
+    result.missed       = MissedPairs::shallow(missed_contact(contact));
+    return result;
   }
 
 

@@ -77,6 +77,11 @@ namespace Touchstone
       }
     if (scene.output.vtu_interval > 0)
       write_vtu(at.step - 1, at.time);
+    if (const std::string reason = missed_pairs.failure(had_contact); !reason.empty())
+      {
+        stop(reason, at);
+        return;
+      }
     write_last_checkpoint(at);
     summary.converged = true;
   }
@@ -124,6 +129,7 @@ namespace Touchstone
       progress.end_step(newton);
     for (const std::string &text : findings.warnings)
       warnings.add(text);
+    missed_pairs.end_step(findings.missed, warnings);
     record_step(at.step, at.time, length, newton, at.cuts);
     log.check();
     summary.steps = at.step;

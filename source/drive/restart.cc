@@ -81,6 +81,7 @@ namespace Touchstone
     archive.put("summary", now);
     archive.put("warnings", warnings.list());
     archive.put("had contact", had_contact);
+    archive.put("missed contact", missed_pairs);
     archive.put("mesh files", mesh_files);
     if (summary.motion)
       archive.put("motion", *summary.motion);
@@ -211,6 +212,8 @@ namespace Touchstone
         warnings.restore(archive.get<std::vector<std::string>>("warnings"));
         had_contact = archive.get<std::map<std::string, double>>("had contact");
       }
+    if (archive.has("missed contact")) // not in checkpoints of earlier versions
+      missed_pairs = archive.get<MissedPairs>("missed contact");
     if (archive.has("cycles")) // not in checkpoints of earlier versions
       summary.cycles = archive.get<std::uint64_t>("cycles");
     if (archive.has("contact work"))

@@ -12,7 +12,8 @@
 #include <limits>
 #include <tuple>
 
-// Where a body with a nonlinear law is compressed most, for the messages of a step that fails.
+// Where a body with a nonlinear law is compressed most, and friction that leaves rows no solution,
+// for the messages of a step that fails.
 namespace Touchstone
 {
   using namespace dealii;
@@ -119,5 +120,24 @@ namespace Touchstone
     };
     const ExtremePoint found = smallest(scene, solid, u, resistance);
     return found.value < 0. ? found.place(scene) : "";
+  }
+
+
+
+  std::string
+  StepProblem::friction_without_pressure() const
+  {
+    // A row that opens as it is dragged by its friction, and closes as soon as that ceases, has no
+    // solution unless the friction vanishes with the pressure.
+    int found = 0;
+    for (const auto &changed : changed_rows)
+      for (const ContactRow &row : contact.rows())
+        if (row.friction && row.pair == changed[dim] && row.friction->cone(0., false).force > 0.)
+          found = 1;
+    if (Utilities::MPI::max(found, solid.communicator) == 0)
+      return "";
+    return "; friction that does not vanish with the pressure may leave a row no solution: it opens "
+           "with its friction and closes without ('Friction/Largest coefficient' of 'tresca' bounds it "
+           "by the pressure)";
   }
 } // namespace Touchstone

@@ -213,6 +213,7 @@ namespace Touchstone
     result.remarks  = remarks();
     result.warnings = check_loose_bodies();
     check_contact();
+    result.missed = MissedPairs::shallow(missed_contact(contact));
     return result;
   }
 
@@ -228,6 +229,7 @@ namespace Touchstone
       if (const std::string place = unstable_place(); !place.empty())
         suspicion += "; the material of " + place +
                      " is compressed so far that by its 'Law' it resists no longer";
+    suspicion += friction_without_pressure();
     return {worst_place(), suspicion};
   }
 

@@ -85,6 +85,13 @@ namespace Touchstone
       return *pairs[row.pair];
     }
 
+    /** @brief Normals of the planes of symmetry that owned nodes lie on. */
+    const Mirrors &
+    planes_of_symmetry() const
+    {
+      return mirrors;
+    }
+
     const Friction &
     friction() const
     {
@@ -250,6 +257,7 @@ namespace Touchstone
     };
 
     const Solid                              &solid;
+    const Mirrors                             mirrors;
     std::vector<std::unique_ptr<ContactPair>> pairs;
     ContactRows                               all_rows;
     Friction                                  friction_rows;

@@ -3,12 +3,21 @@
 #ifndef touchstone_contact_contact_checks_h
 #define touchstone_contact_contact_checks_h
 
+#include <touchstone/algebra/vector.h>
+
+#include <map>
 #include <string>
 #include <vector>
 
 namespace Touchstone
 {
   class Contact;
+  class ContactPair;
+
+  /** @brief Normal forces of a pair on its slave nodes where they press, with the ghosts of the
+   * surfaces. Collective. */
+  Vector
+  normal_forces(const Contact &contact, const ContactPair &pair);
 
   /** @brief Text on gaps and overlaps as the bodies are placed, a line per pair. Collective. */
   std::vector<std::string>
@@ -20,9 +29,33 @@ namespace Touchstone
   unresolved_contact(const Contact &contact);
 
   /** @brief The part of unresolved_contact() that overlaps show: edges that have passed through
-   * each other, vertices and obstacles within slave faces. Collective. */
+   * each other, vertices within slave faces. Collective. */
   std::string
   unresolved_overlap(const Contact &contact);
+
+  /** @brief What passes between the slave nodes of a pair. */
+  struct MissedByRows
+  {
+    /** Pair, place and remedy. */
+    std::string text;
+    /** By more than the height of arcs over coarse faces, which rows make good once they touch. */
+    bool deep = false;
+    /** Area of the faces on which it was missed, by that and the area which carries a force; 1 if
+     * nothing does. */
+    double share = 0.;
+
+    /** @brief For checkpoints. */
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &text &deep &share;
+    }
+  };
+
+  /** @brief What rows have missed, by the names of the pairs, see MissedContact. Collective. */
+  std::map<std::string, MissedByRows>
+  missed_contact(const Contact &contact);
 
   /** @brief Whether a pair has a contact force that is far from normal to the slave surface, the
    * other part of unresolved_contact(). Collective. */

@@ -5,14 +5,33 @@
 
 #include <touchstone/contact/contact.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
 namespace Touchstone
 {
+  /** @brief A point of the surface of a body in another body, or in the same. */
+  struct BodyOverlap
+  {
+    /** Bodies of the point and of the cell that it lies in. */
+    unsigned int body = 0, other = 0;
+    /** Of the point in the other body, at least; length. */
+    double             depth = 0.;
+    dealii::Point<dim> x;
+
+    /** @brief Bodies, place and depth in words. */
+    std::string
+    place(const Solid &solid) const;
+
+    /** @brief The same with why that may be. */
+    std::string
+    text(const Solid &solid) const;
+  };
+
   /**
-   * @brief Bodies that reach into each other or into themselves, in words, whether or not a contact
-   * pair names them: for each two bodies the node or face centre of a surface that lies deepest in
+   * @brief Bodies that reach into each other or into themselves, whether or not a contact pair
+   * names them: for each two bodies the node or face centre of a surface that lies deepest in
    * a cell.
    *
    * A pair that a scene forgets, a side of a body that no pair names or a node that has passed
@@ -22,8 +41,13 @@ namespace Touchstone
    * start is adjusted or grows with time are left out.
    *
    * @param u Displacement, with ghosts.
-   * @return the same texts on all ranks and any number of them. Collective.
+   * @param bodies Those that are looked at.
+   * @return the same on all ranks and any number of them. Collective.
    */
+  std::vector<BodyOverlap>
+  overlapping_bodies(const Contact &contact, const Vector &u, const std::set<unsigned int> &bodies);
+
+  /** @brief The same of all bodies, in words. Collective. */
   std::vector<std::string>
   overlapping_bodies(const Contact &contact, const Vector &u);
 } // namespace Touchstone

@@ -3,12 +3,12 @@
 #ifndef touchstone_contact_unresolved_contact_h
 #define touchstone_contact_unresolved_contact_h
 
+#include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/geometry/surface.h>
 
 #include <deal.II/base/bounding_box.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,7 +26,8 @@ namespace Touchstone
   public:
     /** @param u      Displacement, with ghosts.
      * @param forces  Normal contact forces of the pair on its slave nodes, with the ghosts
-     *                of the slave surface. */
+     *                of the slave surface.
+     * @param mirrors Normals of the planes of symmetry that owned nodes lie on. */
     UnresolvedContact(const Solid                 &solid,
                       const ContactPairParameters &parameters,
                       const Surface               &slave,
@@ -34,7 +35,8 @@ namespace Touchstone
                       unsigned int                 slave_body,
                       unsigned int                 master_body,
                       const Vector                &u,
-                      const Vector                &forces);
+                      const Vector                &forces,
+                      const ContactPair::Mirrors  &mirrors);
 
     /** @brief The deepest crossing of two edges, or else the deepest vertex of the master in a
      * slave face, in words; empty if there is none. The same on all ranks. Collective. */
@@ -52,6 +54,7 @@ namespace Touchstone
     const Surface               &slave, &master;
     const unsigned int           slave_body, master_body;
     const Vector                &u, &forces;
+    const ContactPair::Mirrors  &mirrors;
 
     /** A point of each body that has come to lie in the other. */
     struct Overlap
@@ -82,16 +85,6 @@ namespace Touchstone
     Overlap
     deepest(const std::vector<Overlap> &found, bool edges) const;
   };
-
-  /** @brief The same for an obstacle that reaches into a slave face whose nodes touch nothing;
-   * empty if it does not. Collective.
-   * @param gap Distance of a point from the obstacle, negative within, length. */
-  std::string
-  obstacle_within_face(const Solid                                             &solid,
-                       const ContactPairParameters                             &parameters,
-                       const Surface                                           &slave,
-                       const Vector                                            &forces,
-                       const std::function<double(const dealii::Point<dim> &)> &gap);
 } // namespace Touchstone
 
 #endif

@@ -94,6 +94,8 @@ namespace Touchstone
     std::vector<std::function<void(const ConvergedStep &)>> observers;
     /** By the names of pairs: the last time at which they had contact. */
     std::map<std::string, double> had_contact;
+    /** What the rows of pairs have missed. */
+    MissedPairs missed_pairs;
     /** Fingerprints of the mesh files, of bodies and then of obstacles. */
     std::vector<std::string> mesh_files;
     /** Of the last Newton iteration. */

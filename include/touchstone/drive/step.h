@@ -5,6 +5,7 @@
 
 #include <touchstone/algebra/linear_solver.h>
 #include <touchstone/contact/contact.h>
+#include <touchstone/drive/missed_pairs.h>
 #include <touchstone/drive/newton.h>
 #include <touchstone/drive/time_integration.h>
 #include <touchstone/explicit/impulse_work.h>
@@ -77,6 +78,8 @@ namespace Touchstone
     std::string remarks;
     /** Bodies that have come off what they touched without going far. */
     std::vector<std::string> warnings;
+    /** What the rows of a pair have missed, by its name: overlaps that are not deep. */
+    MissedPairs::Missed missed;
   };
 
   /** @brief Where a step that was not solved is farthest from a solution, and why it may be. */

@@ -170,6 +170,10 @@ namespace Touchstone
      * if there is no such point. Collective. */
     std::string
     unstable_place() const;
+    /** Whether rows that change may have no solution, as their friction does not vanish with the
+     * pressure; in words, empty if not. Collective. */
+    std::string
+    friction_without_pressure() const;
     /** See worst_place(); empty if no row changed. */
     std::string
     changing_place() const;

@@ -224,6 +224,20 @@ namespace Touchstone
 
 
 
+  double
+  Enforcement::round_off_of_gaps_squared(const ContactRows &rows, const double length) const
+  {
+    // Positions of magnitude `length` are known up to machine precision; a gap is the
+    // difference of a few of them.
+    double sum = 0.;
+    for (const ContactRow &row : rows)
+      if (row_states[row].active())
+        sum += std::pow(4. * std::numeric_limits<double>::epsilon() * length * row.stiffness, 2);
+    return sum;
+  }
+
+
+
   void
   Enforcement::commit()
   {

@@ -10,7 +10,8 @@ namespace Touchstone
 
   namespace
   {
-    /** |t| <= k A: a shear strength that does not depend on the pressure. */
+    /** |t| <= k A: a shear strength that does not depend on the pressure; or the smaller of it and
+     * mu lambda. */
     class Tresca : public FrictionLaw
     {
     public:
@@ -22,6 +23,13 @@ namespace Touchstone
                           "Largest shear traction, at least zero. Required. [force per area]",
                           Patterns::Double(),
                           /*has_to_be_set=*/true);
+        prm.add_parameter("Largest coefficient",
+                          largest,
+                          "No more than this part of the normal force, greater than zero; 0 takes "
+                          "the strength however small the pressure. Without it a node may have no "
+                          "solution that opens when it is dragged by its friction and closes when "
+                          "this ceases. [no unit]",
+                          Patterns::Double());
       }
 
       void
@@ -33,11 +41,19 @@ namespace Touchstone
                            Patterns::Tools::to_string(strength),
                            "must not be negative",
                            "give the largest shear traction that the surfaces bear");
+        if (largest < 0.)
+          throw InputError(section,
+                           "Largest coefficient",
+                           Patterns::Tools::to_string(largest),
+                           "must not be negative",
+                           "give the coefficient that a small pressure has, e.g. 1, or 0");
       }
 
       FrictionLimit
       limit(const FrictionInput &input) const override
       {
+        if (largest > 0. && largest * input.normal_force < strength * input.area)
+          return {largest * input.normal_force, largest};
         // No dependence on the normal force, so that the system without consistent linearisation is
         // symmetric; the area is that covered at present, which changes as edges pass
         // (doc/theory.md 6.1).
@@ -45,7 +61,7 @@ namespace Touchstone
       }
 
     private:
-      double strength = 0.;
+      double strength = 0., largest = 0.;
     };
 
     const FrictionLawRegistry::Entry<Tresca>

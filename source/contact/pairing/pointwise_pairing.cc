@@ -6,6 +6,9 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
+#include <list>
+
 // The pairing "pointwise": each slave node against the closest point of the master surface. It is
 // simple, but does not pass the patch test (doc/theory.md 3). The second half of the file
 // differentiates these rows for the consistent linearisation (doc/theory.md 4, equation (9)).
@@ -89,6 +92,61 @@ namespace Touchstone
 
 
 
+    /** Call @p use with all faces that a contact point belongs to. */
+    template <class Use>
+    void
+    for_each(const ContactPartner &partner, const Use &use)
+    {
+      use(partner);
+      for (const ContactPartner &other : partner.others)
+        use(other);
+    }
+
+
+
+    /** Add the shape functions of the face at the contact point, times @p part. */
+    void
+    add_weights(const ContactPartner &partner, const double part, Stencil &stencil)
+    {
+      const FaceShapes shapes(partner.face->degree, partner.xi);
+      for (unsigned int m = 0; m < partner.face->n_nodes(); ++m)
+        // A node that lies on an edge or a node of the face depends on fewer master nodes.
+        if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
+          {
+            const Index node = partner.face->nodes[m];
+            const auto  entry =
+              std::find_if(stencil.begin(), stencil.end(), [node](const StencilEntry &e) {
+                return e.node == node;
+              });
+            if (entry == stencil.end())
+              stencil.push_back({node, part * shapes.value[m]});
+            else
+              entry->weight += part * shapes.value[m];
+          }
+    }
+
+
+
+    /** The row of a node at @p x. On an edge between faces it is the mean of those of all of them,
+     * as normals jump there a little: with the row of one face a node that symmetry or matching
+     * meshes put on the edge would have no balance on either side of it. */
+    void
+    set_row(const ContactPartner &partner, const Point<dim> &x, ContactRow &row)
+    {
+      const double part = 1. / (1. + partner.others.size());
+      row.normal = row.gap_vector = Tensor<1, dim>();
+      for_each(partner, [&](const ContactPartner &one) {
+        add_weights(one, part, row.stencil);
+        row.normal += part * one.normal;
+        row.gap_vector += part * (x - one.x);
+      });
+      if (!partner.others.empty())
+        row.normal /= row.normal.norm();
+      row.gap = row.gap_vector * row.normal;
+    }
+
+
+
     void
     PointwisePairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
     {
@@ -127,14 +185,7 @@ namespace Touchstone
               continue;
             }
           row.has_partner = true;
-          const FaceShapes shapes(partner->face->degree, partner->xi);
-          for (unsigned int m = 0; m < partner->face->n_nodes(); ++m)
-            // A node that lies on an edge or a node of the face depends on fewer master nodes.
-            if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
-              row.stencil.push_back({partner->face->nodes[m], shapes.value[m]});
-          row.normal     = partner->normal;
-          row.gap_vector = positions[k] - partner->x;
-          row.gap        = row.gap_vector * row.normal;
+          set_row(*partner, positions[k], row);
         }
     }
 
@@ -232,17 +283,14 @@ namespace Touchstone
                  .norm() > 0.;
       }
 
-      double
-      weight(const unsigned int m) const
-      {
-        return master.shapes.value[m];
-      }
-
       /** @param of_normals Derivatives of the nodal normals of the face, or null. */
-      std::shared_ptr<const RowDerivative>
+      /** Add this derivative times @p part. */
+      void
       compute(const Index                          slave,
               const Stencil                       &stencil,
-              const std::vector<NormalDerivative> *of_normals) const;
+              const double                         part,
+              const std::vector<NormalDerivative> *of_normals,
+              RowDerivativeBuilder                &builder) const;
 
     private:
       const FaceGeometry          &geometry;
@@ -274,6 +322,7 @@ namespace Touchstone
           const CoordinateDerivative      &xi,
           const Tensor<2, dim>            *chain,
           const std::vector<unsigned int> &local,
+          const double                     part,
           RowDerivativeBuilder            &builder) const;
     };
 
@@ -286,6 +335,7 @@ namespace Touchstone
                                 const CoordinateDerivative      &xi,
                                 const Tensor<2, dim>            *chain,
                                 const std::vector<unsigned int> &local,
+                                const double                     part,
                                 RowDerivativeBuilder            &builder) const
     {
       Tensor<2, dim> d_gap = gap_vector, d_normal = normal;
@@ -299,34 +349,40 @@ namespace Touchstone
       if (partner.wedge != 0)
         d_normal = by_gap_vector * d_gap;
       const unsigned int i = builder.index(node);
+      d_gap *= part;
+      d_normal *= part;
       builder.result->gap_vector[i] += chain ? d_gap * *chain : d_gap;
       builder.result->normal[i] += chain ? d_normal * *chain : d_normal;
       for (std::size_t m = 0; m < local.size(); ++m)
-        {
-          const auto          &gradient = master.shapes.gradient[local[m]];
-          const Tensor<1, dim> d_weight = gradient[0] * xi[0] + gradient[1] * xi[1];
-          builder.result->weights[m][i] += chain ? d_weight * *chain : d_weight;
-        }
+        if (local[m] < geometry.face().n_nodes())
+          {
+            const auto          &gradient = master.shapes.gradient[local[m]];
+            const Tensor<1, dim> d_weight = part * (gradient[0] * xi[0] + gradient[1] * xi[1]);
+            builder.result->weights[m][i] += chain ? d_weight * *chain : d_weight;
+          }
     }
 
 
 
-    std::shared_ptr<const RowDerivative>
+    void
     PointwiseRowDerivative::compute(const Index                          slave,
                                     const Stencil                       &stencil,
-                                    const std::vector<NormalDerivative> *of_normals) const
+                                    const double                         part,
+                                    const std::vector<NormalDerivative> *of_normals,
+                                    RowDerivativeBuilder                &builder) const
     {
       const Face               &face = geometry.face();
       std::vector<unsigned int> local;
+      // Nodes of other faces on whose edge the slave node lies are not on this one.
       for (const StencilEntry &entry : stencil)
-        local.push_back(std::find(face.nodes.begin(), face.nodes.end(), entry.node) -
-                        face.nodes.begin());
-      RowDerivativeBuilder builder(stencil.size());
+        local.push_back(
+          std::find(face.nodes.begin(), face.nodes.begin() + face.n_nodes(), entry.node) -
+          face.nodes.begin());
       const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
       // The slave node changes r directly and xi over the projection, not the normal at fixed xi.
       // Master nodes move the point and its tangents; nodes around them act over the averaged
       // normals.
-      add(slave, identity, {}, by_slave, nullptr, local, builder);
+      add(slave, identity, {}, by_slave, nullptr, local, part, builder);
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
         add(face.nodes[m],
             -1. * master.x_position[m],
@@ -336,6 +392,7 @@ namespace Touchstone
                         master.tangent_position[1][m]),
             nullptr,
             local,
+            part,
             builder);
       if (of_normals && (partner.wedge == 0 || geometry.smooth()))
         for (const NormalDerivative &d : *of_normals)
@@ -347,19 +404,20 @@ namespace Touchstone
                           master.tangent_normal[1][d.m]),
               &d.value,
               local,
+              part,
               builder);
-      return builder.result;
     }
 
 
 
     void
-    PointwisePairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
+    PointwisePairing::differentiate(const Vector &u, const double, std::vector<ContactRow> &rows)
     {
-      std::vector<const Face *> needed;
+      const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+      std::vector<const Face *>       needed;
       for (std::size_t k = 0; k < rows.size(); ++k)
         if (rows[k].was_active)
-          needed.push_back(partners[k]->face);
+          for_each(*partners[k], [&](const ContactPartner &one) { needed.push_back(one.face); });
       // Collective: also without active rows on this rank.
       const auto normal_derivatives = search.normal_derivatives(needed);
 
@@ -369,21 +427,40 @@ namespace Touchstone
           row.derivative.reset();
           if (!row.was_active)
             continue;
-          const Face                  &face     = *partners[k]->face;
-          const FaceGeometry           geometry = search.geometry(face);
-          const PointwiseRowDerivative derivative(geometry, *partners[k], row.gap_vector);
-          // On an edge of the face a weight is zero but its derivative is not: the node belongs to
-          // the stencil for the derivative.
-          for (unsigned int m = 0; m < face.n_nodes(); ++m)
-            if (std::abs(derivative.weight(m)) <= Tolerances::negligible_weight &&
-                derivative.weight_changes(m))
-              row.stencil.push_back({face.nodes[m], 0.});
-          const auto of_normals = normal_derivatives.find(&face);
-          row.derivative =
-            derivative.compute(row.slave,
-                               row.stencil,
-                               of_normals == normal_derivatives.end() ? nullptr
-                                                                      : &of_normals->second);
+          const double                      part = 1. / (1. + partners[k]->others.size());
+          const Point<dim>                  x    = input.slave->position(nodes[k], u);
+          Tensor<1, dim>                    mean;
+          std::list<FaceGeometry>           geometries;
+          std::list<PointwiseRowDerivative> derivatives;
+          for_each(*partners[k], [&](const ContactPartner &one) {
+            mean += part * one.normal;
+            geometries.push_back(search.geometry(*one.face));
+            derivatives.emplace_back(geometries.back(), one, x - one.x);
+            // On an edge of the face a weight is zero but its derivative is not: the node belongs
+            // to the stencil for the derivative.
+            for (unsigned int m = 0; m < one.face->n_nodes(); ++m)
+              if (const Index node = one.face->nodes[m];
+                  derivatives.back().weight_changes(m) &&
+                  std::none_of(row.stencil.begin(), row.stencil.end(), [node](const auto &entry) {
+                    return entry.node == node;
+                  }))
+                row.stencil.push_back({node, 0.});
+          });
+          RowDerivativeBuilder builder(row.stencil.size());
+          auto                 derivative = derivatives.begin();
+          for_each(*partners[k], [&](const ContactPartner &one) {
+            const auto of_normals = normal_derivatives.find(one.face);
+            (derivative++)
+              ->compute(row.slave,
+                        row.stencil,
+                        part,
+                        of_normals == normal_derivatives.end() ? nullptr : &of_normals->second,
+                        builder);
+          });
+          if (part < 1.)
+            for (Tensor<2, dim> &normal : builder.result->normal)
+              normal = normalisation_derivative(mean) * normal;
+          row.derivative = builder.result;
         }
     }
   } // namespace

@@ -3,6 +3,7 @@
 #include <touchstone/contact/search/search.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -53,6 +54,10 @@ namespace Touchstone
         // that has just slid over the edge is not assigned to the face it came from.
         const double edge = Tolerances::on_edge * diagonal(face);
         const double tie  = Tolerances::equal_squares * square + edge * edge;
+        if (square < best_square - tie)
+          n_equal = 0;
+        if (square < best_square + tie && n_equal < equal.size())
+          equal[n_equal++] = candidate;
         if (square < best_square - tie ||
             (best.face && square < best_square + tie && face.key < best.face->key))
           {
@@ -88,8 +93,33 @@ namespace Touchstone
         return box_square > best_square && std::sqrt(box_square) > std::sqrt(best_square) + margin;
       }
 
-      FaceProjection
+      ClosestFaces
       result(const FaceExchange &exchange) const
+      {
+        ClosestFaces result;
+        result.best = choice(exchange);
+        if (result.best.face != best.face)
+          return result;
+        for (std::size_t i = 0; i < n_equal; ++i)
+          {
+            const double edge = Tolerances::on_edge * diagonal(*equal[i].face);
+            if (equal[i].face != best.face &&
+                equal[i].projection.distance_squared <
+                  best_square * (1. + Tolerances::equal_squares) + edge * edge)
+              result.equal.push_back(equal[i]);
+          }
+        std::sort(result.equal.begin(),
+                  result.equal.end(),
+                  [](const FaceProjection &a, const FaceProjection &b) {
+                    return a.face->key < b.face->key;
+                  });
+        return result;
+      }
+
+    private:
+      /** The best one, or the present one. */
+      FaceProjection
+      choice(const FaceExchange &exchange) const
       {
         // Between two faces that meet in a sharp edge a node in contact stays with the
         // present one: it would alternate between both otherwise. Within a smooth surface the
@@ -108,11 +138,13 @@ namespace Touchstone
                  : best;
       }
 
-    private:
       const SlavePoint &point;
       double            best_square, margin = 0.;
       double            farthest = std::numeric_limits<double>::max();
       FaceProjection    best, of_present_face;
+      /** Those as close as the best one; more than eight faces do not meet. */
+      std::array<FaceProjection, 8> equal;
+      std::size_t                   n_equal = 0;
     };
   } // namespace
 
@@ -164,7 +196,7 @@ namespace Touchstone
 
 
 
-  FaceProjection
+  ClosestFaces
   Search::closest(const SlavePoint &point) const
   {
     if (const auto found = closest_near_guess(point))
@@ -198,7 +230,7 @@ namespace Touchstone
   // The distance of any face bounds how far the closest one can be, so all that may be it are
   // within a small box. They are taken in the same order as without a guess, up to one that
   // excludes the rest: the result is the same whatever the guess was.
-  std::optional<FaceProjection>
+  std::optional<ClosestFaces>
   Search::closest_near_guess(const SlavePoint &point) const
   {
     if (!point.present_face)
@@ -273,11 +305,19 @@ namespace Touchstone
              candidate.projection.beyond_outer <=
                (point.in_contact ? Tolerances::edge_hysteresis : 1.) * tolerance;
     };
-    const FaceProjection found = closest(point);
+    const ClosestFaces    faces = closest(point);
+    const FaceProjection &found = faces.best;
     last_distance = found.face != nullptr ? std::sqrt(found.projection.distance_squared) : reach;
     std::optional<ContactPartner> result;
     if (on_surface(found))
-      result = partner(point, found);
+      {
+        result = partner(point, found);
+        for (const FaceProjection &equal : faces.equal)
+          if (const ContactPartner other = partner(point, equal);
+              on_surface(equal) && result->wedge == 0 && other.wedge == 0 &&
+              other.normal * result->normal > Tolerances::sharp_edge_cosine)
+            result->others.push_back(other);
+      }
     if (!received.swept())
       return result;
     // Nothing that is farther away than anything has moved has been passed, and back faces do not

@@ -193,6 +193,11 @@ namespace Touchstone
       return 0.;
     }
 
+    /** @brief Force that the round-off of such positions makes of gaps with the stiffness of the
+     * bodies: smaller forces are none. Of the active rows of this rank, squared. */
+    double
+    round_off_of_gaps_squared(const ContactRows &rows, double length) const;
+
     void
     commit() override;
     void

@@ -22,6 +22,17 @@ namespace Touchstone
     /** 1 or -1 in the wedge over a sharp edge, where the normal is this times the
      * direction from the contact point; 0 elsewhere. */
     int wedge = 0;
+    /** The same points on other faces that are as close up to round-off, in ascending order of
+     * their keys: a node on an edge belongs to all faces that meet there. Empty in the wedge, and
+     * without faces beyond a sharp edge. */
+    std::vector<ContactPartner> others;
+  };
+
+  /** @brief The closest face of a point, and others that are as close up to round-off. */
+  struct ClosestFaces
+  {
+    FaceProjection              best;
+    std::vector<FaceProjection> equal;
   };
 
   /**
@@ -147,11 +158,11 @@ namespace Touchstone
     mutable std::vector<std::pair<double, std::size_t>> boxes;
 
     /** The closest face within reach, or the present one if that is as close. */
-    FaceProjection
+    ClosestFaces
     closest(const SlavePoint &point) const;
     /** The same by means of the present face, whether in contact or not: nothing if it is not known
      * here or too far away. */
-    std::optional<FaceProjection>
+    std::optional<ClosestFaces>
     closest_near_guess(const SlavePoint &point) const;
     ContactPartner
     partner(const SlavePoint &point, const FaceProjection &candidate) const;

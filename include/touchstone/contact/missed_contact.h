@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_missed_contact_h
+#define touchstone_contact_missed_contact_h
+
+#include <touchstone/contact/contact.h>
+
+#include <vector>
+
+namespace Touchstone
+{
+  class MeasuredFace;
+
+  /**
+   * @brief Looks in a state of balance for places where the other surface of a pair lies within
+   * slave faces none of whose nodes carries a force: contact that passes between the slave nodes.
+   *
+   * Other than UnresolvedContact, which ends a run where bodies overlap by so much that the result
+   * cannot be right, it tells of any overlap that surfaces in contact do not have, also with small
+   * sliding and where an initial overlap has been adjusted. See doc/theory.md 4.1.
+   */
+  class MissedContact
+  {
+  public:
+    /** @brief Where the overlap is deepest. */
+    struct Place
+    {
+      /** Zero if there is none; length. */
+      double             depth = 0.;
+      dealii::Point<dim> x;
+      /** Of the slave face; length. */
+      double size = 0.;
+      /** Of all slave faces with an overlap that is more than facets may be off. */
+      double area = 0.;
+    };
+
+    /** @param forces Normal contact forces of the pair on its slave nodes, with the ghosts
+     *                of the slave surface.
+     * Collective. */
+    MissedContact(const Contact &contact, const ContactPair &pair, const Vector &forces);
+
+    /** @brief Whether no node of the pair carries a force. Collective. */
+    bool
+    carries_nothing() const;
+
+    /** @brief The deepest overlap, the same on all ranks and any number of them. Collective. */
+    Place
+    deepest() const;
+
+  private:
+    const Contact     &contact;
+    const ContactPair &pair;
+    const Vector      &forces;
+    /** The largest initial overlap of a row that does not count now; length. */
+    double adjusted = 0.;
+
+    /** A point of one surface within the other. */
+    struct Overlap
+    {
+      Place place;
+      /** Body that it lies in, and the point moved to where it is between straight edges. */
+      unsigned int       body = 0;
+      dealii::Point<dim> inside;
+      /** Whether it must be looked for there: a point of the surface is part of the body. */
+      bool in_doubt = true;
+    };
+
+    bool
+    carries_nothing(const Face &face) const;
+    /** The part of an overlap in the reference state that does not count now. */
+    double
+    part_adjusted() const;
+    /** A face in its present position, also with small sliding, whose surfaces are not moved. */
+    Face
+    present(const Face &face) const;
+    /** Idle slave faces of this rank. */
+    std::vector<Face>
+    idle_faces() const;
+    /** Master faces of any rank that are near the boxes of faces of this rank. Collective. */
+    std::vector<Face>
+    master_faces(const std::vector<Face> &slaves) const;
+    /** The deepest overlap of each idle face with the master. */
+    std::vector<Overlap>
+    within_faces(const std::vector<Face> &slaves, const std::vector<Face> &masters) const;
+    /** Take the deepest point of one face within another, if it is deeper than @p worst. */
+    void
+    add_points(const MeasuredFace &of,
+               const MeasuredFace &in,
+               const Face         &slave,
+               Overlap            &worst) const;
+    /** The deepest point of an obstacle in each idle face, and behind it. */
+    std::vector<Overlap>
+    obstacle_within(const std::vector<Face> &slaves) const;
+    /** Those that lie within the cells of the bodies; the deepest of them. Collective. */
+    Place
+    deepest_of(const std::vector<Overlap> &found) const;
+  };
+} // namespace Touchstone
+
+#endif

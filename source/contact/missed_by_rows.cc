@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+// What the rows of each pair have missed, in words: between the slave nodes, and bodies that have
+// passed so far into each other that faces do not tell of it.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    text(const ContactPairParameters &pair, const MissedContact::Place &place)
+    {
+      char of[20], at[80];
+      std::snprintf(of, sizeof(of), "%.3g", place.depth);
+      // Components that are only round-off are zero.
+      double r[dim];
+      for (unsigned int d = 0; d < dim; ++d)
+        r[d] = std::abs(place.x[d]) > 1e-4 * place.x.norm() ? place.x[d] : 0.;
+      std::snprintf(at, sizeof(at), "(%.3g, %.3g, %.3g)", r[0], r[1], r[2]);
+      const bool obstacle = !pair.obstacle.empty();
+      return "contact pair '" + pair.name +
+             "': " + (obstacle ? "the obstacle '" + pair.obstacle : "'" + pair.master_body) +
+             "' reaches " + of + " into '" + pair.slave_body + "' at " + at +
+             ", between slave nodes that touch nothing. Rows of slave nodes cannot describe this "
+             "contact: refine the slave surface" +
+             (obstacle ? "" : ", or exchange slave and master");
+    }
+
+
+
+    /** Tributary area of the slave nodes that press. Collective. */
+    double
+    carrying_area(const Contact &contact, const ContactPair &pair)
+    {
+      double result = 0.;
+      for (const ContactRow &row : pair.rows())
+        if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
+          result += row.area;
+      return Utilities::MPI::sum(result, contact.communicator());
+    }
+
+
+
+    /** Add pairs without any force whose bodies have come to lie within each other so far that the
+     * faces which met do not tell of it. @param idle Such pairs, by the numbers of their bodies. */
+    void
+    add_overlapping_bodies(const Contact &contact,
+                           const std::map<std::pair<unsigned int, unsigned int>, std::string> &idle,
+                           std::map<std::string, MissedByRows> &result)
+    {
+      const auto            &solid = contact.solid_model();
+      std::set<unsigned int> bodies;
+      for (const auto &[both, pair] : idle)
+        bodies.insert({both.first, both.second});
+      for (const BodyOverlap &overlap :
+           overlapping_bodies(contact, contact.ghosted_displacement(), bodies))
+        {
+          const auto pair = idle.find(std::minmax(overlap.body, overlap.other));
+          if (pair == idle.end())
+            continue;
+          // What has been so from the start is as the scene has it.
+          const Vector zero   = contact.with_ghosts(Vector(solid.owned, solid.communicator));
+          const auto   before = overlapping_bodies(contact, zero, bodies);
+          if (std::any_of(before.begin(), before.end(), [&](const BodyOverlap &other) {
+                return std::minmax(other.body, other.other) ==
+                       std::minmax(overlap.body, overlap.other);
+              }))
+            continue;
+          result[pair->second] = {"contact pair '" + pair->second + "' carries nothing, but " +
+                                    overlap.place(solid) +
+                                    ". Refine the slave surface, exchange slave and master, or "
+                                    "take smaller steps",
+                                  true,
+                                  1.};
+        }
+    }
+  } // namespace
+
+
+
+  std::map<std::string, MissedByRows>
+  missed_contact(const Contact &contact)
+  {
+    std::map<std::string, MissedByRows>                          result;
+    std::map<std::pair<unsigned int, unsigned int>, std::string> idle;
+    std::set<std::pair<unsigned int, unsigned int>>              carried;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        const ContactPair &pair = contact.pair(p);
+        // Points of a body always lie within itself.
+        if (pair.tied() || pair.slave_body() == pair.master_body())
+          continue;
+        const Vector                                forces = normal_forces(contact, pair);
+        const MissedContact                         missed(contact, pair, forces);
+        const bool                                  nothing = missed.carries_nothing();
+        const std::pair<unsigned int, unsigned int> bodies =
+          std::minmax({pair.slave_body(), pair.master_body()});
+        if (!nothing)
+          carried.insert(bodies);
+        else if (pair.master())
+          idle.emplace(bodies, pair.parameters().name);
+        // Surfaces that slide farther than small sliding knows may overlap anywhere; but a pair
+        // without any force has missed what it is for.
+        if (pair.small_sliding() && !nothing)
+          continue;
+        if (const MissedContact::Place place = missed.deepest(); place.depth > 0.)
+          result[pair.parameters().name] = {
+            text(pair.parameters(), place),
+            place.depth > Tolerances::deep_smooth_node * place.size,
+            nothing ? 1. : place.area / (place.area + carrying_area(contact, pair))};
+      }
+    for (const auto &bodies : carried)
+      idle.erase(bodies);
+    if (!idle.empty())
+      add_overlapping_bodies(contact, idle, result);
+    return result;
+  }
+} // namespace Touchstone

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/geometry/face_area.h>
+#include <touchstone/contact/geometry/measured_face.h>
+#include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+// Contact that passes between the slave nodes: rows exist at these alone, and Newton's method finds
+// nothing wrong with a state in which the bodies overlap elsewhere (doc/theory.md 4.1).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Box = BoundingBox<dim>;
+    using Xi  = MeasuredFace::Xi;
+  } // namespace
+
+
+
+  MissedContact::MissedContact(const Contact     &contact,
+                               const ContactPair &pair,
+                               const Vector      &forces)
+    : contact(contact)
+    , pair(pair)
+    , forces(forces)
+  {
+    for (std::size_t k = 0; k < pair.rows().size(); ++k)
+      adjusted = std::max(adjusted, -pair.overlap(k));
+    adjusted = part_adjusted() * Utilities::MPI::max(adjusted, contact.communicator());
+  }
+
+
+
+  bool
+  MissedContact::carries_nothing() const
+  {
+    // Forces on hanging nodes are on those that they follow, so owned nodes have all of the force.
+    int carries = 0;
+    for (const SurfaceNode &node : pair.slave().owned_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        carries = std::max(carries, static_cast<int>(forces(dim * node.node + d) != 0.));
+    return Utilities::MPI::max(carries, contact.communicator()) == 0;
+  }
+
+
+
+  bool
+  MissedContact::carries_nothing(const Face &face) const
+  {
+    // A hanging node has no row; the force is on the nodes that it follows.
+    const TraceBasis *basis = pair.slave().trace(face);
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (forces(dim * (basis ? basis->nodes[m] : face.nodes[m]) + d) != 0.)
+          return false;
+    return true;
+  }
+
+
+
+  double
+  MissedContact::part_adjusted() const
+  {
+    return pair.parameters().initial_overlap == ContactPairParameters::Overlap::interference
+             ? 0.
+             : pair.part_of_overlap(contact.time());
+  }
+
+
+
+  Face
+  MissedContact::present(const Face &face) const
+  {
+    Face result = face;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.displacement[m][d] = contact.ghosted_displacement()(dim * face.nodes[m] + d);
+    return result;
+  }
+
+
+
+  std::vector<Face>
+  MissedContact::idle_faces() const
+  {
+    std::vector<Face> result;
+    for (const Face &face : pair.slave().owned_faces())
+      // Where a node of the face carries a force, its row resists the overlap already.
+      if (carries_nothing(face))
+        result.push_back(present(face));
+    return result;
+  }
+
+
+
+  std::vector<Face>
+  MissedContact::master_faces(const std::vector<Face> &slaves) const
+  {
+    Box own;
+    for (std::size_t k = 0; k < slaves.size(); ++k)
+      if (const Box box =
+            MeasuredFace::box_around(slaves[k], MeasuredFace(slaves[k], nullptr).size());
+          k == 0)
+        own = box;
+      else
+        own.merge_with(box);
+    const MPI_Comm         communicator = contact.communicator();
+    const std::vector<Box> boxes        = Utilities::MPI::all_gather(communicator, own);
+    const std::vector<int> any =
+      Utilities::MPI::all_gather(communicator, static_cast<int>(!slaves.empty()));
+    std::map<unsigned int, std::vector<Face>> messages;
+    for (const Face &face : pair.master()->owned_faces())
+      {
+        const Face now = present(face);
+        const Box  box = MeasuredFace::box_around(now, 0.);
+        for (unsigned int rank = 0; rank < boxes.size(); ++rank)
+          if (any[rank] && boxes[rank].get_neighbor_type(box) != NeighborType::not_neighbors)
+            messages[rank].push_back(now);
+      }
+    std::vector<Face> result;
+    for (const auto &[rank, faces] : exchange_records(messages, communicator))
+      result.insert(result.end(), faces.begin(), faces.end());
+    return result;
+  }
+
+
+
+  void
+  MissedContact::add_points(const MeasuredFace &of,
+                            const MeasuredFace &in,
+                            const Face         &slave,
+                            Overlap            &worst) const
+  {
+    const double size  = worst.place.size,
+                 least = Tolerances::touching * size + of.sagitta() + in.sagitta();
+    for (const double a : MeasuredFace::samples)
+      for (const double b : MeasuredFace::samples)
+        {
+          const Xi        xi    = {{a, b}};
+          const FacePoint point = evaluate(of.face, of.exact, xi);
+          if (!in.meets(point.normal()))
+            continue;
+          Xi         foot;
+          const auto depth = in.depth(point.x, least, foot);
+          // Deeper points belong to another side of the body, or contact_checks finds the bodies
+          // within each other.
+          if (!depth || *depth > size)
+            continue;
+          double counts = *depth;
+          if (const double part = part_adjusted(); part > 0.)
+            {
+              const Face before = MeasuredFace::in_reference(of.face),
+                         there  = MeasuredFace::in_reference(in.face);
+              Xi unused;
+              // None if the point has slid here from another face: then what rows have at most.
+              const auto start =
+                MeasuredFace(there, in.exact).depth(evaluate(before, of.exact, xi).x, 0., unused);
+              counts -= std::max(adjusted, part * start.value_or(0.));
+            }
+          // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
+          const double sure = Tolerances::touching * size + of.facet_error() + in.facet_error();
+          const double area = counts > sure ? face_area(slave) : worst.place.area;
+          if (counts > std::max(least, worst.place.depth))
+            worst = {{counts, point.x, size, area},
+                     in.face.body,
+                     point.x + in.to_straight_edges(foot),
+                     true};
+        }
+  }
+
+
+
+  std::vector<MissedContact::Overlap>
+  MissedContact::within_faces(const std::vector<Face> &slaves,
+                              const std::vector<Face> &masters) const
+  {
+    std::vector<std::pair<Box, std::size_t>> boxes;
+    for (std::size_t i = 0; i < masters.size(); ++i)
+      boxes.emplace_back(MeasuredFace::box_around(masters[i], 0.), i);
+    const auto           tree = pack_rtree(boxes);
+    std::vector<Overlap> result;
+    for (const Face &face : slaves)
+      {
+        const MeasuredFace slave(face, pair.slave().exact_surface(face));
+        Overlap            worst;
+        worst.place.size = slave.size();
+        const Box box    = MeasuredFace::box_around(face, worst.place.size);
+        namespace query  = boost::geometry::index;
+        for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
+          {
+            const Face        &other = masters[entry.second];
+            const MeasuredFace master(other, pair.master()->exact_surface(other));
+            // Both ways: a ridge between master nodes has none of them within.
+            add_points(master, slave, face, worst);
+            add_points(slave, master, face, worst);
+          }
+        if (worst.place.depth > 0.)
+          result.push_back(worst);
+      }
+    return result;
+  }
+
+
+
+  MissedContact::Place
+  MissedContact::deepest_of(const std::vector<Overlap> &found) const
+  {
+    // Nothing on any rank, the normal case: no cells need be gathered in trees.
+    if (Utilities::MPI::max(found.size(), contact.communicator()) == 0)
+      return {};
+    std::vector<Overlap> all;
+    for (const auto &part : gather_records(found, contact.communicator()))
+      all.insert(all.end(), part.begin(), part.end());
+    double deepest = 0.;
+    for (const Overlap &overlap : all)
+      deepest = std::max(deepest, overlap.place.depth);
+    // Rounded: of points that are equally deep the first, whatever round-off makes of them.
+    const double unit = 1e-4 * deepest;
+    const auto   key  = [unit](const Place &p) {
+      return std::make_tuple(-std::round(p.depth / unit),
+                             std::round(p.x[0] / unit),
+                             std::round(p.x[1] / unit),
+                             std::round(p.x[2] / unit));
+    };
+    std::sort(all.begin(), all.end(), [&](const Overlap &a, const Overlap &b) {
+      return key(a.place) < key(b.place);
+    });
+    // The cells around a point may belong to any rank.
+    std::map<unsigned int, DeformedCells> cells;
+    for (const Overlap &overlap : all)
+      cells.try_emplace(overlap.body,
+                        contact.solid_model(),
+                        overlap.body,
+                        contact.ghosted_displacement());
+    std::vector<int> inside;
+    for (const Overlap &overlap : all)
+      inside.push_back(!overlap.in_doubt || cells.at(overlap.body).contain(overlap.inside));
+    Utilities::MPI::max(inside, contact.communicator(), inside);
+    Place result;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (inside[k] == 1)
+        {
+          const double area = result.area + all[k].place.area;
+          if (result.depth == 0.)
+            result = all[k].place;
+          result.area = area;
+        }
+    return result;
+  }
+
+
+
+  MissedContact::Place
+  MissedContact::deepest() const
+  {
+    const std::vector<Face> slaves = idle_faces();
+    return deepest_of(pair.master() ? within_faces(slaves, master_faces(slaves))
+                                    : obstacle_within(slaves));
+  }
+} // namespace Touchstone

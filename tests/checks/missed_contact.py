@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Contact that passes between slave nodes: no exit code 0 for a pair that carries nothing, on any
+number of ranks, in any formulation, whenever in the run; a warning where a part is missed; nothing
+where rows carry all of it."""
+# ctest: goldens = press_fit_non_matching_faceted
+# ctest: label = quick
+
+from touchstone_test import check, finish, folder, golden, run, tests
+
+SCHEME = "Time integration/Scheme"
+DOWN = "Body rib/Boundary top/Displacement z"
+PAIR = "Contact pair c/"
+RIB = f"""
+set Bodies = low, rib
+set Contact pairs = c
+subsection Body low
+  set Fixed = bottom
+  subsection Geometry
+    set Type = box
+    set Lower corner = -1, -1, -1
+    set Upper corner = 1, 1, 0
+    set Cells = 3, 3, 2
+  end
+  subsection Material
+    set Young modulus = 1000
+    set Density = 1e-3
+  end
+end
+subsection Body rib
+  set Boundary conditions = top
+  subsection Boundary top
+    set Displacement x = 0
+    set Displacement y = 0
+    set Displacement z = -0.012 * t
+  end
+  subsection Geometry
+    set Type = box
+    set Lower corner = -0.1, -1.5, 0
+    set Upper corner = 0.1, 1.5, 0.4
+    set Cells = 1, 8, 2
+  end
+  subsection Material
+    set Young modulus = 1000
+    set Density = 1e-3
+  end
+end
+subsection Contact pair c
+  set Slave body = low
+  set Slave boundaries = top
+  set Master body = rib
+  set Master boundaries = bottom
+  set Pairing = pointwise
+end
+subsection Load stepping
+  set End time = 1
+  set Steps = 4
+end
+"""
+
+
+def reasons(result):
+    """What the run says of contact that rows have missed."""
+    texts = result.summary.get("warnings", []) + [result.summary.get("failure") or ""]
+    return [text for text in texts if "between slave nodes that touch nothing" in text]
+
+
+(folder / "rib.prm").write_text(RIB, encoding="utf-8")
+one = run("one", "rib.prm", fails=True)
+check(len(reasons(one)) == 2, f"a warning and a failure: {reasons(one)}")
+two = run("two", "rib.prm", ranks=2, fails=True)
+check(reasons(two) == reasons(one), f"two ranks say something else: {reasons(two)}")
+
+# Small sliding, whose surfaces are not moved; an initial overlap that is adjusted, here none; and
+# explicit dynamics.
+for name, settings in {
+        "small": {PAIR + "Sliding": "small"},
+        "adjust": {PAIR + "Initial overlap": "adjust"},
+        "explicit": {SCHEME: "central_differences"}}.items():
+    result = run(name, "rib.prm", settings, fails=True)
+    check(reasons(result), f"{name}: nothing is said: {result.summary.get('failure')}")
+
+# Pressed and released: at the end nothing overlaps, but there has never been a force.
+released = run("released", "rib.prm", {DOWN: "-0.012 * sin(pi * t)"}, fails=True)
+check("in the whole run" in released.summary["failure"], f"released: {released.summary['failure']}")
+
+# So far in one step that no face tells of it: the cells do.
+through = run("through", "rib.prm", {DOWN: "-0.9 * t", "Load stepping/Steps": 1,
+                                     "Load stepping/Maximum cuts": 0}, fails=True)
+check("reaches" in through.summary["failure"], f"through: {through.summary['failure']}")
+
+# Turned, the rib meets one node at the middle and passes between others: not much of it is seen.
+turned = run("turned", "rib.prm", {"Body rib/Geometry/Lower corner": "-0.45, -1.75, 0",
+                                   "Body rib/Geometry/Upper corner": "-0.25, 1.25, 0.4",
+                                   "Body rib/Geometry/Rotation": "0, 0, -17"}, fails=True)
+check("% of the faces" in turned.summary["failure"] and turned.contact("c", "active") == 1,
+      f"turned: {turned.summary['failure']}")
+
+# Facets that are off by as much as they overlap are told of; the run has a result.
+faceted = golden("press_fit_non_matching_faceted")
+check(len(reasons(faceted)) == 1, f"faceted: {faceted.summary['warnings']}")
+
+# Rows that carry it have missed nothing: the mean over faces sees the rib, and so do fine faces.
+for name, settings in {"averaged": {PAIR + "Pairing": "averaged"},
+                       "fine": {"Body low/Geometry/Cells": "20, 3, 2"},
+                       "exchanged": {PAIR + "Slave body": "rib", PAIR + "Slave boundaries": "bottom",
+                                     PAIR + "Master body": "low",
+                                     PAIR + "Master boundaries": "top"}}.items():
+    result = run(name, "rib.prm", settings)
+    check(not result.summary["warnings"], f"{name}: {result.summary['warnings']}")
+
+# Before it touches: nothing.
+apart = run("apart", tests / "refused/small_obstacle_in_face.prm", {"Load stepping/End time": 0.04})
+check(not apart.summary["warnings"], f"apart: {apart.summary['warnings']}")
+finish()
