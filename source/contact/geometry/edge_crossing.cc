@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-// Contact of two sharp edges, which no row can describe (doc/theory.md 4.1): collects the convex
-// edges of a surface and tests pairs of them for their common perpendicular. UnresolvedContact
+// Contact of two sharp edges (doc/theory.md 4.2): collects the convex edges of a surface and tests
+// pairs of them for their common perpendicular. EdgePairing makes rows of them, UnresolvedContact
 // reports those that have passed through each other.
 namespace Touchstone
 {
@@ -20,9 +20,11 @@ namespace Touchstone
      * `own`: the face is one of those whose edges are wanted. */
     struct Side
     {
-      Point<dim>     a, b, centre;
-      Tensor<1, dim> normal;
-      bool           outer, own;
+      Point<dim>           a, b, centre;
+      std::array<Index, 2> nodes;
+      std::uint64_t        key;
+      Tensor<1, dim>       normal;
+      bool                 outer, own;
     };
 
     /** Unit vector in the tangent plane of the face, perpendicular to the edge, away from the face.
@@ -74,6 +76,8 @@ namespace Touchstone
                 {face.position(i),
                  face.position(j),
                  middle.x,
+                 {{face.nodes[i], face.nodes[j]}},
+                 face.key,
                  middle.normal(),
                  (face.outer_edges >> e & 1u) != 0,
                  list == &own});
@@ -89,7 +93,7 @@ namespace Touchstone
         // Where the surface ends the body may go on at any angle: the second normal lies in the
         // tangent plane of the face, which admits all directions up to a right angle.
         if (list.size() == 1 && one.outer)
-          result.push_back({one.a, one.b, {{one.normal, outward(one)}}});
+          result.push_back({one.a, one.b, one.nodes, one.key, {{one.normal, outward(one)}}});
         if (list.size() == 2)
           {
             const Side &two = list.back();
@@ -97,7 +101,8 @@ namespace Touchstone
             // from outside.
             const bool convex = (two.centre - one.a) * one.normal < 0.;
             if (convex && one.normal * two.normal < Tolerances::touching_edge_cosine)
-              result.push_back({one.a, one.b, {{one.normal, two.normal}}});
+              result.push_back(
+                {one.a, one.b, one.nodes, std::min(one.key, two.key), {{one.normal, two.normal}}});
           }
       }
     return result;
@@ -106,7 +111,7 @@ namespace Touchstone
 
 
   std::optional<EdgeCrossing>
-  edge_crossing(const SharpEdge &first, const SharpEdge &second)
+  edge_crossing(const SharpEdge &first, const SharpEdge &second, const double slack)
   {
     const Tensor<1, dim> d = first.b - first.a, e = second.b - second.a,
                          offset = second.a - first.a;
@@ -121,7 +126,6 @@ namespace Touchstone
     const double s = cross_product_3d(offset, e) * n / square,
                  t = cross_product_3d(offset, d) * n / square;
     // Where the end of an edge touches the other edge, round-off must not lose the crossing.
-    constexpr double slack = Tolerances::edge_end;
     if (std::min(s, t) < -slack || std::max(s, t) > 1. + slack)
       return {};
     n /= n.norm();
@@ -135,6 +139,6 @@ namespace Touchstone
     // normals of either edge.
     if (!between_normals(second, n) || !between_normals(first, -1. * n))
       return {};
-    return EdgeCrossing{x, y, depth};
+    return EdgeCrossing{x, y, s, t, n, depth};
   }
 } // namespace Touchstone

@@ -4,6 +4,7 @@
 #define touchstone_contact_geometry_edge_crossing_h
 
 #include <touchstone/contact/geometry/face.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <optional>
 #include <vector>
@@ -15,6 +16,10 @@ namespace Touchstone
   struct SharpEdge
   {
     dealii::Point<dim> a, b;
+    /** The nodes there. */
+    std::array<Index, 2> nodes;
+    /** The least of the keys of the faces that meet in it. */
+    std::uint64_t key;
     /** Unit outward normals on both sides of the edge. Where the surface ends, the second
      * points away from it within its tangent plane: the side of the body beyond the edge is
      * unknown and may have any normal between both. */
@@ -33,6 +38,10 @@ namespace Touchstone
   {
     /** The feet of the common perpendicular, on the first and on the second edge. */
     dealii::Point<dim> first, second;
+    /** Their distances from the ends a, as fractions of the edges. */
+    double along_first, along_second;
+    /** Unit vector along the perpendicular, outward from the second edge. */
+    dealii::Tensor<1, dim> normal;
     /** Distance of these, length; negative if the edges have not passed through each other. */
     double depth;
   };
@@ -41,11 +50,15 @@ namespace Touchstone
    * @brief Where two edges touch, or have passed through each other: their common perpendicular
    * meets both between their ends and lies between the normals of each.
    *
+   * @param slack By how much it may pass their ends, as a fraction of the edge.
+   *
    * Where it lies within 15 degrees of one of the normals it is a face that touches, which
    * rows of nodes and faces describe.
    */
   std::optional<EdgeCrossing>
-  edge_crossing(const SharpEdge &first, const SharpEdge &second);
+  edge_crossing(const SharpEdge &first,
+                const SharpEdge &second,
+                double           slack = Tolerances::edge_end);
 } // namespace Touchstone
 
 #endif
