@@ -39,7 +39,7 @@ namespace Touchstone
 
     /** Whether @p n, perpendicular to the edge, lies between the normals of its sides. */
     bool
-    between_normals(const SharpEdge &edge, const Tensor<1, dim> &n)
+    between_normals(const SharpEdge &edge, const Tensor<1, dim> &n, const double along)
     {
       const auto angle = [](const Tensor<1, dim> &x, const Tensor<1, dim> &y) {
         return std::acos(std::clamp(x * y, -1., 1.));
@@ -48,8 +48,7 @@ namespace Touchstone
       // In between, both angles add up to the angle of the edge if the direction lies in the plane
       // of the normals; a direction outside that plane has a larger sum.
       const auto &m = edge.normals;
-      return n * m[0] < Tolerances::along_normal_cosine &&
-             n * m[1] < Tolerances::along_normal_cosine &&
+      return n * m[0] < along && n * m[1] < along &&
              angle(n, m[0]) + angle(n, m[1]) < angle(m[0], m[1]) + Tolerances::out_of_plane;
     }
   } // namespace
@@ -57,7 +56,7 @@ namespace Touchstone
 
 
   std::vector<SharpEdge>
-  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others)
+  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others, const double cosine)
   {
     std::map<std::pair<Index, Index>, std::vector<Side>> sides;
     for (const auto *list : {&own, &others})
@@ -100,7 +99,7 @@ namespace Touchstone
             // The centre of the neighbour lies below the face. A concave edge cannot be touched
             // from outside.
             const bool convex = (two.centre - one.a) * one.normal < 0.;
-            if (convex && one.normal * two.normal < Tolerances::touching_edge_cosine)
+            if (convex && one.normal * two.normal < cosine)
               result.push_back(
                 {one.a, one.b, one.nodes, std::min(one.key, two.key), {{one.normal, two.normal}}});
           }
@@ -111,7 +110,10 @@ namespace Touchstone
 
 
   std::optional<EdgeCrossing>
-  edge_crossing(const SharpEdge &first, const SharpEdge &second, const double slack)
+  edge_crossing(const SharpEdge &first,
+                const SharpEdge &second,
+                const double     slack,
+                const double     along)
   {
     const Tensor<1, dim> d = first.b - first.a, e = second.b - second.a,
                          offset = second.a - first.a;
@@ -137,7 +139,7 @@ namespace Touchstone
     const double     depth = (y - x) * n;
     // The contact force is normal to both surfaces only if the perpendicular lies in the cone of
     // normals of either edge.
-    if (!between_normals(second, n) || !between_normals(first, -1. * n))
+    if (!between_normals(second, n, along) || !between_normals(first, -1. * n, along))
       return {};
     return EdgeCrossing{x, y, s, t, n, depth};
   }

@@ -29,7 +29,6 @@ namespace Touchstone
         , n(input.slave->owned_nodes().size())
         , present(n)
         , keys(n)
-        , active_at_start(n, false)
       {
         for (std::size_t k = 0; k < n; ++k)
           numbers[input.slave->owned_nodes()[k].node] = k;
@@ -85,9 +84,8 @@ namespace Touchstone
       std::vector<std::shared_ptr<const ContactBetweenNodes>> present;
       /** The keys of the edges and vertices of the master there. */
       std::vector<std::optional<std::uint64_t>> keys;
-      /** Whether each of these rows was active when the step began. */
-      std::vector<bool> active_at_start;
-      bool              step_begins = true;
+      /** No update has come since the step began. */
+      bool step_begins = true;
 
       /** Call a function of the other pairing for its rows, which are the first. */
       template <class Function>
@@ -124,17 +122,20 @@ namespace Touchstone
     EdgePairing::update(const Vector &u, const double time, std::vector<ContactRow> &rows)
     {
       for_nodes(rows, [&](std::vector<ContactRow> &first) { of_nodes->update(u, time, first); });
-      for (std::size_t k = 0; k < n && step_begins; ++k)
-        active_at_start[k] = rows[n + k].was_active;
-      step_begins = false;
-
+      if (step_begins)
+        {
+          std::vector<std::pair<Index, std::uint64_t>> in_contact;
+          for (std::size_t k = 0; k < n; ++k)
+            if (rows[n + k].was_active && keys[k])
+              in_contact.emplace_back(rows[k].slave, *keys[k]);
+          search.hold(in_contact);
+          step_begins = false;
+        }
       std::vector<FoundBetweenNodes> found = search.find(u);
       found.erase(std::remove_if(found.begin(),
                                  found.end(),
-                                 [&](const FoundBetweenNodes &one) {
-                                   const auto k = numbers.find(one.nodes.front().first);
-                                   return one.before &&
-                                          !(k != numbers.end() && active_at_start[k->second]);
+                                 [](const FoundBetweenNodes &one) {
+                                   return one.before && !one.held;
                                  }),
                   found.end());
       drop_covered(rows, found);
@@ -160,20 +161,18 @@ namespace Touchstone
         if (rows[k].has_partner && rows[k].gap < Tolerances::touching * rows[k].size &&
             !oblique(rows[k]))
           touches(dim * rows[k].slave) = 1.;
-      for (std::size_t k = 0; k < n; ++k)
-        if (active_at_start[k])
-          touches(dim * rows[k].slave + 1) = 1.;
       touches.compress(VectorOperation::insert);
       const Vector ghosted = input.solid->ghosted(touches);
       found.erase(std::remove_if(found.begin(),
                                  found.end(),
                                  [&](const FoundBetweenNodes &one) {
-                                   return one.of_vertex &&
-                                          ghosted(dim * one.nodes.front().first + 1) == 0. &&
+                                   // The row of a node at the point is replaced.
+                                   return one.of_vertex && !one.held &&
                                           std::any_of(one.nodes.begin(),
                                                       one.nodes.end(),
                                                       [&](const auto &node) {
-                                                        return ghosted(dim * node.first) == 1.;
+                                                        return node.second < Tolerances::at_node &&
+                                                               ghosted(dim * node.first) == 1.;
                                                       });
                                  }),
                   found.end());

@@ -32,14 +32,34 @@ namespace Touchstone
       return Box(positions);
     }
 
-    /** Whether a node of a face of degree 1 lies on a sharp edge, or where the surface ends. */
-    bool
-    on_sharp_edge(const std::pair<const Face *, unsigned int> &corner)
+    /** A number that identifies a key, not zero, which a vector of displacements can carry. */
+    double
+    in_a_double(const std::uint64_t key)
     {
-      const auto &[face, m]    = corner;
-      const unsigned int edges = (m & 1u ? 2u : 1u) | (m & 2u ? 8u : 4u);
-      return face->own_normals[m] * face->edge_normals[m] < Tolerances::sharp_node_cosine ||
-             (face->outer_edges & edges) != 0;
+      return 1. + ((key ^ (key >> 11)) & ((std::uint64_t(1) << 52) - 1));
+    }
+
+    /** Whether a node of faces of degree 1 lies on a sharp edge of the body as it was made, or
+     * where the surface ends. What presses on it flattens it. @param corners Faces around it, and
+     * its number there. */
+    bool
+    on_sharp_edge(const std::vector<std::pair<const Face *, unsigned int>> &corners)
+    {
+      std::vector<Tensor<1, dim>> normals;
+      Tensor<1, dim>              mean;
+      for (const auto &[face, m] : corners)
+        {
+          const unsigned int edges = (m & 1u ? 2u : 1u) | (m & 2u ? 8u : 4u);
+          if ((face->outer_edges & edges) != 0)
+            return true;
+          const double sign = (m == 0 || m == 3) ? 1. : -1.;
+          normals.push_back(sign * cross_product_3d(face->reference[m ^ 1u] - face->reference[m],
+                                                    face->reference[m ^ 2u] - face->reference[m]));
+          mean += normals.back();
+        }
+      return std::any_of(normals.begin(), normals.end(), [&](const Tensor<1, dim> &normal) {
+        return normal * mean < Tolerances::sharp_node_cosine * normal.norm() * mean.norm();
+      });
     }
 
     /** Along the first of two lines, from a to b as 0 to 1, the foot of their common perpendicular,
@@ -138,8 +158,29 @@ namespace Touchstone
 
 
 
+  void
+  EdgeSearch::hold(const std::vector<std::pair<Index, std::uint64_t>> &keys)
+  {
+    Vector owned_part(solid.owned, solid.communicator);
+    for (const auto &[node, key] : keys)
+      owned_part(dim * node) = in_a_double(key);
+    owned_part.compress(VectorOperation::insert);
+    held = solid.ghosted(owned_part);
+  }
+
+
+
+  bool
+  EdgeSearch::is_held(const Index node, const std::uint64_t key) const
+  {
+    return held.size() > 0 && held(dim * node) == in_a_double(key);
+  }
+
+
+
   unsigned int
   EdgeSearch::node_of_row(const std::vector<Index>  &nodes,
+                          const std::uint64_t        key,
                           const std::vector<double> &weights,
                           const std::vector<double> &before) const
   {
@@ -162,7 +203,10 @@ namespace Touchstone
         }
       return result;
     };
-    const unsigned int chosen = largest(before);
+    unsigned int chosen = largest(before);
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      if (is_held(nodes[k], key))
+        chosen = k;
     return chosen == numbers::invalid_unsigned_int || weights[chosen] > Tolerances::least_share
              ? chosen
              : largest(weights);
@@ -176,7 +220,7 @@ namespace Touchstone
     std::vector<EdgeOfLine>
     lines_of_edges(const std::vector<Face> &faces)
     {
-      const std::vector<SharpEdge>                edges = sharp_edges(faces, {});
+      const std::vector<SharpEdge> edges = sharp_edges(faces, {}, Tolerances::along_normal_cosine);
       std::unordered_multimap<Index, std::size_t> at_nodes;
       for (std::size_t i = 0; i < edges.size(); ++i)
         for (const Index node : edges[i].nodes)
@@ -251,22 +295,29 @@ namespace Touchstone
                            std::vector<FoundBetweenNodes> &found) const
   {
     const SharpEdge &edge = line.edge, &other = other_line.edge;
-    const auto       crossing = edge_crossing(edge, other, Tolerances::beyond_bend);
+    const bool       held = is_held(edge.nodes[0], other.key) || is_held(edge.nodes[1], other.key);
+    // Edges in contact may be pressed flat.
+    const auto crossing = edge_crossing(edge,
+                                        other,
+                                        Tolerances::beyond_bend,
+                                        held ? 1. : Tolerances::along_normal_cosine);
     if (!crossing)
       return;
     const Point<dim>   x[2] = {start.at(edge.nodes[0]), start.at(edge.nodes[1])};
     const Point<dim>   y[2] = {start.at(other.nodes[0]), start.at(other.nodes[1])};
     const double       a = crossing->along_first, b = crossing->along_second;
     const double       a_before = foot(x, y, a);
-    const unsigned int end =
-      node_of_row({edge.nodes[0], edge.nodes[1]}, {1. - a, a}, {1. - a_before, a_before});
+    const unsigned int end      = node_of_row({edge.nodes[0], edge.nodes[1]},
+                                         other.key,
+                                         {1. - a, a},
+                                         {1. - a_before, a_before});
     if (end == numbers::invalid_unsigned_int)
       return;
     FoundBetweenNodes result;
     result.contact      = std::make_shared<EdgeContact>(line, other_line, *crossing, end);
     result.nodes        = {{edge.nodes[end], end == 0 ? 1. - a : a},
                            {edge.nodes[1 - end], end == 0 ? a : 1. - a}};
-    result.of_vertex    = false;
+    result.held         = held;
     const double length = edge.a.distance(edge.b), length_other = other.a.distance(other.b);
     result.beyond =
       2. * (std::max({0., -a, a - 1.}) * length + std::max({0., -b, b - 1.}) * length_other);
@@ -281,19 +332,25 @@ namespace Touchstone
 
 
   bool
-  EdgeSearch::touches_in(const Index vertex, const Tensor<1, dim> &normal) const
+  EdgeSearch::touches_in(const Index vertex, const Tensor<1, dim> &normal, const bool before) const
   {
     for (const auto &[face, m] : around.at(vertex))
       {
-        if (-1. * (face->own_normals[m] * normal) > Tolerances::along_normal_cosine)
-          return false;
         // The two neighbours along the edges of the face; nodes of faces of degree 1 are corners.
-        for (const unsigned int neighbour : {m ^ 1u, m ^ 2u})
+        Tensor<1, dim> edges[2];
+        for (unsigned int i = 0; i < 2; ++i)
           {
-            const Tensor<1, dim> edge = face->position(neighbour) - face->position(m);
-            if (edge * normal < -Tolerances::out_of_plane * edge.norm())
+            const unsigned int neighbour = m ^ (i + 1);
+            edges[i]                     = face->reference[neighbour] - face->reference[m] +
+                       (before ? face->committed[neighbour] - face->committed[m]
+                               : face->displacement[neighbour] - face->displacement[m]);
+            if (edges[i] * normal < -Tolerances::out_of_plane * edges[i].norm())
               return false;
           }
+        const double         sign    = (m == 0 || m == 3) ? 1. : -1.;
+        const Tensor<1, dim> outward = sign * cross_product_3d(edges[0], edges[1]);
+        if (-1. * (outward * normal) > Tolerances::along_normal_cosine * outward.norm())
+          return false;
       }
     return true;
   }
@@ -316,7 +373,7 @@ namespace Touchstone
     for (const auto &[vertex, corners] : around)
       {
         const auto &[face, m] = corners.front();
-        if (std::none_of(corners.begin(), corners.end(), on_sharp_edge))
+        if (!on_sharp_edge(corners))
           continue;
         near.clear();
         namespace query = boost::geometry::index;
@@ -357,8 +414,7 @@ namespace Touchstone
       }
     if (closest == nullptr || best.beyond_outer > Tolerances::in_wedge ||
         best.beyond_inner > Tolerances::beyond_bend ||
-        !owned({closest->nodes.begin(), closest->nodes.begin() + closest->n_nodes()}) ||
-        !touches_in(vertex, slave_exchange.geometry(*closest).normal(best.xi)))
+        !owned({closest->nodes.begin(), closest->nodes.begin() + closest->n_nodes()}))
       return;
     const FoundBetweenNodes result = vertex_in_face(vertex, *closest, best.xi);
     if (result.contact)
@@ -388,13 +444,19 @@ namespace Touchstone
         weights.push_back(shapes.value[m]);
         weights_before.push_back(before.value[m]);
       }
-    FoundBetweenNodes  result;
-    const unsigned int local = node_of_row(nodes, weights, weights_before);
-    if (local == numbers::invalid_unsigned_int)
-      return result;
     std::uint64_t key = other->key;
     for (const auto &entry : around.at(vertex))
       key = std::min(key, entry.first->key);
+    FoundBetweenNodes result;
+    result.held =
+      std::any_of(nodes.begin(), nodes.end(), [&](const Index node) { return is_held(node, key); });
+    // What is in contact may be pressed flat, at first or within the step.
+    if (!result.held && !touches_in(vertex, geometry.normal(xi), /*before=*/false) &&
+        !touches_in(vertex, of_start.normal(xi), /*before=*/true))
+      return result;
+    const unsigned int local = node_of_row(nodes, key, weights, weights_before);
+    if (local == numbers::invalid_unsigned_int)
+      return result;
 
     result.contact =
       std::make_shared<VertexContact>(vertex, key, other->position(number), geometry, xi, local);

@@ -29,9 +29,12 @@ namespace Touchstone
   /** @brief The sharp edges of the faces @p own, in their present positions. Two faces meet in
    * one if their normals differ by more than 30 degrees.
    * @param others Further faces of the surface, which may share edges with them; an edge
-   * whose other face is in neither is left out unless Face::outer_edges has it. */
+   * whose other face is in neither is left out unless Face::outer_edges has it.
+   * @param cosine Of the angle between the normals. */
   std::vector<SharpEdge>
-  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others);
+  sharp_edges(const std::vector<Face> &own,
+              const std::vector<Face> &others,
+              double                   cosine = Tolerances::touching_edge_cosine);
 
   /** @brief Two edges that can only touch each other. */
   struct EdgeCrossing
@@ -53,12 +56,13 @@ namespace Touchstone
    * @param slack By how much it may pass their ends, as a fraction of the edge.
    *
    * Where it lies within 15 degrees of one of the normals it is a face that touches, which
-   * rows of nodes and faces describe.
+   * rows of nodes and faces describe. @param along The cosine of that angle.
    */
   std::optional<EdgeCrossing>
   edge_crossing(const SharpEdge &first,
                 const SharpEdge &second,
-                double           slack = Tolerances::edge_end);
+                double           slack = Tolerances::edge_end,
+                double           along = Tolerances::along_normal_cosine);
 } // namespace Touchstone
 
 #endif

@@ -10,7 +10,7 @@ namespace Touchstone
 {
   /** @brief A vertex of the master that faces the inside of a slave face: the gap is measured to
    * its closest point there, along the normal of the slave surface, averaged at its nodes
-   * (doc/theory.md 4.2, equation (11b)). */
+   * (doc/theory.md 4.2, equation (31)). */
   class VertexContact : public ContactBetweenNodes
   {
   public:
