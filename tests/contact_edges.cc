@@ -10,14 +10,14 @@ using namespace dealii;
 
 namespace
 {
-  // The edge of the lower box runs along x, that of the upper one along y, 0.01 within it.
+  // The edge of the lower box runs along x, that of the upper one along y, 0.04 within it.
   const std::string edges =
     two_bodies("lower",
                "set Cells    = 4, 3, 2\n"
                "set Rotation = 45, 0, 0",
                "upper",
-               "set Lower corner = 0.03, -0.4, 2.11\n"
-               "set Upper corner = 1.03, 0.6, 3.11\n"
+               "set Lower corner = 0.03, -0.4, 2.08\n"
+               "set Upper corner = 1.03, 0.6, 3.08\n"
                "set Cells        = 4, 3, 2\n"
                "set Rotation     = 0, 45, 0",
                slave_and_master("upper", "bottom, right", "lower", "top, back"));

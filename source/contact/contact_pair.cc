@@ -103,8 +103,9 @@ namespace Touchstone
   ContactPair::find_edges() const
   {
     // An overlap of edges at the start is not measured, so that it cannot be taken out of gaps, and
-    // edges of degree 2 are curved.
-    if (!input.edges || !master_surface || small || input.solid.fe.degree > 1 ||
+    // edges of degree 2 are curved. Surfaces of one body share edges, which touch themselves.
+    if (!input.edges || !master_surface || small || input.slave_body == input.master_body ||
+        input.solid.fe.degree > 1 ||
         input.parameters.initial_overlap != ContactPairParameters::Overlap::interference)
       return false;
     const bool sharp =

@@ -44,7 +44,8 @@ slides = {f"{pair}/Behaviour": "coulomb", f"{pair}/Friction/Coefficient": 0.2,
           STEPS: 8}
 sliding = run("sliding", scene, slides)
 normal, tangential = sliding.force("crossing")[2], sliding.force("crossing")[1]
-print(f"sliding: {sliding.force('crossing')}")
+# But for the tilt of the edges, which the pull bends a little.
+below("coefficient of friction", relative(-tangential / normal, 0.2), 0.08)
 other = run("sliding_augmented", scene, {**slides, **AUGMENTED})
 below("friction with augmented Lagrange", max(relative(x, y) for x, y in zip(
     sliding.force("crossing")[1:], other.force("crossing")[1:])), 1e-5)

@@ -5,11 +5,48 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
+#include <map>
+
 // The row of two edges that cross: feet of their common perpendicular, weights, and the derivatives
 // of both (doc/theory.md 4.2).
 namespace Touchstone
 {
   using namespace dealii;
+
+  // That of the edge in its middle, and near its ends turning to that of the line there.
+  EdgeContact::Direction
+  EdgeContact::direction(const EdgeOfLine &line, const double at)
+  {
+    constexpr double        near = Tolerances::near_bend;
+    Direction               result;
+    std::map<Index, double> nodes;
+    const auto              add = [&](const EdgeTangent &part, const double factor) {
+      result.value.value += factor * part.value;
+      for (const auto &[node, coefficient] : part.nodes)
+        nodes[node] += factor * coefficient;
+    };
+    const EdgeTangent of_edge{line.edge.b - line.edge.a,
+                              {{line.edge.nodes[1], 1.}, {line.edge.nodes[0], -1.}}};
+    double            middle = 1.;
+    for (unsigned int end = 0; end < 2; ++end)
+      {
+        const double distance = (end == 0 ? at : 1. - at);
+        if (distance >= near)
+          continue;
+        // Beyond the end, by the slack of the search, it stays as it is there.
+        const double part = std::min(1., 1. - distance / near);
+        add(line.tangents[end], part);
+        middle -= part;
+        if (distance > 0.)
+          result.slope += (end == 0 ? -1. : 1.) / near * (line.tangents[end].value - of_edge.value);
+      }
+    add(of_edge, middle);
+    result.value.nodes.assign(nodes.begin(), nodes.end());
+    return result;
+  }
+
+
 
   EdgeContact::EdgeContact(const EdgeOfLine   &slave_edge,
                            const EdgeOfLine   &master_edge,
@@ -19,16 +56,15 @@ namespace Touchstone
     , slave(slave_edge.edge.nodes[end])
     , other(slave_edge.edge.nodes[1 - end])
     , master(master_edge.edge.nodes)
-    , slave_line({{slave_edge.tangents[end], slave_edge.tangents[1 - end]}})
-    , master_line(master_edge.tangents)
+    , slave_line(direction(slave_edge, crossing.along_first))
+    , master_line(direction(master_edge, crossing.along_second))
     , e((end == 0 ? 1. : -1.) * (slave_edge.edge.b - slave_edge.edge.a))
     , f(master_edge.edge.b - master_edge.edge.a)
     , a(end == 0 ? crossing.along_first : 1. - crossing.along_first)
     , b(crossing.along_second)
     , distance(crossing.first - crossing.second)
-    , along_slave((1. - a) * slave_line[0].value + a * slave_line[1].value)
-    , along_master((1. - b) * master_line[0].value + b * master_line[1].value)
-    , normal(cross_product_3d(along_slave, along_master))
+    , normal(cross_product_3d(slave_line.value.value, master_line.value.value))
+    , orientation(end == 0 ? 1. : -1.)
   {
     normal *= (normal * crossing.normal > 0. ? 1. : -1.) / normal.norm();
   }
@@ -47,7 +83,7 @@ namespace Touchstone
 
   // The feet x_1 + a e and y_1 + b f are where d = x_1 + a e - y_1 - b f is perpendicular to both
   // edges: d.e = 0 and d.f = 0 give da and db. The normal is the direction of s x t, with the
-  // directions s and t of both lines, which are interpolated between the nodes.
+  // directions s and t of both lines, which turn near the nodes.
   std::shared_ptr<const RowDerivative>
   EdgeContact::differentiate(const std::vector<NormalDerivative> *) const
   {
@@ -60,14 +96,13 @@ namespace Touchstone
 
     const double         ee = e * e, ff = f * f, ef = e * f, det = ef * ef - ee * ff;
     const double         share  = 1. / (1. - a);
-    const Tensor<1, dim> across = cross_product_3d(along_slave, along_master);
+    const Tensor<1, dim> across = cross_product_3d(slave_line.value.value, master_line.value.value);
     const Tensor<2, dim> turn =
       (across * normal > 0. ? 1. : -1.) * normalisation_derivative(across);
-    const Tensor<2, dim> by_slave_line  = -1. * turn * cross_matrix(along_master),
-                         by_master_line = turn * cross_matrix(along_slave);
-    // With the feet the directions change from those at the first nodes to those at the others.
-    const Tensor<1, dim> by_a = by_slave_line * (slave_line[1].value - slave_line[0].value),
-                         by_b = by_master_line * (master_line[1].value - master_line[0].value);
+    const Tensor<2, dim> by_slave_line  = -1. * turn * cross_matrix(master_line.value.value),
+                         by_master_line = turn * cross_matrix(slave_line.value.value);
+    const Tensor<1, dim> by_a           = orientation * (by_slave_line * slave_line.slope),
+                         by_b           = by_master_line * master_line.slope;
     const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
     for (unsigned int k = 0; k < 4; ++k)
       {
@@ -84,15 +119,10 @@ namespace Touchstone
         result.weights[1][i] += share * (share * b * da + db);
         result.weights[2][i] -= share * share * da;
       }
-    for (unsigned int end = 0; end < 2; ++end)
-      {
-        for (const auto &[node, coefficient] : slave_line[end].nodes)
-          result.normal[builder.index(node)] +=
-            (end == 0 ? 1. - a : a) * coefficient * by_slave_line;
-        for (const auto &[node, coefficient] : master_line[end].nodes)
-          result.normal[builder.index(node)] +=
-            (end == 0 ? 1. - b : b) * coefficient * by_master_line;
-      }
+    for (const auto &[node, coefficient] : slave_line.value.nodes)
+      result.normal[builder.index(node)] += coefficient * by_slave_line;
+    for (const auto &[node, coefficient] : master_line.value.nodes)
+      result.normal[builder.index(node)] += coefficient * by_master_line;
     return builder.result;
   }
 } // namespace Touchstone

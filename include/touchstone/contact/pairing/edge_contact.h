@@ -31,9 +31,10 @@ namespace Touchstone
    * @brief A slave edge that crosses a master edge: the gap vector lies between the feet of their
    * common perpendicular (doc/theory.md 4.2, equation (30)).
    *
-   * The normal is perpendicular to both lines of edges, whose directions are interpolated between
-   * the nodes. That of the two edges alone would jump at each node: edges that are pressed against
-   * each other bend there, and the point of contact would have no place to rest.
+   * The normal is perpendicular to both lines of edges, whose directions turn near the nodes from
+   * that of one edge to that of the next. That of the two edges alone would jump at each node:
+   * edges that are pressed against each other bend there, and the point of contact would have no
+   * place to rest.
    */
   class EdgeContact : public ContactBetweenNodes
   {
@@ -68,16 +69,28 @@ namespace Touchstone
     /** The slave node of the row, the other one of the slave edge, and those of the master edge. */
     Index                slave, other;
     std::array<Index, 2> master;
-    /** Directions of both lines at these nodes. */
-    std::array<EdgeTangent, 2> slave_line, master_line;
+    /** A direction that turns along an edge. */
+    struct Direction
+    {
+      EdgeTangent value;
+      /** Its derivative by the fraction of the edge. */
+      dealii::Tensor<1, dim> slope;
+    };
+    /** At a fraction of an edge. */
+    static Direction
+    direction(const EdgeOfLine &line, double at);
+
+    /** Of both lines at the feet. The fraction of the slave edge counts from its node a on. */
+    Direction slave_line, master_line;
     /** Of the slave edge from the slave node on, and of the master edge. */
     dealii::Tensor<1, dim> e, f;
     /** Of the feet of the perpendicular, as fractions. */
     double a, b;
     /** From the foot on the master to that on the slave. */
     dealii::Tensor<1, dim> distance;
-    /** Directions of the lines at the feet, and the normal. */
-    dealii::Tensor<1, dim> along_slave, along_master, normal;
+    dealii::Tensor<1, dim> normal;
+    /** 1 if the slave node is node a of its edge, else -1. */
+    double orientation;
   };
 } // namespace Touchstone
 
