@@ -10,27 +10,27 @@ using namespace dealii;
 
 namespace
 {
-  // The edge of the lower box runs along x, that of the upper one along y, 0.04 within it.
+  // The edge of the lower box runs along x, that of the upper one along y, just above it.
   const std::string edges =
     two_bodies("lower",
                "set Cells    = 4, 3, 2\n"
                "set Rotation = 45, 0, 0",
                "upper",
-               "set Lower corner = 0.03, -0.4, 2.08\n"
-               "set Upper corner = 1.03, 0.6, 3.08\n"
+               "set Lower corner = 0.03, -0.4, 2.125\n"
+               "set Upper corner = 1.03, 0.6, 3.125\n"
                "set Cells        = 4, 3, 2\n"
                "set Rotation     = 0, 45, 0",
                slave_and_master("upper", "bottom, right", "lower", "top, back"));
 
-  // A corner of the upper box points down, 0.01 into the lower one.
+  // A corner of the upper box points down, just above the lower one.
   const std::string vertex =
     two_bodies("lower",
                "set Lower corner = -1, -1, -1\n"
                "set Upper corner = 1, 1, 0\n"
                "set Cells        = 5, 5, 2",
                "upper",
-               "set Lower corner = 0.05, 0.02, -0.01\n"
-               "set Upper corner = 1.05, 1.02, 0.99\n"
+               "set Lower corner = 0.05, 0.02, 0.005\n"
+               "set Upper corner = 1.05, 1.02, 1.005\n"
                "set Cells        = 2, 2, 2\n"
                "set Rotation     = 45, -35.2643896828, 0",
                slave_and_master("lower", "top", "upper", "bottom, left, front"));
@@ -101,7 +101,9 @@ namespace
   {
     PairOfScene              pair(text, {"Contact pair pair/Pairing=" + pairing});
     const Touchstone::Vector u =
-      pair.displacement([](const Point<dim> &x, unsigned int) { return 0.01 * scattered(x, 7); });
+      pair.displacement([](const Point<dim> &x, const unsigned int body) {
+        return 0.01 * scattered(x, 7) - 0.02 * body * Point<dim>::unit_vector(2);
+      });
     pair.update(u);
     // Only rows between nodes are looked at: the pairing of the nodes has tests of its own.
     unsigned int       between = 0, of_nodes = 0;

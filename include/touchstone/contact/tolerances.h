@@ -214,10 +214,6 @@ namespace Touchstone
      * that no crossing is lost between two perpendiculars. */
     constexpr double beyond_bend = 0.05;
 
-    /** By the length of an edge: closer to its end than this the direction of the line of edges comes
-     * to differ from that of the edge. */
-    constexpr double near_bend = 0.25;
-
     /** Cosine of the angle between edges that go on in each other at a node. */
     constexpr double edge_goes_on = 0.64;
 

@@ -5,44 +5,25 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
-#include <algorithm>
-#include <map>
-
 // The row of two edges that cross: feet of their common perpendicular, weights, and the derivatives
 // of both (doc/theory.md 4.2).
 namespace Touchstone
 {
   using namespace dealii;
 
-  // That of the edge in its middle, and near its ends turning to that of the line there.
   EdgeContact::Direction
   EdgeContact::direction(const EdgeOfLine &line, const double at)
   {
-    constexpr double        near = Tolerances::near_bend;
-    Direction               result;
-    std::map<Index, double> nodes;
-    const auto              add = [&](const EdgeTangent &part, const double factor) {
-      result.value.value += factor * part.value;
-      for (const auto &[node, coefficient] : part.nodes)
-        nodes[node] += factor * coefficient;
-    };
-    const EdgeTangent of_edge{line.edge.b - line.edge.a,
-                              {{line.edge.nodes[1], 1.}, {line.edge.nodes[0], -1.}}};
-    double            middle = 1.;
+    Direction result;
     for (unsigned int end = 0; end < 2; ++end)
       {
-        const double distance = (end == 0 ? at : 1. - at);
-        if (distance >= near)
-          continue;
-        // Beyond the end, by the slack of the search, it stays as it is there.
-        const double part = std::min(1., 1. - distance / near);
-        add(line.tangents[end], part);
-        middle -= part;
-        if (distance > 0.)
-          result.slope += (end == 0 ? -1. : 1.) / near * (line.tangents[end].value - of_edge.value);
+        const EdgeTangent &tangent = line.tangents[end];
+        const double       part    = (end == 0 ? 1. - at : at);
+        result.value.value += part * tangent.value;
+        result.slope += (end == 0 ? -1. : 1.) * tangent.value;
+        for (const auto &[node, coefficient] : tangent.nodes)
+          result.value.nodes.emplace_back(node, part * coefficient);
       }
-    add(of_edge, middle);
-    result.value.nodes.assign(nodes.begin(), nodes.end());
     return result;
   }
 
@@ -83,7 +64,7 @@ namespace Touchstone
 
   // The feet x_1 + a e and y_1 + b f are where d = x_1 + a e - y_1 - b f is perpendicular to both
   // edges: d.e = 0 and d.f = 0 give da and db. The normal is the direction of s x t, with the
-  // directions s and t of both lines, which turn near the nodes.
+  // directions s and t of both lines, which are interpolated between the nodes.
   std::shared_ptr<const RowDerivative>
   EdgeContact::differentiate(const std::vector<NormalDerivative> *) const
   {

@@ -31,8 +31,8 @@ namespace Touchstone
    * @brief A slave edge that crosses a master edge: the gap vector lies between the feet of their
    * common perpendicular (doc/theory.md 4.2, equation (30)).
    *
-   * The normal is perpendicular to both lines of edges, whose directions turn near the nodes from
-   * that of one edge to that of the next. That of the two edges alone would jump at each node:
+   * The normal is perpendicular to both lines of edges, whose directions are interpolated between
+   * the nodes. That of the two edges alone would jump at each node:
    * edges that are pressed against each other bend there, and the point of contact would have no
    * place to rest.
    */
