@@ -5,7 +5,7 @@
 #include <touchstone/contact/tolerances.h>
 
 // The pairing "pointwise": each slave node against the closest point of the master surface. It is
-// simple, but does not pass the patch test (doc/theory.md 3). Their derivatives are in
+// simple, but does not pass the patch test (doc/theory.md 3). Derivatives of the rows are in
 // pointwise_row_derivative.cc.
 namespace Touchstone
 {
