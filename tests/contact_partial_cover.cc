@@ -100,6 +100,9 @@ namespace
         std::vector<double> now;
         for (const ContactRow &row : pair.rows)
           {
+            // Those between nodes have no area.
+            if (row.between_nodes)
+              continue;
             const bool there = row.has_partner;
             // What a row contributes where it could bear: its gap is small.
             const double open = there ? (row.gap / row.share - true_gap) / row.size : 1e10;
@@ -171,7 +174,7 @@ namespace
           return Tensor<1, dim>({0., 0., body == 1 ? 0.005 - i * motion : 0.});
         }));
         for (const ContactRow &row : pair.rows)
-          if (row.reference.norm() < 1e-10)
+          if (row.reference.norm() < 1e-10 && !row.between_nodes)
             {
               if (i > 0)
                 steepest = std::max(steepest, std::abs(row.gap - before) / motion);

@@ -267,6 +267,9 @@ namespace Touchstone
     std::vector<Vector> result(n_fields * pairs.size(), Vector(solid.owned, solid.communicator));
     for (const ContactRow &present : all_rows)
       {
+        // Those between nodes have no area and hence no density: they are found anew.
+        if (present.between_nodes)
+          continue;
         const ContactRow &row = of_committed ? committed(present) : present;
         const RowState   &now = of_committed ? method->states().of_committed(row) : state(row);
         // Densities over the area: nodal forces cannot be interpolated between meshes
@@ -298,6 +301,8 @@ namespace Touchstone
   {
     for (const ContactRow &row : all_rows)
       {
+        if (row.between_nodes)
+          continue;
         const Vector *const field = &fields[n_fields * row.pair];
         Tensor<1, dim>      force;
         for (unsigned int d = 0; d < dim; ++d)

@@ -21,15 +21,28 @@ namespace Touchstone
   Vector
   normal_forces(const Contact &contact, const ContactPair &pair)
   {
-    const Solid &solid = contact.solid_model();
-    Vector       owned(solid.owned, solid.communicator);
+    const Solid        &solid = contact.solid_model();
+    Vector              owned(solid.owned, solid.communicator);
+    std::vector<Index>  dofs;
+    std::vector<double> values;
     for (const ContactRow &row : pair.rows())
       // Only compression: the cone of normals has no meaning for a small force in tension, which
       // the tolerance of the active set admits.
       if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
         for (unsigned int d = 0; d < dim; ++d)
-          owned(dim * row.slave + d) = state.lambda * row.normal[d];
-    owned.compress(VectorOperation::insert);
+          {
+            dofs.push_back(dim * row.slave + d);
+            values.push_back(state.lambda * row.normal[d]);
+            // A force between nodes is shared by those around it.
+            for (const StencilEntry &entry : row.stencil)
+              if (row.between_nodes && entry.weight < 0.)
+                {
+                  dofs.push_back(dim * entry.node + d);
+                  values.push_back(-entry.weight * state.lambda * row.normal[d]);
+                }
+          }
+    owned.add(dofs, values);
+    owned.compress(VectorOperation::add);
     return contact.with_ghosts(owned);
   }
 
@@ -135,11 +148,12 @@ namespace Touchstone
       {
         const ContactPair &pair   = contact.pair(p);
         double             lowest = std::numeric_limits<double>::max(), size = 0.;
-        unsigned int       partner = 0, overlapping = 0;
+        unsigned int       nodes = 0, partner = 0, overlapping = 0;
         for (std::size_t k = 0; k < pair.rows().size(); ++k)
           {
             const ContactRow &row = pair.rows()[k];
-            if (!row.has_partner)
+            nodes += !row.between_nodes;
+            if (!row.has_partner || row.between_nodes)
               continue;
             // The gap as the bodies are placed: before the treatment of initial overlaps, and of
             // the surfaces themselves, see ContactRow::share.
@@ -150,7 +164,7 @@ namespace Touchstone
             overlapping += (gap < -Tolerances::touches_at_start * row.size);
           }
         // Each node is the row of exactly one rank, so sums over ranks count no node twice.
-        const unsigned int total = Utilities::MPI::sum(pair.rows().size(), communicator);
+        const unsigned int total = Utilities::MPI::sum(nodes, communicator);
         lowest                   = Utilities::MPI::min(lowest, communicator);
         size                     = Utilities::MPI::max(size, communicator);
         partner                  = Utilities::MPI::sum(partner, communicator);

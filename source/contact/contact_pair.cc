@@ -2,6 +2,9 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/geometry/edge_crossing.h>
+
+#include <deal.II/base/mpi.h>
 
 // A contact pair: its surfaces, its pairing, and one row for each slave node (doc/theory.md 4). It
 // is the only writer of rows beside its pairing; see pair_update.cc.
@@ -32,23 +35,29 @@ namespace Touchstone
                                "' is slave and master at the same time",
                              "let different boundaries be slave and master");
       }
+    edges_meet     = find_edges();
     pairing_method = make_pairing(input.parameters.search_distance);
     // One row for each slave node that this rank owns; hanging nodes have none. The stiffness E A /
     // h is the complementarity constant c of doc/theory.md 5 and the scale of all springs.
-    for (const SurfaceNode &node : slave_surface->owned_nodes())
-      {
-        ContactRow row;
-        row.pair        = input.number;
-        row.slave       = node.node;
-        row.reference   = node.reference;
-        row.area        = node.area;
-        row.size        = node.size;
-        row.body        = input.slave_body;
-        row.master_body = input.master_body;
-        row.stiffness   = input.modulus * node.area / node.size;
-        row.tied        = is_tied;
-        present.push_back(row);
-      }
+    // Where edges can meet, a second one follows for what touches between the nodes.
+    for (const bool between_nodes : {false, true})
+      for (const SurfaceNode &node : slave_surface->owned_nodes())
+        {
+          if (between_nodes && !edges_meet)
+            break;
+          ContactRow row;
+          row.between_nodes = between_nodes;
+          row.pair          = input.number;
+          row.slave         = node.node;
+          row.reference     = node.reference;
+          row.area          = node.area;
+          row.size          = node.size;
+          row.body          = input.slave_body;
+          row.master_body   = input.master_body;
+          row.stiffness     = input.modulus * node.area / node.size;
+          row.tied          = is_tied;
+          present.push_back(row);
+        }
     overlaps.assign(present.size(), 0.);
     number_rows(0);
     committed = present;
@@ -77,12 +86,31 @@ namespace Touchstone
   std::shared_ptr<Pairing>
   ContactPair::make_pairing(const double search_distance) const
   {
-    return Touchstone::make_pairing({&input.parameters,
-                                     input.obstacle,
-                                     &input.solid,
-                                     slave_surface.get(),
-                                     master_surface.get(),
-                                     search_distance});
+    const PairingInput pairing{&input.parameters,
+                               input.obstacle,
+                               &input.solid,
+                               slave_surface.get(),
+                               master_surface.get(),
+                               search_distance};
+    const auto         of_nodes = Touchstone::make_pairing(pairing);
+    return edges_meet ? make_edge_pairing(pairing, of_nodes) : of_nodes;
+  }
+
+
+
+  // Collective.
+  bool
+  ContactPair::find_edges() const
+  {
+    // An overlap of edges at the start is not measured, so that it cannot be taken out of gaps, and
+    // edges of degree 2 are curved. Surfaces of one body share edges, which touch themselves.
+    if (!input.edges || !master_surface || small || input.slave_body == input.master_body ||
+        input.solid.fe.degree > 1 ||
+        input.parameters.initial_overlap != ContactPairParameters::Overlap::interference)
+      return false;
+    const bool sharp =
+      !sharp_edges(master_surface->owned_faces(), master_surface->neighbour_faces()).empty();
+    return Utilities::MPI::max(static_cast<int>(sharp), input.solid.communicator) == 1;
   }
 
 
@@ -120,7 +148,8 @@ namespace Touchstone
         row.law          = input.parameters.friction.get();
         if (const auto found = mirrors.find(present[k].slave); found != mirrors.end())
           row.mirrors = found->second;
-        row.material_tangents = tangents[k];
+        // Rows between nodes follow those of the nodes.
+        row.material_tangents = tangents[k % tangents.size()];
         row.small             = small;
         row.exact             = (contact.friction == ContactParameters::Stick::exact);
         // alpha_t = 10 E A / h times the factor of the scene, doc/theory.md 6.1.

@@ -20,36 +20,52 @@ namespace Touchstone
   // A row yields force, area and gap of its slave node; with neighbours in its stencil the force on
   // all slave nodes together is `share` times that, and so is the area. The pressure lambda / A
   // needs no conversion, for the share cancels.
+  namespace
+  {
+    ContactPoint
+    contact_point(const Contact &contact, const ContactRow &row, const Vector &u)
+    {
+      const RowState       &state = contact.state(row);
+      const Tensor<1, dim> &extra = contact.impulse_force(row);
+      ContactPoint          point;
+      point.pair               = row.pair;
+      point.node               = row.slave;
+      point.reference_position = row.reference;
+      for (unsigned int d = 0; d < dim; ++d)
+        point.displacement[d] = u(dim * row.slave + d);
+      point.normal = row.normal;
+      // A gap of the size of round-off is reported as zero, so that results compare.
+      point.gap  = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
+      point.area = row.area * row.share;
+      // Rows between nodes touch in a point: they have a force, but no pressure.
+      point.force = row.share * (state.force + extra);
+      if (!row.between_nodes)
+        {
+          point.pressure = (state.lambda + extra * row.normal) / row.area;
+          point.traction = (state.force + extra) / row.area;
+          point.force    = point.area * point.traction;
+        }
+      point.lever  = row.lever;
+      point.status = state.status;
+      if (row.friction)
+        {
+          point.slip          = row.friction->kinematics.slip;
+          point.slip_length   = row.friction->history.slip_length;
+          point.friction_work = row.friction->history.work;
+        }
+      return point;
+    }
+  } // namespace
+
+
+
   std::vector<ContactPoint>
   contact_points(const Contact &contact, const Vector &u)
   {
     std::vector<ContactPoint> result;
     for (const ContactRow &row : contact.rows())
-      {
-        const RowState       &state = contact.state(row);
-        const Tensor<1, dim> &extra = contact.impulse_force(row);
-        ContactPoint          point;
-        point.pair               = row.pair;
-        point.node               = row.slave;
-        point.reference_position = row.reference;
-        for (unsigned int d = 0; d < dim; ++d)
-          point.displacement[d] = u(dim * row.slave + d);
-        point.normal = row.normal;
-        // A gap of the size of round-off is reported as zero, so that results compare.
-        point.gap      = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
-        point.area     = row.area * row.share;
-        point.pressure = (state.lambda + extra * row.normal) / row.area;
-        point.traction = (state.force + extra) / row.area;
-        point.lever    = row.lever;
-        point.status   = state.status;
-        if (row.friction)
-          {
-            point.slip          = row.friction->kinematics.slip;
-            point.slip_length   = row.friction->history.slip_length;
-            point.friction_work = row.friction->history.work;
-          }
-        result.push_back(point);
-      }
+      if (!row.between_nodes)
+        result.push_back(contact_point(contact, row, u));
     return result;
   }
 
@@ -92,10 +108,11 @@ namespace Touchstone
     };
     std::vector<PairResult> all(contact.n_pairs());
     std::vector<Sums>       sums(contact.n_pairs());
-    for (const ContactPoint &point : contact_points(contact, u))
+    for (const ContactRow &row : contact.rows())
       {
-        PairResult &result = all[point.pair];
-        Sums       &sum    = sums[point.pair];
+        const ContactPoint point  = contact_point(contact, row, u);
+        PairResult        &result = all[point.pair];
+        Sums              &sum    = sums[point.pair];
         // Before the test for contact: work that was done stays, also when the node has opened
         // since.
         sum.friction_work.add(point.friction_work);
@@ -103,7 +120,7 @@ namespace Touchstone
           result.max_penetration = std::max(result.max_penetration, -point.gap);
         if (point.status < ContactStatus::slip)
           continue;
-        const Tensor<1, dim> force = point.area * point.traction;
+        const Tensor<1, dim> &force = point.force;
         // About the origin, in the deformed state, at the point where the force acts: for rows with
         // neighbours that is not the node.
         const Tensor<1, dim> moment =
@@ -149,7 +166,8 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
-        sum.slave_rows += pair.rows().size();
+        for (const ContactRow &row : pair.rows())
+          sum.slave_rows += !row.between_nodes;
         if (pair.master())
           sum.master_faces += pair.master()->owned_faces().size();
         sum.search += pair.pairing().search_work();

@@ -9,35 +9,39 @@ namespace Touchstone
 {
   namespace
   {
-    /** A node can be the slave of several pairs. */
+    /** The number of a pair, and whether rows are those between nodes. */
+    using Kind = std::pair<unsigned int, bool>;
+
+    /** A node can be the slave of several pairs, and of two rows of a pair. */
     std::string
-    name_of_pair(const std::string &name, const unsigned int pair)
+    name_of_kind(const std::string &name, const Kind &kind)
     {
-      return name + " of pair " + std::to_string(pair);
+      return name + " of pair " + std::to_string(kind.first) +
+             (kind.second ? ", between nodes" : "");
     }
   } // namespace
 
 
 
-  // Records are stored by slave node and pair, so that they can be found by any other number of
-  // ranks.
+  // Records are stored by slave node, pair and kind, so that they can be found by any other number
+  // of ranks.
   void
   save_rows(ArchiveWriter                                              &archive,
             const std::string                                          &name,
             const ContactRows                                          &rows,
             const std::function<void(const ContactRow &, RowPacker &)> &pack)
   {
-    std::map<unsigned int, std::vector<NodeRecord>> records;
+    std::map<Kind, std::vector<NodeRecord>> records;
     for (const ContactRow &row : rows)
       {
-        std::vector<NodeRecord> &list = records[row.pair];
+        std::vector<NodeRecord> &list = records[{row.pair, row.between_nodes}];
         list.emplace_back();
         list.back().node = row.slave;
         RowPacker packer(list.back());
         pack(row, packer);
       }
-    for (const auto &[pair, list] : records)
-      archive.put_nodes(name_of_pair(name, pair), list);
+    for (const auto &[kind, list] : records)
+      archive.put_nodes(name_of_kind(name, kind), list);
   }
 
 
@@ -50,7 +54,7 @@ namespace Touchstone
   {
     for (const ContactRow &row : rows)
       {
-        const auto &records = archive.nodes(name_of_pair(name, row.pair));
+        const auto &records = archive.nodes(name_of_kind(name, {row.pair, row.between_nodes}));
         const auto  found   = records.find(row.slave);
         if (found == records.end())
           throw ArchiveError("a contact row is missing (" + name + ")");

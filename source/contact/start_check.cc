@@ -169,7 +169,7 @@ namespace Touchstone
     // can be lost.
     std::set<Index> nodes;
     for (const ContactRow &row : rows)
-      if (!row.has_partner)
+      if (!row.has_partner && !row.between_nodes)
         nodes.insert(row.slave);
     std::vector<Place> alone, masters;
     for (const Face &face : slave.owned_faces())

@@ -20,6 +20,8 @@ namespace Touchstone
     // Young's modulus of the softer body scales contact forces: c = E A/h, doc/theory.md 5.
     input.modulus  = scene.bodies[input.slave_body].material.young_modulus;
     input.end_time = scene.load_stepping.end_time;
+    // Explicit steps know of edges by their own search, see GeneralContact.
+    input.edges = !scene.time_integration.runs_in_cycles();
     for (const ObstacleParameters &obstacle : scene.obstacles)
       if (obstacle.name == parameters.obstacle)
         input.obstacle = &obstacle;

@@ -35,6 +35,8 @@ namespace Touchstone
     double modulus = 1.;
     /** Time at which an initial overlap that grows ("ramp") has reached its full size. */
     double end_time = 1.;
+    /** Edges and vertices that touch between nodes get rows of their own. */
+    bool edges = true;
   };
 
   /**
@@ -202,8 +204,10 @@ namespace Touchstone
     }
 
   private:
-    const ContactPairInput   input;
-    const bool               is_tied, small;
+    const ContactPairInput input;
+    const bool             is_tied, small;
+    /** There are rows for what touches between nodes. */
+    bool                     edges_meet = false;
     std::unique_ptr<Surface> slave_surface, master_surface;
     std::shared_ptr<Pairing> pairing_method;
     std::vector<ContactRow>  present, committed;
@@ -223,6 +227,8 @@ namespace Touchstone
                  const std::string              &key) const;
     std::shared_ptr<Pairing>
     make_pairing(double search_distance) const;
+    bool
+    find_edges() const;
     void
     search(const Vector &u);
     /** After the first search: make a deeper one if the bodies overlap more than it

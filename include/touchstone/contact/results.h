@@ -30,9 +30,11 @@ namespace Touchstone
      * aggregation has added to this node (doc/theory.md 3.1). */
     double area;
     /** Normal force divided by this area. */
-    double pressure;
+    double pressure = 0.;
     /** Contact force divided by this area. */
     dealii::Tensor<1, dim> traction;
+    /** Contact force. */
+    dealii::Tensor<1, dim> force;
     /** Point of action of the force, relative to the node; length. */
     dealii::Tensor<1, dim> lever;
     /** Tangential slip of the last step, length. */

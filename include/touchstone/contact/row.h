@@ -73,6 +73,11 @@ namespace Touchstone
     unsigned int body = 0, master_body = 0;
     /** Constrained in all components, in tension too. */
     bool tied = false;
+    /** What touches is not the slave node but a point between slave nodes: of an edge that crosses
+     * an edge of the master, or of a face in which a vertex of the master lies (doc/theory.md 4.2).
+     * Slave nodes may have such a row besides their own. The other nodes of the edge or face are in
+     * its stencil, with negative weights, and it has no area. */
+    bool between_nodes = false;
     /** Friction of the row, owned by Friction; null without friction. */
     const FrictionRow *friction = nullptr;
     /** @} */
@@ -91,7 +96,8 @@ namespace Touchstone
     bool has_partner = false;
     /** Master nodes and their weights; may be owned by any rank. Slave nodes of partly covered
      * faces whose basis functions are aggregated with that of this row are among them, with
-     * negative weights (doc/theory.md 3.1, equation (5)). The sum is one. */
+     * negative weights (doc/theory.md 3.1, equation (5)), and so are those of rows between nodes.
+     * The sum is one. */
     std::vector<StencilEntry> stencil;
     /** Set by Pairing::differentiate(), null while normal and stencil are taken
      * as constant. */

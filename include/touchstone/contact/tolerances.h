@@ -210,6 +210,20 @@ namespace Touchstone
     /** Angle, in radian, by which a perpendicular may lie outside the plane of two normals. */
     constexpr double out_of_plane = 0.1;
 
+    /** By the length of an edge: feet that far beyond its end count where edges bend at a node, so
+     * that no crossing is lost between two perpendiculars. */
+    constexpr double beyond_bend = 0.05;
+
+    /** Cosine of the angle between edges that go on in each other at a node. */
+    constexpr double edge_goes_on = 0.64;
+
+    /** By the weight of its slave node at the point where a row between nodes touches: with less
+     * the row goes to another node of the edge or face, even if it began the step with this one. */
+    constexpr double least_share = 0.2;
+
+    /** The same weight from which on the row between nodes stands for that of the node itself. */
+    constexpr double at_node = 0.9;
+
     /** By the length of an edge: feet of perpendiculars that lie beyond its end by round-off. */
     constexpr double edge_end = 1e-6;
   } // namespace Tolerances

@@ -145,7 +145,8 @@ namespace Touchstone
     order(const ContactRow &row)
     {
       const Point<dim> &x = row.reference;
-      return {static_cast<double>(row.pair), x[0], x[1], x[2]};
+      return {
+        static_cast<double>(row.pair), x[0], x[1], x[2], static_cast<double>(row.between_nodes)};
     }
 
 
@@ -173,8 +174,8 @@ namespace Touchstone
     std::uint64_t
     signature(const ContactRow &row, const ContactStatus status)
     {
-      std::uint64_t h =
-        (row.slave + 1) * 0x9E3779B97F4A7C15ull + 8 * row.pair + static_cast<std::uint64_t>(status);
+      std::uint64_t h = (row.slave + 1) * 0x9E3779B97F4A7C15ull + 8 * row.pair +
+                        4 * row.between_nodes + static_cast<std::uint64_t>(status);
       h ^= h >> 31;
       h *= 0xBF58476D1CE4E5B9ull;
       return h ^ (h >> 27);

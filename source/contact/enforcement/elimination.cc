@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/exact_enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
@@ -8,11 +9,13 @@
 #include <deal.II/base/mpi.h>
 
 #include <boost/serialization/utility.hpp>
+#include <map>
 #include <set>
 
 // Enforcement by elimination (doc/theory.md 6 and 6.3): conditions are condensed out of the system,
 // which stays positive definite without friction and fits any solver. Only rows whose condition
-// depends too much on other slave nodes keep multipliers, where the system is factorised anyway.
+// depends too much on other slave nodes, and rows between nodes, keep multipliers, where the system
+// is factorised anyway.
 namespace Touchstone
 {
   using namespace dealii;
@@ -40,8 +43,8 @@ namespace Touchstone
       ConstraintGraph::Treatment
       treatment(const ContactRow &row) const override
       {
-        return kept.count({row.pair, row.slave}) > 0 ? ConstraintGraph::Treatment::multiplier
-                                                     : ConstraintGraph::Treatment::eliminate;
+        return kept.count(row.index) > 0 ? ConstraintGraph::Treatment::multiplier
+                                         : ConstraintGraph::Treatment::eliminate;
       }
 
       void
@@ -51,19 +54,21 @@ namespace Touchstone
         // Stencils cross partitions, so all ranks must know all eliminated slave nodes, hence the
         // collective exchange; both sets are made anew for each system as rows open and close.
         kept.clear();
+        if (system.takes_multipliers)
+          for (const ContactRow &row : contact.rows())
+            if (row_states[row].active() && row.between_nodes)
+              kept.insert(row.index);
         eliminated = active_slaves(contact, communicator);
         if (system.takes_multipliers && !system.keep_symmetric)
           {
             for (const ContactRow &row : contact.rows())
               if (row_states[row].active() && row.friction && row.derivative &&
                   refers_to_others(row))
-                kept.insert({row.pair, row.slave});
-            for (const auto &of_rank : Utilities::MPI::all_gather(
-                   communicator,
-                   std::vector<std::pair<unsigned int, Index>>(kept.begin(), kept.end())))
-              for (const auto &slave : of_rank)
-                eliminated.erase(slave);
+                kept.insert(row.index);
+            eliminated = active_slaves(contact, communicator);
           }
+        if (!system.takes_multipliers)
+          check_order(contact, communicator);
         // Solvers for symmetric systems cannot take the direction n + L' tau of equation (22).
         if (system.keep_symmetric)
           for (const ContactRow &row : contact.rows())
@@ -76,7 +81,7 @@ namespace Touchstone
       void
       adjust(const ContactRow &row, Condition &condition) const override
       {
-        if (kept.count({row.pair, row.slave}) > 0)
+        if (kept.count(row.index) > 0)
           return;
         // The coefficients of other eliminated slave nodes are moved to the row's own node, so that
         // the sum over all nodes stays what it was and a common translation violates nothing.
@@ -109,9 +114,45 @@ namespace Touchstone
 
     private:
       using Slaves = std::set<std::pair<unsigned int, Index>>;
-      /** Pairs and slave nodes of rows whose conditions are eliminated, of all ranks, and of those
-       * whose forces are multipliers in the linear system, of this rank. */
-      Slaves eliminated, kept;
+      /** Pairs and slave nodes of rows whose conditions are eliminated, of all ranks. */
+      Slaves eliminated;
+      /** Indices of rows whose forces are multipliers in the linear system, of this rank. */
+      std::set<std::size_t> kept;
+
+      /** Forces of rows are found one after the other, the later ones from the earlier: rows
+       * between nodes that refer to each other's slave nodes have no such order. Collective.
+       * @throws UnresolvedContactFailure */
+      void
+      check_order(const Contact &contact, const MPI_Comm communicator) const
+      {
+        std::vector<std::pair<Index, Index>> mine;
+        for (const ContactRow &row : contact.rows())
+          if (row_states[row].active())
+            for (const StencilEntry &entry : row.stencil)
+              if (entry.weight < 0.)
+                mine.emplace_back(row.slave, entry.node);
+        std::multimap<Index, Index> refers;
+        for (const auto &of_rank : Utilities::MPI::all_gather(communicator, mine))
+          refers.insert(of_rank.begin(), of_rank.end());
+        // Nodes that refer to none are last in the order; what is left refers in a circle.
+        for (bool removed = true; removed;)
+          {
+            removed = false;
+            for (auto entry = refers.begin(); entry != refers.end();)
+              if (refers.count(entry->second) == 0)
+                {
+                  entry   = refers.erase(entry);
+                  removed = true;
+                }
+              else
+                ++entry;
+          }
+        if (!refers.empty())
+          throw UnresolvedContactFailure(
+            "edges or vertices touch the same slave edge or face in several points, whose slave "
+            "unknowns cannot all be eliminated by an iterative solver. Set 'Linear solver/Type = "
+            "MUMPS', or 'Contact/Enforcement' to 'augmented lagrange' or 'penalty'");
+      }
 
       /**
        * Whether the assumption of adjust() would neglect too large a part of a condition of the
@@ -137,15 +178,15 @@ namespace Touchstone
         return false;
       }
 
-      /** Pairs and slave nodes of all active rows, if any of this rank's rows has a
-       * derivative. Collective. */
+      /** Pairs and slave nodes of all active rows that are not kept, if any of this rank's rows has
+       * a derivative. Collective. */
       Slaves
       active_slaves(const Contact &contact, const MPI_Comm communicator) const
       {
         int                                         needed = 0;
         std::vector<std::pair<unsigned int, Index>> mine;
         for (const ContactRow &row : contact.rows())
-          if (row_states[row].active())
+          if (row_states[row].active() && kept.count(row.index) == 0)
             {
               mine.emplace_back(row.pair, row.slave);
               needed |= (row.derivative != nullptr);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <map>
 
-// Contact of two sharp edges, which no row can describe (doc/theory.md 4.1): collects the convex
-// edges of a surface and tests pairs of them for their common perpendicular. UnresolvedContact
+// Contact of two sharp edges (doc/theory.md 4.2): collects the convex edges of a surface and tests
+// pairs of them for their common perpendicular. EdgePairing makes rows of them, UnresolvedContact
 // reports those that have passed through each other.
 namespace Touchstone
 {
@@ -20,9 +20,11 @@ namespace Touchstone
      * `own`: the face is one of those whose edges are wanted. */
     struct Side
     {
-      Point<dim>     a, b, centre;
-      Tensor<1, dim> normal;
-      bool           outer, own;
+      Point<dim>           a, b, centre;
+      std::array<Index, 2> nodes;
+      std::uint64_t        key;
+      Tensor<1, dim>       normal;
+      bool                 outer, own;
     };
 
     /** Unit vector in the tangent plane of the face, perpendicular to the edge, away from the face.
@@ -37,7 +39,7 @@ namespace Touchstone
 
     /** Whether @p n, perpendicular to the edge, lies between the normals of its sides. */
     bool
-    between_normals(const SharpEdge &edge, const Tensor<1, dim> &n)
+    between_normals(const SharpEdge &edge, const Tensor<1, dim> &n, const double along)
     {
       const auto angle = [](const Tensor<1, dim> &x, const Tensor<1, dim> &y) {
         return std::acos(std::clamp(x * y, -1., 1.));
@@ -46,8 +48,7 @@ namespace Touchstone
       // In between, both angles add up to the angle of the edge if the direction lies in the plane
       // of the normals; a direction outside that plane has a larger sum.
       const auto &m = edge.normals;
-      return n * m[0] < Tolerances::along_normal_cosine &&
-             n * m[1] < Tolerances::along_normal_cosine &&
+      return n * m[0] < along && n * m[1] < along &&
              angle(n, m[0]) + angle(n, m[1]) < angle(m[0], m[1]) + Tolerances::out_of_plane;
     }
   } // namespace
@@ -55,7 +56,7 @@ namespace Touchstone
 
 
   std::vector<SharpEdge>
-  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others)
+  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others, const double cosine)
   {
     std::map<std::pair<Index, Index>, std::vector<Side>> sides;
     for (const auto *list : {&own, &others})
@@ -74,6 +75,8 @@ namespace Touchstone
                 {face.position(i),
                  face.position(j),
                  middle.x,
+                 {{face.nodes[i], face.nodes[j]}},
+                 face.key,
                  middle.normal(),
                  (face.outer_edges >> e & 1u) != 0,
                  list == &own});
@@ -89,15 +92,16 @@ namespace Touchstone
         // Where the surface ends the body may go on at any angle: the second normal lies in the
         // tangent plane of the face, which admits all directions up to a right angle.
         if (list.size() == 1 && one.outer)
-          result.push_back({one.a, one.b, {{one.normal, outward(one)}}});
+          result.push_back({one.a, one.b, one.nodes, one.key, {{one.normal, outward(one)}}});
         if (list.size() == 2)
           {
             const Side &two = list.back();
             // The centre of the neighbour lies below the face. A concave edge cannot be touched
             // from outside.
             const bool convex = (two.centre - one.a) * one.normal < 0.;
-            if (convex && one.normal * two.normal < Tolerances::touching_edge_cosine)
-              result.push_back({one.a, one.b, {{one.normal, two.normal}}});
+            if (convex && one.normal * two.normal < cosine)
+              result.push_back(
+                {one.a, one.b, one.nodes, std::min(one.key, two.key), {{one.normal, two.normal}}});
           }
       }
     return result;
@@ -106,7 +110,10 @@ namespace Touchstone
 
 
   std::optional<EdgeCrossing>
-  edge_crossing(const SharpEdge &first, const SharpEdge &second)
+  edge_crossing(const SharpEdge &first,
+                const SharpEdge &second,
+                const double     slack,
+                const double     along)
   {
     const Tensor<1, dim> d = first.b - first.a, e = second.b - second.a,
                          offset = second.a - first.a;
@@ -121,7 +128,6 @@ namespace Touchstone
     const double s = cross_product_3d(offset, e) * n / square,
                  t = cross_product_3d(offset, d) * n / square;
     // Where the end of an edge touches the other edge, round-off must not lose the crossing.
-    constexpr double slack = Tolerances::edge_end;
     if (std::min(s, t) < -slack || std::max(s, t) > 1. + slack)
       return {};
     n /= n.norm();
@@ -133,8 +139,8 @@ namespace Touchstone
     const double     depth = (y - x) * n;
     // The contact force is normal to both surfaces only if the perpendicular lies in the cone of
     // normals of either edge.
-    if (!between_normals(second, n) || !between_normals(first, -1. * n))
+    if (!between_normals(second, n, along) || !between_normals(first, -1. * n, along))
       return {};
-    return EdgeCrossing{x, y, depth};
+    return EdgeCrossing{x, y, s, t, n, depth};
   }
 } // namespace Touchstone

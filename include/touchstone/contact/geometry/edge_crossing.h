@@ -4,6 +4,7 @@
 #define touchstone_contact_geometry_edge_crossing_h
 
 #include <touchstone/contact/geometry/face.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <optional>
 #include <vector>
@@ -15,6 +16,10 @@ namespace Touchstone
   struct SharpEdge
   {
     dealii::Point<dim> a, b;
+    /** The nodes there. */
+    std::array<Index, 2> nodes;
+    /** The least of the keys of the faces that meet in it. */
+    std::uint64_t key;
     /** Unit outward normals on both sides of the edge. Where the surface ends, the second
      * points away from it within its tangent plane: the side of the body beyond the edge is
      * unknown and may have any normal between both. */
@@ -24,15 +29,22 @@ namespace Touchstone
   /** @brief The sharp edges of the faces @p own, in their present positions. Two faces meet in
    * one if their normals differ by more than 30 degrees.
    * @param others Further faces of the surface, which may share edges with them; an edge
-   * whose other face is in neither is left out unless Face::outer_edges has it. */
+   * whose other face is in neither is left out unless Face::outer_edges has it.
+   * @param cosine Of the angle between the normals. */
   std::vector<SharpEdge>
-  sharp_edges(const std::vector<Face> &own, const std::vector<Face> &others);
+  sharp_edges(const std::vector<Face> &own,
+              const std::vector<Face> &others,
+              double                   cosine = Tolerances::touching_edge_cosine);
 
   /** @brief Two edges that can only touch each other. */
   struct EdgeCrossing
   {
     /** The feet of the common perpendicular, on the first and on the second edge. */
     dealii::Point<dim> first, second;
+    /** Their distances from the ends a, as fractions of the edges. */
+    double along_first, along_second;
+    /** Unit vector along the perpendicular, outward from the second edge. */
+    dealii::Tensor<1, dim> normal;
     /** Distance of these, length; negative if the edges have not passed through each other. */
     double depth;
   };
@@ -41,11 +53,16 @@ namespace Touchstone
    * @brief Where two edges touch, or have passed through each other: their common perpendicular
    * meets both between their ends and lies between the normals of each.
    *
+   * @param slack By how much it may pass their ends, as a fraction of the edge.
+   *
    * Where it lies within 15 degrees of one of the normals it is a face that touches, which
-   * rows of nodes and faces describe.
+   * rows of nodes and faces describe. @param along The cosine of that angle.
    */
   std::optional<EdgeCrossing>
-  edge_crossing(const SharpEdge &first, const SharpEdge &second);
+  edge_crossing(const SharpEdge &first,
+                const SharpEdge &second,
+                double           slack = Tolerances::edge_end,
+                double           along = Tolerances::along_normal_cosine);
 } // namespace Touchstone
 
 #endif

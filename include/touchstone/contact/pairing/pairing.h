@@ -154,6 +154,11 @@ namespace Touchstone
   std::shared_ptr<Pairing>
   make_obstacle_pairing(const PairingInput &input);
 
+  /** @brief The pairing @p of_nodes, whose rows come first, with rows for what touches between
+   * slave nodes: one more for each node, in the same order. */
+  std::shared_ptr<Pairing>
+  make_edge_pairing(const PairingInput &input, const std::shared_ptr<Pairing> &of_nodes);
+
   /** @brief The pairing that the parameters choose, or that with the obstacle. */
   inline std::shared_ptr<Pairing>
   make_pairing(const PairingInput &input)

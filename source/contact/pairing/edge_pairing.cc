@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/contact/geometry/surface_cone.h>
+#include <touchstone/contact/pairing/edge_search.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <iterator>
+
+// Rows for what touches between slave nodes: edges that cross, and vertices of the master in slave
+// faces (doc/theory.md 4.2). They are added to those of another pairing, whichever that is. Where
+// such a row stands for the row of a node, which would push along one of the faces beside an edge,
+// the row of the node is taken away.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    class EdgePairing : public Pairing
+    {
+    public:
+      EdgePairing(const PairingInput &input, const std::shared_ptr<Pairing> &of_nodes)
+        : Pairing(input)
+        , of_nodes(of_nodes)
+        , search(input)
+        , n(input.slave->owned_nodes().size())
+        , present(n)
+        , keys(n)
+      {
+        for (std::size_t k = 0; k < n; ++k)
+          numbers[input.slave->owned_nodes()[k].node] = k;
+      }
+
+      void
+      commit_positions(const Vector &u) override
+      {
+        of_nodes->commit_positions(u);
+        search.commit(&u);
+        step_begins = true;
+      }
+
+      void
+      update(const Vector &u, double time, std::vector<ContactRow> &rows) override;
+
+      void
+      differentiate(const Vector &u, double time, std::vector<ContactRow> &rows) override;
+
+      PairingMemory
+      memory() const override
+      {
+        PairingMemory result = of_nodes->memory();
+        result.of_rows.resize(n);
+        result.of_rows.insert(result.of_rows.end(), keys.begin(), keys.end());
+        return result;
+      }
+
+      void
+      remember(const PairingMemory &memory) override
+      {
+        PairingMemory first = memory;
+        first.of_rows.resize(n);
+        of_nodes->remember(first);
+        keys.assign(memory.of_rows.begin() + n, memory.of_rows.end());
+      }
+
+      SearchWork
+      search_work() const override
+      {
+        SearchWork result = of_nodes->search_work();
+        result += search.work();
+        return result;
+      }
+
+    private:
+      const std::shared_ptr<Pairing> of_nodes;
+      EdgeSearch                     search;
+      /** Of slave nodes that this rank owns. */
+      const std::size_t                      n;
+      std::unordered_map<Index, std::size_t> numbers;
+      /** What each row between nodes describes since the last update. */
+      std::vector<std::shared_ptr<const ContactBetweenNodes>> present;
+      /** The keys of the edges and vertices of the master there. */
+      std::vector<std::optional<std::uint64_t>> keys;
+      /** No update has come since the step began. */
+      bool step_begins = true;
+
+      /** Call a function of the other pairing for its rows, which are the first. */
+      template <class Function>
+      void
+      for_nodes(std::vector<ContactRow> &rows, const Function &function) const
+      {
+        std::vector<ContactRow> first(std::make_move_iterator(rows.begin()),
+                                      std::make_move_iterator(rows.begin() + n));
+        function(first);
+        std::move(first.begin(), first.end(), rows.begin());
+      }
+
+      /** Whether the row of a node pushes along a direction that is not normal to the slave
+       * surface. */
+      bool
+      oblique(const ContactRow &row) const
+      {
+        return SurfaceCone(*input.slave, row.slave).distance(-1. * row.normal) >
+               Tolerances::oblique_sine;
+      }
+
+      void
+      drop_covered(const std::vector<ContactRow> &rows, std::vector<FoundBetweenNodes> &found);
+      void
+      choose(const std::vector<FoundBetweenNodes> &found, std::vector<ContactRow> &rows);
+      void
+      replace_rows_of_nodes(const std::vector<FoundBetweenNodes> &found,
+                            std::vector<ContactRow>              &rows) const;
+    };
+
+
+
+    void
+    EdgePairing::update(const Vector &u, const double time, std::vector<ContactRow> &rows)
+    {
+      for_nodes(rows, [&](std::vector<ContactRow> &first) { of_nodes->update(u, time, first); });
+      if (step_begins)
+        {
+          std::vector<std::pair<Index, std::uint64_t>> in_contact;
+          for (std::size_t k = 0; k < n; ++k)
+            if (rows[n + k].was_active && keys[k])
+              in_contact.emplace_back(rows[k].slave, *keys[k]);
+          search.hold(in_contact);
+          step_begins = false;
+        }
+      std::vector<FoundBetweenNodes> found = search.find(u);
+      found.erase(std::remove_if(found.begin(),
+                                 found.end(),
+                                 [](const FoundBetweenNodes &one) {
+                                   return one.before && !one.held;
+                                 }),
+                  found.end());
+      drop_covered(rows, found);
+      choose(found, rows);
+      replace_rows_of_nodes(found, rows);
+    }
+
+
+
+    // A vertex in a face one of whose nodes touches the master needs no row: those of the nodes
+    // hold the face already. Rows of nodes may belong to other ranks. Collective.
+    void
+    EdgePairing::drop_covered(const std::vector<ContactRow>  &rows,
+                              std::vector<FoundBetweenNodes> &found)
+    {
+      const bool any = std::any_of(found.begin(), found.end(), [](const FoundBetweenNodes &one) {
+        return one.of_vertex;
+      });
+      if (Utilities::MPI::max(static_cast<int>(any), input.solid->communicator) == 0)
+        return;
+      Vector touches(input.solid->owned, input.solid->communicator);
+      for (std::size_t k = 0; k < n; ++k)
+        if (rows[k].has_partner && rows[k].gap < Tolerances::touching * rows[k].size &&
+            !oblique(rows[k]))
+          touches(dim * rows[k].slave) = 1.;
+      touches.compress(VectorOperation::insert);
+      const Vector ghosted = input.solid->ghosted(touches);
+      found.erase(std::remove_if(found.begin(),
+                                 found.end(),
+                                 [&](const FoundBetweenNodes &one) {
+                                   // The row of a node at the point is replaced.
+                                   return one.of_vertex && !one.held &&
+                                          std::any_of(one.nodes.begin(),
+                                                      one.nodes.end(),
+                                                      [&](const auto &node) {
+                                                        return node.second < Tolerances::at_node &&
+                                                               ghosted(dim * node.first) == 1.;
+                                                      });
+                                 }),
+                  found.end());
+    }
+
+
+
+    // A node has one row between nodes: that of the smallest gap, but one in contact stays with
+    // what it touches unless another is closer by more than a tolerance.
+    void
+    EdgePairing::choose(const std::vector<FoundBetweenNodes> &found, std::vector<ContactRow> &rows)
+    {
+      std::vector<const FoundBetweenNodes *> best(n, nullptr);
+      const auto better = [&](const FoundBetweenNodes &a, const FoundBetweenNodes &b) {
+        const std::size_t k   = numbers.at(a.nodes.front().first);
+        const auto        gap = [&](const FoundBetweenNodes &one) {
+          const bool stays = rows[n + k].was_active && keys[k] == one.contact->master_key();
+          return one.contact->gap() + one.beyond -
+                 (stays ? Tolerances::keeps_face * rows[k].size : 0.);
+        };
+        // What is equally close up to round-off: two edges that go on from the same node.
+        return std::abs(gap(a) - gap(b)) > Tolerances::on_edge * rows[k].size ? gap(a) < gap(b)
+                                                                              : a.order < b.order;
+      };
+      for (const FoundBetweenNodes &one : found)
+        if (const auto k = numbers.find(one.nodes.front().first); k != numbers.end())
+          if (best[k->second] == nullptr || better(one, *best[k->second]))
+            best[k->second] = &one;
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          ContactRow &row = rows[n + k];
+          present[k].reset();
+          keys[k].reset();
+          row.has_partner = false;
+          row.stencil.clear();
+          row.gap   = 0.;
+          row.area  = 0.;
+          row.share = 1.;
+          row.lever = Tensor<1, dim>();
+          if (best[k] == nullptr)
+            continue;
+          present[k] = best[k]->contact;
+          keys[k]    = present[k]->master_key();
+          present[k]->set(row);
+        }
+    }
+
+
+
+    void
+    EdgePairing::replace_rows_of_nodes(const std::vector<FoundBetweenNodes> &found,
+                                       std::vector<ContactRow>              &rows) const
+    {
+      for (const FoundBetweenNodes &one : found)
+        for (const auto &[node, weight] : one.nodes)
+          {
+            const auto k = numbers.find(node);
+            if (k == numbers.end())
+              continue;
+            ContactRow &row = rows[k->second];
+            // Rows far away say nothing yet, and may come to touch something else.
+            if (!row.has_partner || row.gap > row.size || one.contact->gap() > row.size ||
+                !(weight > Tolerances::at_node || oblique(row)))
+              continue;
+            row.has_partner = false;
+            row.stencil.clear();
+            row.gap  = 0.;
+            row.away = 0.;
+          }
+    }
+
+
+
+    void
+    EdgePairing::differentiate(const Vector &u, const double time, std::vector<ContactRow> &rows)
+    {
+      for_nodes(rows,
+                [&](std::vector<ContactRow> &first) { of_nodes->differentiate(u, time, first); });
+      std::vector<const Face *> needed;
+      for (std::size_t k = 0; k < n; ++k)
+        if (rows[n + k].was_active && present[k] && present[k]->face())
+          needed.push_back(present[k]->face());
+      const auto of_normals = search.normal_derivatives(needed);
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          ContactRow &row = rows[n + k];
+          row.derivative.reset();
+          if (!row.was_active || !present[k])
+            continue;
+          const auto found = of_normals.find(present[k]->face());
+          row.derivative =
+            present[k]->differentiate(found == of_normals.end() ? nullptr : &found->second);
+        }
+    }
+  } // namespace
+
+
+
+  std::shared_ptr<Pairing>
+  make_edge_pairing(const PairingInput &input, const std::shared_ptr<Pairing> &of_nodes)
+  {
+    return std::make_shared<EdgePairing>(input, of_nodes);
+  }
+} // namespace Touchstone
