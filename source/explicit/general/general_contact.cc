@@ -239,7 +239,8 @@ namespace Touchstone
                  pair.face,
                  is_slave(pair.node, pair.face) ? Kind::slave_node : Kind::node);
     for (const ContactCandidates::EdgePair &pair : candidates.edge_pairs)
-      check_edges(ends_of(pair), Kind::edges);
+      if (edge_boxes[pair.one].meets(edge_boxes[pair.other]))
+        check_edges(ends_of(pair), Kind::edges);
     for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
       check_inner_edges(pair.one, pair.other);
     // The first kind with a row that is not there yet; whether there is anything; rows to lay out.

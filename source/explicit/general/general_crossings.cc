@@ -23,6 +23,15 @@ namespace Touchstone
      * than this leaves a body that it is in. */
     constexpr double inwards = 0.1;
 
+    /** The ends of an edge that is a little longer, so that edges that meet at their ends do so
+     * whatever round-off is. */
+    std::array<Point<dim>, 2>
+    lengthened(const Point<dim> &begin, const Point<dim> &end)
+    {
+      const Tensor<1, dim> more = GeneralContact::tie * (end - begin);
+      return {{begin - more, end + more}};
+    }
+
     Point<dim>
     between(const Point<dim> &from, const Point<dim> &to, const double part)
     {
@@ -35,15 +44,8 @@ namespace Touchstone
   Point<dim>
   GeneralContact::inner_position(const SurfacePoint &point, const bool at_end) const
   {
-    const std::vector<Point<dim>> &x  = at_end ? inner_to : inner_from;
-    const RowNodes                &on = candidates.at_slots;
-    if (!point.middle)
-      return x[on.node(point.slot)];
-    const std::size_t first = point.slot - point.slot % 4;
-    Point<dim>        sum;
-    for (unsigned int a = 0; a < 4; ++a)
-      sum += 0.25 * x[on.node(first + a)];
-    return sum;
+    return point.middle ? (at_end ? middle_to : middle_from)[point.slot / 4]
+                        : (at_end ? inner_to : inner_from)[candidates.at_slots.node(point.slot)];
   }
 
 
@@ -59,26 +61,55 @@ namespace Touchstone
         inner_from[node]     = Point<dim>(of.x - inset * of.size * of.normal_before);
         inner_to[node]       = Point<dim>(of.x + cycle * of.v - inset * of.size * of.normal);
       }
-    face_boxes.resize(candidates.faces.size());
-    for (unsigned int f = 0; f < face_boxes.size(); ++f)
+    const std::size_t n_faces = candidates.faces.size();
+    middle_from.resize(n_faces);
+    middle_to.resize(n_faces);
+    face_boxes.resize(n_faces);
+    edge_boxes.resize(4 * n_faces);
+    inner_boxes.resize(4 * n_faces);
+    warped.resize(n_faces);
+    for (unsigned int f = 0; f < n_faces; ++f)
       {
-        std::array<Point<dim>, 4> from, to;
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            from[a] = inner_position(corner(f, a), false);
-            to[a]   = inner_position(corner(f, a), true);
-          }
-        for (auto *const x : {&from, &to})
-          {
-            const Tensor<1, dim> first  = tie * ((*x)[2] - (*x)[0]),
-                                 second = tie * ((*x)[3] - (*x)[1]);
-            (*x)[0] -= first;
-            (*x)[1] -= second;
-            (*x)[2] += first;
-            (*x)[3] += second;
-          }
-        face_boxes[f] = MotionBox(from, to);
+        set_boxes(f);
+        warped[f] = is_warped(f);
       }
+  }
+
+
+
+  // Of a face and its edges, a little longer, and of the edges from corners to the middle.
+  void
+  GeneralContact::set_boxes(const unsigned int face)
+  {
+    std::array<std::array<Point<dim>, 4>, 2> x;
+    std::array<Point<dim>, 2>                middles;
+    for (unsigned int at_end = 0; at_end < 2; ++at_end)
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          x[at_end][a] = inner_position(corner(face, a), at_end);
+          middles[at_end] += 0.25 * x[at_end][a];
+        }
+    middle_from[face] = middles[0];
+    middle_to[face]   = middles[1];
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        std::array<std::array<Point<dim>, 2>, 2> edge, inner;
+        for (unsigned int at_end = 0; at_end < 2; ++at_end)
+          {
+            edge[at_end]  = lengthened(x[at_end][a], x[at_end][(a + 1) % 4]);
+            inner[at_end] = lengthened(x[at_end][a], middles[at_end]);
+          }
+        edge_boxes[4 * std::size_t(face) + a]  = MotionBox(edge[0], edge[1]);
+        inner_boxes[4 * std::size_t(face) + a] = MotionBox(inner[0], inner[1]);
+      }
+    for (auto &corners : x)
+      for (unsigned int a = 0; a < 2; ++a)
+        {
+          const auto ends = lengthened(corners[a], corners[a + 2]);
+          corners[a]      = ends[0];
+          corners[a + 2]  = ends[1];
+        }
+    face_boxes[face] = MotionBox(x[0], x[1]);
   }
 
 
@@ -173,23 +204,14 @@ namespace Touchstone
   GeneralContact::check_edges(const Points &ends, const Kind kind)
   {
     FourPoints a, b;
-    for (unsigned int i = 0; i < 4; ++i)
-      {
-        a[i] = inner_position(ends[i], false);
-        b[i] = inner_position(ends[i], true);
-      }
-    // A little longer, so that edges that meet at their ends do so whatever round-off is.
-    for (FourPoints *const x : {&a, &b})
-      for (unsigned int side = 0; side < 4; side += 2)
+    for (unsigned int side = 0; side < 4; side += 2)
+      for (FourPoints *const x : {&a, &b})
         {
-          const Tensor<1, dim> more = tie * ((*x)[side + 1] - (*x)[side]);
-          (*x)[side] -= more;
-          (*x)[side + 1] += more;
+          const auto edge = lengthened(inner_position(ends[side], x == &b),
+                                       inner_position(ends[side + 1], x == &b));
+          (*x)[side]      = edge[0];
+          (*x)[side + 1]  = edge[1];
         }
-    using Edge = std::array<Point<dim>, 2>;
-    if (!MotionBox(Edge{{a[0], a[1]}}, Edge{{b[0], b[1]}})
-           .meets(MotionBox(Edge{{a[2], a[3]}}, Edge{{b[2], b[3]}})))
-      return;
     // Edges that rest on each other are never far apart: directions that tell them apart.
     const Tensor<1, dim> e = a[1] - a[0], f = a[3] - a[2], apart = a[2] - a[0];
     for (const Tensor<1, dim> &direction : {outward(ends),

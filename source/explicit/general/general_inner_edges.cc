@@ -36,8 +36,8 @@ namespace Touchstone
   {
     if (!face_boxes[one].meets(face_boxes[other]))
       return;
-    const bool warped[2] = {is_warped(one), is_warped(other)};
-    if (!warped[0] && !warped[1])
+    const bool of_one = warped[one], of_other = warped[other];
+    if (!of_one && !of_other)
       return;
     const auto edge = [&](const unsigned int face, const unsigned int a, const bool inner) {
       const SurfacePoint begin = corner(face, a);
@@ -45,16 +45,20 @@ namespace Touchstone
     };
     for (const bool inner_one : {false, true})
       for (const bool inner_other : {false, true})
-        if ((inner_one || inner_other) && (!inner_one || warped[0]) && (!inner_other || warped[1]))
+        if ((inner_one || inner_other) && (!inner_one || of_one) && (!inner_other || of_other))
           for (unsigned int a = 0; a < 4; ++a)
             for (unsigned int b = 0; b < 4; ++b)
               {
+                const std::size_t p = 4 * std::size_t(one) + a, q = 4 * std::size_t(other) + b;
+                if (!(inner_one ? inner_boxes : edge_boxes)[p].meets(
+                      (inner_other ? inner_boxes : edge_boxes)[q]))
+                  continue;
                 const auto e = edge(one, a, inner_one), f = edge(other, b, inner_other);
                 check_edges({{e[0], e[1], f[0], f[1]}}, Kind::inner);
               }
-    if (warped[0])
+    if (of_one)
       check_node(middle(one), other, Kind::inner);
-    if (warped[1])
+    if (of_other)
       check_node(middle(other), one, Kind::inner);
   }
 } // namespace Touchstone

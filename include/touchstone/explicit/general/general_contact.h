@@ -203,11 +203,14 @@ namespace Touchstone
     std::vector<NodeMotion>         motion;
     double                          cycle = 0.;
     std::vector<dealii::Point<dim>> inner_from, inner_to;
-    /** Boxes of faces through the cycle. */
-    std::vector<MotionBox>        face_boxes;
-    std::vector<Row>              rows;
-    std::map<RowKey, std::size_t> numbers;
-    bool                          new_rows = false;
+    /** Middles of faces, and boxes through the cycle of faces, and by slot of edges and of those
+     * from corners to the middle. */
+    std::vector<dealii::Point<dim>> middle_from, middle_to;
+    std::vector<MotionBox>          face_boxes, edge_boxes, inner_boxes;
+    std::vector<bool>               warped;
+    std::vector<Row>                rows;
+    std::map<RowKey, std::size_t>   numbers;
+    bool                            new_rows = false;
     /** Of the cycle before, by row: impulses, and whether it slides; by slave: whether it slides;
      * and nodes and pairs of edges that pressed. */
     struct Pressed
@@ -259,6 +262,8 @@ namespace Touchstone
     inner_position(const SurfacePoint &point, bool at_end) const;
     void
     set_inner_positions();
+    void
+    set_boxes(unsigned int face);
     dealii::Tensor<1, dim>
     mean(const SurfacePoint &point, dealii::Tensor<1, dim> NodeMotion::*quantity) const;
     std::uint64_t
