@@ -77,7 +77,9 @@ namespace Touchstone
       }
     if (scene.output.vtu_interval > 0)
       write_vtu(at.step - 1, at.time);
-    if (const std::string reason = missed_pairs.failure(had_contact); !reason.empty())
+    if (const std::string reason =
+          missed_pairs.failure(had_contact, scene.time_integration.dynamic());
+        !reason.empty())
       {
         stop(reason, at);
         return;

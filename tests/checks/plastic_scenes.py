@@ -28,9 +28,10 @@ errors(run("f_bar", cook, {"Body membrane/Geometry/Cells": "16, 16, 1"}), point_
 errors(run("degree_2", cook, {"Body membrane/Geometry/Cells": "8, 8, 1", DEGREE: 2}),
        point_displacement=0.045)
 
-# The plate and Taylor's bar, coarse and for a while: the same on two ranks, energies add up.
+# The plate and Taylor's bar, coarse and for a while: the same on two ranks, energies add up. With a
+# factor of 0.25 the slave nodes of the plate would lie beside the edge that it falls on.
 plates = [run(f"plate_{ranks}", prm / "plate_drop.prm",
-              {FACTOR: 0.25, "Load stepping/End time": 5e-7, STEPS: 25}, ranks) for ranks in (1, 2)]
+              {FACTOR: 0.5, "Load stepping/End time": 5e-7, STEPS: 25}, ranks) for ranks in (1, 2)]
 rods = [run(f"taylor_{ranks}", BENCHMARKS / "taylor_bar.prm",
             {"Body rod/Geometry/Cells": "2, 2, 12", "Load stepping/End time": 2e-6, STEPS: 10}, ranks)
         for ranks in (1, 2)]

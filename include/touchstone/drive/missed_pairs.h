@@ -34,9 +34,11 @@ namespace Touchstone
     end_step(const Missed &missed, Warnings &warnings);
 
     /** @brief Why a run that has come to its end has no result; empty if it has.
-     * @param had_contact Pairs that have carried something in the run. */
+     * @param had_contact Pairs that have carried something in the run.
+     * @param dynamic     The end is a moment of a motion: what pairs miss there is a warning if
+     * they have carried something before. */
     std::string
-    failure(const std::map<std::string, double> &had_contact) const;
+    failure(const std::map<std::string, double> &had_contact, bool dynamic) const;
 
     /** @brief For checkpoints. */
     template <class Archive>
