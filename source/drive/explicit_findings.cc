@@ -28,6 +28,23 @@ namespace Touchstone
         "hourglass modes of one-point cells have more than a tenth of the "
         "energy in the bodies: take a finer mesh, distribute loads over more "
         "nodes, or take another 'Element'");
+    if (impulses && impulses->general_contact() != nullptr && crossed.empty())
+      {
+        // The check of motion keeps surfaces apart that are moved inwards a little less.
+        constexpr double         inwards = 3. * GeneralContact::inset;
+        std::vector<std::string> bodies;
+        for (const BodyParameters &body : scene.bodies)
+          bodies.push_back(body.name);
+        const std::string text = impulses->general_contact()->crossings_at(now.u, inwards, bodies);
+        char              time[60];
+        std::snprintf(time, sizeof(time), "at time %.6g ", now.time);
+        if (!text.empty())
+          crossed = time + ("surfaces of the general contact cross each other, " + text) +
+                    ": what follows is in doubt there; take a finer mesh, or do not cut what folds "
+                    "by a plane of symmetry";
+      }
+    if (!crossed.empty())
+      found.warnings.push_back(crossed);
   }
 
 

@@ -151,6 +151,8 @@ namespace Touchstone
     std::vector<ObliqueContact> oblique, oblique_now;
     /** Why such a contact ends the run, if it does. */
     std::string persistent;
+    /** Where surfaces of general contact have crossed first, for a warning. */
+    std::string crossed;
     /** Half a cycle's work of moving obstacles at the committed state, and what contact springs
      * hold at present; force times length. */
     double obstacles_ahead = 0., obstacles_ahead_now = 0., held_by_springs = 0.;

@@ -51,15 +51,15 @@ namespace Touchstone
 
 
   void
-  GeneralContact::set_inner_positions()
+  GeneralContact::set_inner_positions(const double part)
   {
     inner_from.resize(motion.size());
     inner_to.resize(motion.size());
     for (std::size_t node = 0; node < motion.size(); ++node)
       {
         const NodeMotion &of = motion[node];
-        inner_from[node]     = Point<dim>(of.x - inset * of.size * of.normal_before);
-        inner_to[node]       = Point<dim>(of.x + cycle * of.v - inset * of.size * of.normal);
+        inner_from[node]     = Point<dim>(of.x - part * of.size * of.normal_before);
+        inner_to[node]       = Point<dim>(of.x + cycle * of.v - part * of.size * of.normal);
       }
     const std::size_t n_faces = candidates.faces.size();
     middle_from.resize(n_faces);

@@ -52,15 +52,32 @@ namespace Touchstone
                        parameters.boundaries.front(),
                        "no face takes part in the general contact",
                        "name boundaries of the bodies, or write 'all'");
+    const std::string text = crossings_at(u, inset, bodies);
+    if (!text.empty())
+      throw InputError(parameters.section(),
+                       "",
+                       "",
+                       "surfaces cross each other at the start, " + text,
+                       "move the bodies apart, or take a finer mesh where round surfaces touch");
+  }
+
+
+
+  std::string
+  GeneralContact::crossings_at(const NodeField                &u,
+                               const double                    inwards,
+                               const std::vector<std::string> &bodies)
+  {
     const NodeField at_rest(nodes.n_local());
     made_at = u;
     margin  = least_margin * smallest;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
     motion.resize(candidates.at_slots.n());
+    normal_now.clear();
     set_normals(u);
     import(u, at_rest);
     cycle = 0.;
-    set_inner_positions();
+    set_inner_positions(inwards);
     std::vector<Place> places;
     const auto         check = [&](const unsigned int of, const unsigned int face) {
       for (unsigned int a = 0; a < 4; ++a)
@@ -101,7 +118,7 @@ namespace Touchstone
     std::sort(places.begin(), places.end(), by_key);
     const std::uint64_t n = Utilities::MPI::sum<std::uint64_t>(places.size(), nodes.communicator());
     if (n == 0)
-      return;
+      return "";
     constexpr std::size_t shown = 3;
     places.resize(std::min(shown, places.size()));
     std::vector<Place> all;
@@ -112,12 +129,7 @@ namespace Touchstone
     std::string text;
     for (const Place &place : all)
       text += (text.empty() ? "" : ", ") + text_of(place, bodies);
-    throw InputError(parameters.section(),
-                     "",
-                     "",
-                     "surfaces cross each other at the start, at " + std::to_string(n) +
-                       " faces: " + text,
-                     "move the bodies apart, or take a finer mesh where round surfaces touch");
+    return "at " + std::to_string(n) + " faces: " + text;
   }
 
 

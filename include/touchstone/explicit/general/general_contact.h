@@ -48,6 +48,12 @@ namespace Touchstone
     void
     check_start(const NodeField &u, const std::vector<std::string> &bodies);
 
+    /** @brief At how many faces, and where, surfaces cross with the displacement @p u; empty if
+     * nowhere. What it has found for the present interval is forgotten. Collective.
+     * @param inwards By so much of the size of faces surfaces are moved inwards. */
+    std::string
+    crossings_at(const NodeField &u, double inwards, const std::vector<std::string> &bodies);
+
     /** @brief The state is a committed one: forget what the interval before has left. */
     void
     begin_interval();
@@ -261,7 +267,7 @@ namespace Touchstone
     dealii::Point<dim>
     inner_position(const SurfacePoint &point, bool at_end) const;
     void
-    set_inner_positions();
+    set_inner_positions(double part = inset);
     void
     set_boxes(unsigned int face);
     dealii::Tensor<1, dim>
