@@ -31,12 +31,10 @@ namespace Touchstone
     if (impulses && impulses->general_contact() != nullptr && crossed.empty())
       {
         // The check of motion keeps surfaces apart that are moved inwards a little less.
-        constexpr double         inwards = 3. * GeneralContact::inset;
-        std::vector<std::string> bodies;
-        for (const BodyParameters &body : scene.bodies)
-          bodies.push_back(body.name);
-        const std::string text = impulses->general_contact()->crossings_at(now.u, inwards, bodies);
-        char              time[60];
+        constexpr double  inwards = 3. * GeneralContact::inset;
+        const std::string text =
+          impulses->general_contact()->crossings_at(now.u, inwards, names_of_bodies());
+        char time[60];
         std::snprintf(time, sizeof(time), "at time %.6g ", now.time);
         if (!text.empty())
           crossed = time + ("surfaces of the general contact cross each other, " + text) +

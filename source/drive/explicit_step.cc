@@ -125,6 +125,17 @@ namespace Touchstone
 
 
   std::vector<std::string>
+  ExplicitStep::names_of_bodies() const
+  {
+    std::vector<std::string> names;
+    for (const BodyParameters &body : scene.bodies)
+      names.push_back(body.name);
+    return names;
+  }
+
+
+
+  std::vector<std::string>
   ExplicitStep::start()
   {
     set_initial_values();
@@ -158,12 +169,7 @@ namespace Touchstone
       }
     boundary_conditions.all_formulas().check(solid.communicator);
     if (impulses && impulses->general_contact() != nullptr)
-      {
-        std::vector<std::string> bodies;
-        for (const BodyParameters &body : scene.bodies)
-          bodies.push_back(body.name);
-        impulses->general_contact()->check_start(now.u, bodies);
-      }
+      impulses->general_contact()->check_start(now.u, names_of_bodies());
     // The velocity half a cycle before time 0, so that all cycles are alike.
     const NodeField at_start = now.v;
     for (unsigned int i = 0; i < map.n_owned(); ++i)

@@ -46,8 +46,8 @@ namespace Touchstone
 
 
 
-  // As long as it stays on the face. @return whether it has come to the minimum there.
-  bool
+  // As long as it stays on the face and has not come to the minimum there.
+  void
   ImpulseSolver::explore_face(const ImpulseControl &control,
                               const double          tolerance,
                               ImpulseCounts        &counts)
@@ -85,7 +85,7 @@ namespace Touchstone
         const double curvature =
           dot([&](const std::size_t k) { return direction[k] * rows[k].velocity; });
         if (!(curvature > 0.))
-          return false;
+          return;
         const double step = size / curvature;
         double       most = std::numeric_limits<double>::max(), left = 0.;
         for (const std::size_t k : near)
@@ -102,9 +102,9 @@ namespace Touchstone
               left = std::max(left, residual[k].norm());
             }
         if (allowed < step)
-          return false; // at the edge of the face
+          return; // at the edge of the face
         if (Utilities::MPI::max(left, communicator) <= 0.1 * tolerance)
-          return true;
+          return;
         for (const std::size_t k : near)
           if (active[k])
             scaled[k] = on_face(rows[k], preconditioned(rows[k], metric[k], residual[k]));
@@ -114,6 +114,5 @@ namespace Touchstone
             direction[k] = scaled[k] + (next / size) * direction[k];
         size = next;
       }
-    return size == 0.;
   }
 } // namespace Touchstone

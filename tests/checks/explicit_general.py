@@ -2,48 +2,17 @@
 """General contact of explicit dynamics: nothing passes through anything, whatever meets, on any
 number of ranks (doc/general_contact.md)."""
 
-from itertools import product
-from math import cos, pi, sin, sqrt
+from math import pi
 
 from touchstone_test import below, check, contact_gives, finish, folder, launch, run
+from hexahedra import box, move, turn  # of tests/, which touchstone_test finds
+
+NOT_TURNED = turn((0, 0, 1), 0)
 
 
-def turned_about(axis, angle):
-    """Rotation matrix."""
-    size = sqrt(sum(a * a for a in axis))
-    x, y, z = (a / size for a in axis)
-    c, s, d = cos(angle), sin(angle), 1 - cos(angle)
-    return [[c + x * x * d, x * y * d - z * s, x * z * d + y * s],
-            [y * x * d + z * s, c + y * y * d, y * z * d - x * s],
-            [z * x * d - y * s, z * y * d + x * s, c + z * z * d]]
-
-
-def apply(matrix, vector):
-    """Matrix times vector."""
-    return [sum(m * v for m, v in zip(row, vector)) for row in matrix]
-
-
-NOT_TURNED = turned_about((0, 0, 1), 0)
-
-
-def block(name, lower, upper, cells, velocity, turn=NOT_TURNED, offset=(0, 0, 0)):
+def block(name, lower, upper, cells, velocity, turned=NOT_TURNED, offset=(0, 0, 0)):
     """The section of a block that is turned about the origin and moved, and its mesh file."""
-    sides = [range(n + 1) for n in cells]
-    points = [apply(turn, [a + (b - a) * i / n for a, b, i, n in
-                           zip(lower, upper, (x, y, z), cells)])
-              for z, y, x in product(*reversed(sides))]
-
-    def node(x, y, z):
-        return x + (cells[0] + 1) * (y + (cells[1] + 1) * z)
-    hexahedra = [[node(x + a, y + b, z + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
-                 for z, y, x in product(*(range(n) for n in reversed(cells)))]
-    lines = ["# vtk DataFile Version 3.0", name, "ASCII", "DATASET UNSTRUCTURED_GRID",
-             f"POINTS {len(points)} double"]
-    lines += [" ".join(f"{p + o:.17g}" for p, o in zip(point, offset)) for point in points]
-    lines += [f"CELLS {len(hexahedra)} {9 * len(hexahedra)}"]
-    lines += ["8 " + " ".join(map(str, cell)) for cell in hexahedra]
-    lines += [f"CELL_TYPES {len(hexahedra)}"] + ["12"] * len(hexahedra)
-    (folder / f"{name}.vtk").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    box(lower, upper, cells).mapped(turned, move(offset)).written(folder / f"{name}.vtk")
     lines = [f"subsection Body {name}", "  set Element = one point"]
     lines += [f"  set Initial velocity {axis} = {v}" for axis, v in zip("xyz", velocity)]
     lines += ["  subsection Geometry", "    set Type = file", f"    set File = {name}.vtk", "  end",
@@ -84,16 +53,16 @@ UP, DOWN = (0, 0, 0.5), (0, 0, -0.5)
 # towards the other.
 meet("cubes", [block("lower", (-.5, -.5, 0), (.5, .5, 1), (1, 1, 1), UP),
                block("upper", (-.5, -.5, 1.01), (.5, .5, 2.01), (1, 1, 1), DOWN,
-                     turned_about((0, 0, 1), pi / 4))])
-BARS = [block("lower", (-.5, -2, -.5), (.5, 2, .5), (1, 3, 1), UP, turned_about((0, 1, 0), pi / 4)),
-        block("upper", (-2, -.5, -.5), (2, .5, .5), (3, 1, 1), DOWN, turned_about((1, 0, 0), pi / 4),
+                     turn((0, 0, 1), pi / 4))])
+BARS = [block("lower", (-.5, -2, -.5), (.5, 2, .5), (1, 3, 1), UP, turn((0, 1, 0), pi / 4)),
+        block("upper", (-2, -.5, -.5), (2, .5, .5), (3, 1, 1), DOWN, turn((1, 0, 0), pi / 4),
               (0, 0, 1.45))]
 first, second = meet("bars", BARS), meet("bars", BARS, ranks=2)
 check(first.summary["motion"] == second.summary["motion"], "bars: one and two ranks differ")
 # A corner on a face, faces on faces of other cells, with friction.
 meet("corner", [block("lower", (-2, -2, -1), (2, 2, 0), (4, 4, 1), (0, 0, 0)),
                 block("upper", (0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 0, -1),
-                      turned_about((1, -1, 0), 0.9553166), (.3, .2, .02))])
+                      turn((1, -1, 0), 0.9553166), (.3, .2, .02))])
 FRICTION = ("subsection Contact pair everything\n  set Slave body = lower, upper\n"
             "  set Behaviour = coulomb\n  subsection Friction\n    set Coefficient = 0.3\n  end\nend")
 FACES = [block("lower", (0, 0, 0), (1, 1, 1), (3, 3, 3), UP),

@@ -174,6 +174,8 @@ namespace Touchstone
     {
       return cells.masses()[node] * (damping.empty() ? 1. : 1. + 0.5 * damping[node] * between);
     }
+    std::vector<std::string>
+    names_of_bodies() const;
     /** Set initial displacements and velocities by the formulas of the bodies. */
     void
     set_initial_values();

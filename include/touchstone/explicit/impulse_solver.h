@@ -199,9 +199,8 @@ namespace Touchstone
     velocity_tolerance(double relative) const;
     bool
     sweep(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
-    /** Conjugate gradients from the present impulses on. @return whether they have ended at a
-     * minimum. */
-    bool
+    /** Conjugate gradients from the present impulses on. */
+    void
     explore_face(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
     dealii::Tensor<1, dim>
     on_face(const ImpulseRow &row, const dealii::Tensor<1, dim> &vector) const;

@@ -152,7 +152,7 @@ namespace Touchstone
         const unsigned int local = nodes.local(on.dof(node));
         motion[node]             = {surface.position(local, u),
                                     v[local],
-                                    surface.normal(local, u),
+                                    normal_now[local],
                                     normal_before[local],
                                     surface.size(local)};
       }
