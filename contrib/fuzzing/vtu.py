@@ -37,6 +37,8 @@ def unpack(text, form):
     """VTK's inline format: number of blocks, size of a block and of the last one, compressed
     size of each, as 32-bit integers in base64; then the blocks."""
     text = "".join(text.split())
+    if not text:  # the part of a rank without contact surface
+        return ()
     blocks = struct.unpack("<I", base64.b64decode(text[:8])[:4])[0]
     head = 4 * math.ceil(4 * (3 + blocks) / 3)
     sizes = struct.unpack(f"<{3 + blocks}I", base64.b64decode(text[:head])[:4 * (3 + blocks)])[3:]
