@@ -25,8 +25,8 @@ namespace Touchstone
                           /*has_to_be_set=*/true);
         prm.add_parameter("Largest coefficient",
                           largest,
-                          "No more than this part of the normal force, greater than zero; 0 takes "
-                          "the strength however small the pressure. Without it a node may have no "
+                          "No more than this multiple of the normal force, greater than zero; 0 "
+                          "takes the strength however small the pressure. Then a node may have no "
                           "solution that opens when it is dragged by its friction and closes when "
                           "this ceases. [no unit]",
                           Patterns::Double());
@@ -61,7 +61,9 @@ namespace Touchstone
       }
 
     private:
-      double strength = 0., largest = 0.;
+      double strength = 0.;
+      // Far beyond what surfaces have, so that it acts where contact opens and nowhere else.
+      double largest = 3.;
     };
 
     const FrictionLawRegistry::Entry<Tresca>
