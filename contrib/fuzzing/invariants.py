@@ -36,9 +36,13 @@ def largest_force(scene, result):
     sizes = [norm(result.force(row, p.name)) for row in result.rows for p in scene.pairs]
     sizes += [norm(result.reaction(row, b.name)) for row in result.rows for b in scene.bodies]
     sizes += [norm(scene.load(b, row["time"])) for row in result.rows for b in scene.bodies]
-    # In steps without any force round-off of stresses remains: some 2e-16 of the stiffness, which
-    # must be less than BALANCE of this.
-    return max(sizes + [1e-9 * scene.stiffness()])
+    # Forces around a shaft balance each other; what they hold is pressure, and perhaps a moment.
+    sizes += [row[f"{p.name}: max pressure"] * row[f"{p.name}: area"]
+              for row in result.rows for p in scene.pairs]
+    # In steps without any force, as where bodies that touch move together, there remains what
+    # iterative solvers leave of displacements: some 1e-14 of the stiffness, which must be less than
+    # BALANCE of this.
+    return max(sizes + [1e-7 * scene.stiffness()])
 
 
 def messages(_scene, result):

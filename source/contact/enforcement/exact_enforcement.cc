@@ -27,7 +27,8 @@ namespace Touchstone
         // Of open rows, too: they may close before the next linear system.
         if (row.friction)
           choose_friction(row, state);
-        if (!state.active() || row.tied)
+        // A dropped row carries no force; its friction would have no bound, for its status stays.
+        if (!state.active() || row.tied || state.dropped())
           continue;
         // Once per linear solve: evaluations without one in between, as at the start of a step,
         // must not augment again.
