@@ -20,7 +20,7 @@ namespace Touchstone
   ForcingTerm::begin_step()
   {
     last_residual = 0.;
-    has_been_slow = false;
+    has_been_slow = slow_before;
   }
 
 

@@ -153,6 +153,13 @@ namespace Touchstone
   bool
   Simulation::cut_step(const NonConvergence &failure, Position &at, const double next)
   {
+    if (failure.shorter_step_may_help() && problem->next_attempt_differs())
+      {
+        const std::string reason = describe(failure, /*repeated=*/false);
+        problem->rollback();
+        progress.repeat_step(reason);
+        return true;
+      }
     const bool repeated = repeated_failure.add(failure, last_state, problem->difficulty().position);
     // A failure that repeats itself with half the step does not depend on the step size, and other
     // failures say themselves that a smaller step is no remedy: further cuts would only take time.

@@ -42,6 +42,7 @@ namespace Touchstone
       contact.add_impulses(*forces.velocity_constraints, time - committed_time);
     for (Stateful *part : parts)
       part->commit();
+    forcing_term.end_step();
     committed_u         = u;
     committed_time      = time;
     largest_force_scale = std::max(largest_force_scale, force_scale);
@@ -107,6 +108,7 @@ namespace Touchstone
     u = committed_u;
     for (Stateful *part : parts)
       part->rollback();
+    forcing_term.end_attempt();
   }
 
 

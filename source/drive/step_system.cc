@@ -75,13 +75,13 @@ namespace Touchstone
   // doc/benchmarks.md, "Frozen or consistent"). Whatever the default, frozen iterations that have
   // gained too little are not repeated in this step.
   bool
-  StepSystem::consistent(const State &state) const
+  StepSystem::begins_consistent() const
   {
     using Linearisation      = ContactParameters::Linearisation;
     const auto linearisation = parts.scene.contact.linearisation;
     if (solver->symmetric_only() || linearisation == Linearisation::frozen)
       return false;
-    return linearisation == Linearisation::consistent || state.slow ||
+    return linearisation == Linearisation::consistent ||
            (parts.scene.has_friction() && !solver->wants_basis_change(size()));
   }
 

@@ -129,6 +129,16 @@ namespace Touchstone
 
 
   void
+  Progress::repeat_step(const std::string &reason)
+  {
+    log.line("  not converged: " + reason);
+    log.line("  trying again, linearised consistently from the first iteration on");
+    header_due = true;
+  }
+
+
+
+  void
   Progress::shorten_step(const double step_size)
   {
     log.line(format("  bodies meet: made again with a step of %g, up to there", step_size));

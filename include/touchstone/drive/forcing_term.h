@@ -25,6 +25,29 @@ namespace Touchstone
     void
     begin_step();
 
+    /** @brief The attempt at the present step is taken back. If its increments gained little, those
+     * of the next attempts are not frozen from the start: a state far off is hard to come back
+     * from. */
+    void
+    end_attempt()
+    {
+      slow_before = has_been_slow;
+    }
+
+    /** @brief The present attempt has become slow, so that the next one begins in another way. */
+    bool
+    next_attempt_differs() const
+    {
+      return has_been_slow && !slow_before;
+    }
+
+    /** @brief The step is made: the next one has another difficulty, if any. */
+    void
+    end_step()
+    {
+      slow_before = false;
+    }
+
     /** @brief A state has been evaluated.
      * @param leaves_out The linear system neglects part of the tangent, as symmetric ones do. */
     void
@@ -37,8 +60,9 @@ namespace Touchstone
       return next;
     }
 
-    /** @brief In this step an increment with an unchanged active set has reduced the residual too
-     * little: frozen normals and contact points neglect too much. */
+    /** @brief In this step, or in an attempt at it that has failed, an increment with an unchanged
+     * active set has reduced the residual too little: frozen normals and contact points neglect too
+     * much. */
     bool
     slow() const
     {
@@ -52,7 +76,7 @@ namespace Touchstone
     /** Residual before the last increment, if nothing but the residual was left to be met; else
      * zero. */
     double last_residual = 0.;
-    bool   has_been_slow = false;
+    bool   has_been_slow = false, slow_before = false;
   };
 } // namespace Touchstone
 

@@ -166,6 +166,14 @@ namespace Touchstone
     virtual void
     rollback() = 0;
 
+    /** @brief Whether the attempt that has failed may succeed with the same step size, as the next
+     * one goes another way. To be asked before rollback(). */
+    virtual bool
+    next_attempt_differs() const
+    {
+      return false;
+    }
+
     virtual StepState
     state() const = 0;
 

@@ -40,6 +40,12 @@ namespace Touchstone
     try_commit(double smallest_part) override;
     void
     rollback() override;
+
+    bool
+    next_attempt_differs() const override
+    {
+      return forcing_term.next_attempt_differs() && system->may_change_linearisation();
+    }
     StepState
     state() const override;
     StepTransfer

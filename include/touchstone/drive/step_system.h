@@ -89,6 +89,15 @@ namespace Touchstone
     void
     check_bodies_without_support(const Vector &u);
 
+    /** @brief Whether attempts at a step that gain little go on with another linearisation than
+     * they began with. */
+    bool
+    may_change_linearisation() const
+    {
+      return parts.scene.has_contact() && !begins_consistent() && !solver->symmetric_only() &&
+             parts.scene.contact.linearisation != ContactParameters::Linearisation::frozen;
+    }
+
     /** @brief Conditions accepted so far. */
     const ConstraintGraph &
     conditions() const
@@ -146,9 +155,15 @@ namespace Touchstone
 
     void
     begin(const State &state);
+    /** Whether contact is linearised consistently from the first iteration of a step on. */
+    bool
+    begins_consistent() const;
     /** Whether contact is linearised consistently here. */
     bool
-    consistent(const State &state) const;
+    consistent(const State &state) const
+    {
+      return begins_consistent() || (state.slow && may_change_linearisation());
+    }
     void
     add_follower_pressure(const State &state);
     /** All dofs that this rank refers to: those of its ghost layer, and those of contact terms. */

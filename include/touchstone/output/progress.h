@@ -68,6 +68,11 @@ namespace Touchstone
     void
     cut_step(const std::string &reason, double step_size);
 
+    /** @brief The step did not converge for @p reason, and is made again linearised consistently
+     * from its first iteration on. */
+    void
+    repeat_step(const std::string &reason);
+
     /** @brief The step converged, but is made again with the step size @p step_size, so
      * that it ends where bodies meet. */
     void
