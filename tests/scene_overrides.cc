@@ -21,5 +21,18 @@ main()
   try_override("unknown boundary", {"Body upper/Boundary top/Pressure=1"});
   try_override("a boundary more",
                {"Body upper/Boundary conditions=bottom", "Body upper/Boundary bottom/Pressure=1"});
+  const std::string friction = "Contact pair between/Friction/";
+  try_override("friction is switched off",
+               {"Contact pair between/Behaviour=frictionless", friction + "Coefficient=0.3"});
+  try_override("a bound of tresca where there is no friction",
+               {"Contact pair between/Behaviour=tied", friction + "Shear strength=3"});
+  try_override("misspelt key of friction that is switched off",
+               {"Contact pair between/Behaviour=frictionless", friction + "Coeficient=0.3"});
+  try_override("keys that explicit dynamics has no use for",
+               {"Time integration/Scheme=central_differences",
+                "Newton/Gap tolerance=1e-6",
+                "Body lower/Material/Density=1",
+                "Body upper/Material/Density=1"});
+  try_override("no contact", {"Contact pairs=", "Contact/Enforcement=penalty"});
   return 0;
 }

@@ -251,6 +251,8 @@ namespace Touchstone
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
              std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement.name + ", " +
              scene.linear_solver.type);
+    for (const std::string &text : scene.without_effect)
+      warnings.add(text);
     // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
@@ -308,6 +310,7 @@ namespace Touchstone
     const auto add = [&lines](const std::vector<std::string> &more) {
       lines.insert(lines.end(), more.begin(), more.end());
     };
+    add(scene.without_effect);
     add(describe_bodies(scene, forest, solid));
     add(start);
     if (!problem->held_by_contact().empty())

@@ -3,6 +3,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
 #include <touchstone/mesh/obstacle_shape.h>
+#include <touchstone/scene/idle_sections.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/scene_entries.h>
 #include <touchstone/scene/scene_text.h>
@@ -83,10 +84,16 @@ namespace Touchstone
                const std::string              &file_name,
                const std::vector<std::string> &overrides)
   {
-    const SceneText text(content, file_name, overrides);
+    SceneText text(content, file_name, overrides);
     read_lists(text);
     declare(text);
+    // The keys exist from here on, those of the present behaviours: what is set beside them is
+    // taken away before the entries are compared with the keys.
+    without_effect             = take_idle_friction(*this, text);
+    const std::string defaults = complete_entries();
     set_entries(text, prm);
+    const std::vector<std::string> idle = idle_sections(*this, defaults, complete_entries());
+    without_effect.insert(without_effect.end(), idle.begin(), idle.end());
     resolve(text, file_name);
     check();
   }

@@ -54,6 +54,8 @@ namespace Touchstone
     std::vector<ProbeParameters>          probes;
     ReferenceParameters                   reference;
     CheckpointParameters                  checkpoints;
+    /** Sentences on sections that are given and have no effect. */
+    std::vector<std::string> without_effect;
 
     /**
      * @brief Read a scene file and the overrides of the command line.
