@@ -48,7 +48,9 @@ namespace Touchstone
       map,
       cells.masses(),
       now.u,
-      [&](NodeField &u, NodeField &force) { cells.evaluate(u, at_rest, 0., force, viscous); },
+      [&](NodeField &u, NodeField &force) {
+        cells.evaluate(u, at_rest, now.time, 0., force, viscous);
+      },
       size);
     // The bound of the cells is one for the mesh, too.
     assembled_to_cells = std::max(1., 2. / std::sqrt(square) / of_cells);

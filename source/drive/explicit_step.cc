@@ -224,6 +224,7 @@ namespace Touchstone
         if (left == 1)
           now.time = t;
       }
+    solid.set_time(t); // of the stresses that results show
     boundary_conditions.all_formulas().check(solid.communicator);
     // What results show of supports is their mean force over the interval, as of contact.
     for (std::size_t k = 0; k < now.support.size(); ++k)

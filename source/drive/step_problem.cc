@@ -138,7 +138,7 @@ namespace Touchstone
     system->begin_step();
     boundary_conditions.external_force(time, u, external);
     // Last: the functions above use the committed state of the material.
-    solid.begin_step(time - committed_time);
+    solid.begin_step(time - committed_time, time);
   }
 
 

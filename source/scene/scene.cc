@@ -235,6 +235,8 @@ namespace Touchstone
   Scene::resolve(const SceneText &text, const std::string &file_name)
   {
     for (BodyParameters &body : bodies)
+      body.material.resolve();
+    for (BodyParameters &body : bodies)
       // Resolved once, so that everything else sees the element that is used.
       if (body.element_type == ElementType::automatic)
         body.element_type = body.automatic_element(discretisation.degree);

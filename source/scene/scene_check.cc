@@ -124,6 +124,9 @@ namespace Touchstone
       {
         for (unsigned int d = 0; d < 3; ++d)
           check(body.section(), std::string("Body force ") + "xyz"[d], body.body_force[d]);
+        check(body.section() + "/Material/Thermal expansion",
+              "Temperature",
+              body.material.temperature);
         for (const auto &[boundary, condition] : body.boundaries)
           for (const auto &[key, text] : condition.formulas())
             check(body.section() + "/Boundary " + boundary, key, text);
