@@ -34,5 +34,18 @@ main()
                 "Body lower/Material/Density=1",
                 "Body upper/Material/Density=1"});
   try_override("no contact", {"Contact pairs=", "Contact/Enforcement=penalty"});
+  const std::string steps = "Load stepping/", two = steps + "Phases=clamp, pull",
+                    clamp = steps + "Phase clamp/End time=1",
+                    pull  = steps + "Phase pull/End time=3";
+  try_override("phases", {two, clamp, pull, steps + "Phase pull/Steps=3"});
+  try_override("a phase without a section", {two, clamp});
+  try_override("a phase without an end", {two, clamp, steps + "Phase pull/Steps=3"});
+  try_override("a phase that ends before it begins", {two, pull, steps + "Phase clamp/End time=4"});
+  try_override("a phase that is not listed", {steps + "Phases=clamp", clamp, pull});
+  try_override("a number of steps beside phases", {two, clamp, pull, steps + "Steps=7"});
+  const std::string overlap = "Contact pair between/Overlap end time=";
+  try_override("end of an overlap that does not grow", {overlap + "0.5"});
+  try_override("end of an overlap after the end of the run",
+               {"Contact pair between/Initial overlap=ramp", overlap + "1.5"});
   return 0;
 }

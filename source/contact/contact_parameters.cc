@@ -88,7 +88,12 @@ namespace Touchstone
       "An overlap of the bodies as they are placed is an 'interference' that "
       "presses them apart, or a fault of the mesh to 'adjust': gaps count from "
       "it, and it leads to no stress. 'ramp' is an interference that grows "
-      "with time until the end of the run. Tied pairs are always adjusted.");
+      "with time until 'Overlap end time'. Tied pairs are always adjusted.");
+    prm.add_parameter("Overlap end time",
+                      ramp_end,
+                      "Of 'Initial overlap = ramp': when the overlap has its full size, which it "
+                      "keeps from then on; 0: at the end of the run. [time]",
+                      Patterns::Double(0.));
     sliding.declare(prm,
                     "Sliding",
                     "'finite' searches the partners in each iteration, 'small' "

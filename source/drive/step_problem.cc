@@ -54,12 +54,9 @@ namespace Touchstone
     for (const ContactRow &row : contact.rows())
       if (!row.tied)
         slaves.insert(dim * row.slave);
-    integration = TimeIntegration::make(scene.time_integration,
-                                        scene.load_stepping.end_time / scene.load_stepping.steps,
-                                        solid,
-                                        slaves,
-                                        committed_u);
-    system      = std::make_unique<StepSystem>(
+    integration = TimeIntegration::make(
+      scene.time_integration, scene.load_stepping.nominal_step(0.), solid, slaves, committed_u);
+    system = std::make_unique<StepSystem>(
       StepSystem::Parts{scene, solid, boundary_conditions, contact, *integration});
     parts = {integration.get(), &solid, &contact};
     // Two lengths: of the largest coordinate, which sets the round-off of positions; and of the box
@@ -102,7 +99,7 @@ namespace Touchstone
         // The velocity that a support prescribes is the difference quotient of its displacement
         // over a time that is short compared with a step. Components across the prescribed
         // direction keep their initial velocity.
-        const double instant  = 1e-6 * scene.load_stepping.end_time / scene.load_stepping.steps;
+        const double instant  = 1e-6 * scene.load_stepping.nominal_step(0.);
         const auto   set_rate = [&](Vector &velocity) {
           const auto now  = boundary_conditions.displacements(0.),
                      soon = boundary_conditions.displacements(instant);

@@ -59,6 +59,8 @@ namespace Touchstone
         values.add("Newton iterations", step.newton_iterations);
         values.add("linear iterations", step.linear_iterations);
         values.add("cuts", step.cuts);
+        if (step.phase > 0)
+          values.add("phase", step.phase);
         if (step.cycles)
           {
             values.add("cycles", step.cycles->first);

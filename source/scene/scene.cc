@@ -125,6 +125,8 @@ namespace Touchstone
         probes.emplace_back();
         probes.back().name = name;
       }
+    for (const std::string &name : names_of_list(text, "Load stepping", "Phases", "Phase "))
+      load_stepping.phases.push_back({name, 0., 1});
     // "all" needs no subsection: everything touches everything without friction.
     if (text.value("", "Contact pairs", "") == "all" &&
         text.sections().count("Contact pair all") == 0)
@@ -270,6 +272,9 @@ namespace Touchstone
       contact.enforcement =
         ContactParameters::default_enforcement(time_integration.runs_in_cycles());
 
+    if (!load_stepping.phases.empty())
+      resolve_phases(text);
+
     if (output.directory.empty())
       {
         // The default folder is named after the scene file: output/STEM. A leading dot belongs to
@@ -280,6 +285,31 @@ namespace Touchstone
         const std::size_t dot = stem.find_last_of('.');
         output.directory      = "output/" + (dot == 0 ? stem : stem.substr(0, dot));
       }
+  }
+
+
+
+  void
+  Scene::resolve_phases(const SceneText &text)
+  {
+    const double end   = load_stepping.phases.back().end_time;
+    unsigned int steps = 0;
+    for (const LoadPhase &phase : load_stepping.phases)
+      steps += phase.steps;
+    // A complete scene that was printed before sets both to these values.
+    for (const auto &[key, differs] : {std::make_pair("End time", load_stepping.end_time != end),
+                                       std::make_pair("Steps", load_stepping.steps != steps)})
+      if (text.is_set("Load stepping", key) && differs)
+        throw InputError("Load stepping",
+                         key,
+                         text.value("Load stepping", key, ""),
+                         "follows from the phases, with another value",
+                         "remove it; each phase has this key in its own subsection");
+    // Through the handler, so that the printed scene shows them.
+    prm.enter_subsection("Load stepping");
+    prm.set("End time", end);
+    prm.set("Steps", static_cast<long int>(steps));
+    prm.leave_subsection();
   }
 
 

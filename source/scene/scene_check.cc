@@ -116,9 +116,10 @@ namespace Touchstone
     // Formulas of time alone can be evaluated at all steps without a mesh: a division by zero at
     // the last step is found now and not after hours. Those that depend on position are checked
     // where they are evaluated (Formulas::check).
-    const auto check =
+    const std::vector<double> times = load_stepping.step_ends();
+    const auto                check =
       [&](const std::string &section, const std::string &key, const std::string &text) {
-        check_at_all_steps(section, key, text, load_stepping.end_time, load_stepping.steps);
+        check_at_all_steps(section, key, text, times);
       };
     for (const BodyParameters &body : bodies)
       {

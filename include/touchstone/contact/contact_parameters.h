@@ -45,13 +45,15 @@ namespace Touchstone
       interference,
       /** Gaps count from it: no overlap. */
       adjust,
-      /** An interference that grows over the time of the run. */
+      /** An interference that grows with time, until #ramp_end. */
       ramp
     };
     Keyword<Overlap> initial_overlap{Overlap::interference,
                                      {{"interference", Overlap::interference},
                                       {"adjust", Overlap::adjust},
                                       {"ramp", Overlap::ramp}}};
+    /** When a ramp has its full size; 0: at the end of the run. */
+    double ramp_end = 0.;
     /** finite: search in each iteration; small: reference pairing. Tied pairs are always
      * small. */
     enum class Sliding

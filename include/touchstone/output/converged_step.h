@@ -30,6 +30,8 @@ namespace Touchstone
     unsigned int linear_iterations = 0;
     /** How often the step was cut before it converged. */
     unsigned int cuts = 0;
+    /** Number of its phase, from 1; 0 if there are none. */
+    unsigned int phase = 0;
     /** By name of the contact pair, summed over all ranks. */
     std::map<std::string, PairResult> pairs;
     /** Reaction forces, by "BODY/BOUNDARY". */
