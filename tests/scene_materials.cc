@@ -60,7 +60,6 @@ main()
   try_material("no temperature", elastic + begin + coefficient + "end\n");
   try_material("no coefficient", elastic + begin + temperature + "end\n");
   try_material("no formula", elastic + begin + coefficient + "set Temperature = 100*s\n" + "end\n");
-  try_material("infinite", elastic + begin + coefficient + "set Temperature = 1/t\n" + "end\n");
   try_material("incompatible modes",
                elastic + begin + coefficient + temperature + "end\n",
                "set Element = incompatible modes\n");

@@ -114,10 +114,15 @@ namespace Touchstone
             return;
           }
         const Tensor<2, dim> mechanical = without_expansion(input.deformation, s);
-        law->respond({mechanical, input.committed, input.step_length, input.position, input.time},
-                     demand == Demand::energy ? Demand::stress : demand,
-                     response,
-                     present);
+        const MaterialInput  of_law{
+          mechanical, input.committed, input.step_length, input.position, input.time};
+        // Both are needed for the work of the expansion, and laws give one of them only when they
+        // are asked for it.
+        law->respond(of_law, Demand::energy, response, present);
+        const double energy = response.energy, elastic_energy = response.elastic_energy;
+        law->respond(of_law, demand == Demand::energy ? Demand::stress : demand, response, present);
+        response.energy         = energy;
+        response.elastic_energy = elastic_energy;
         // Zero marks virgin material, whose temperature has not changed yet.
         const double *before = input.committed + law->n_state();
         double       *after  = present + law->n_state();
