@@ -70,6 +70,7 @@ namespace Touchstone
           find_assembled_step(stable.length);
         counts.stable_step *= assembled_to_cells;
       }
+    counts.stable_step = with_springs(counts.stable_step, loads.square_frequency(cells.masses()));
     if (impulses)
       counts.stable_step = with_springs(counts.stable_step,
                                         impulses->square_frequency(now.u, now.time, stable.length));

@@ -62,7 +62,7 @@ namespace Touchstone
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
-      if (!boundary_conditions.follower_pressure().empty())
+      if (boundary_conditions.depends_on_displacement())
         boundary_conditions.external_force(time, u, external);
     }
     // Time integration weighs the forces at both ends of the step and adds inertia. Forces on

@@ -150,7 +150,7 @@ namespace Touchstone
     bool
     consistent(const State &state) const;
     void
-    add_follower_pressure(const State &state);
+    add_load_stiffness(const State &state);
     /** All dofs that this rank refers to: those of its ghost layer, and those of contact terms. */
     dealii::IndexSet
     dofs_of_system() const;
