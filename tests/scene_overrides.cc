@@ -33,7 +33,8 @@ main()
                 "Newton/Gap tolerance=1e-6",
                 "Body lower/Material/Density=1",
                 "Body upper/Material/Density=1"});
-  try_override("no contact", {"Contact pairs=", "Contact/Enforcement=penalty"});
+  try_override("pairs that are no longer listed",
+               {"Contact pairs=", "Contact/Enforcement=penalty"});
   const std::string steps = "Load stepping/", two = steps + "Phases=clamp, pull",
                     clamp = steps + "Phase clamp/End time=1",
                     pull  = steps + "Phase pull/End time=3";
@@ -47,5 +48,23 @@ main()
   try_override("end of an overlap that does not grow", {overlap + "0.5"});
   try_override("end of an overlap after the end of the run",
                {"Contact pair between/Initial overlap=ramp", overlap + "1.5"});
+  const std::string right = "Body lower/Boundary right/";
+  try_override("force and moment at a point",
+               {right + "Force x=5*t", right + "Moment y=2", right + "Reference point=1, 2, 3"});
+  try_override("force that depends on the place", {right + "Force x=5*x"});
+  try_override("point without a force", {right + "Reference point=1, 2, 3"});
+  try_override("two coordinates", {right + "Force x=5", right + "Reference point=1, 2"});
+  try_override("force on a boundary that is moved",
+               {right + "Force x=5", right + "Displacement y=1", right + "Pressure="});
+  try_override("springs that pull", {right + "Spring stiffness normal=-1"});
+  const std::string cut = "Contact pair between/", tied = cut + "Behaviour=tied";
+  try_override("pretension", {tied, cut + "Pretension force=50*t"});
+  try_override("pretension of a pair that is not tied", {cut + "Pretension force=50*t"});
+  try_override("force and shortening",
+               {tied, cut + "Pretension force=50*t", cut + "Pretension shortening=0.1"});
+  try_override("lock without pretension", {tied, cut + "Pretension until=clamp"});
+  try_override("lock at no phase",
+               {tied, cut + "Pretension force=50*t", cut + "Pretension until=clamp"});
+  try_override("pretension that depends on the place", {tied, cut + "Pretension force=50*x"});
   return 0;
 }

@@ -223,6 +223,7 @@ namespace Touchstone
         if (results[p].active > 0)
           had_contact[pair] = time;
       }
+    record.pretension = problem->state().pretension;
     summary.reactions.clear();
     for (const Reaction &reaction : problem->state().reactions())
       {

@@ -104,6 +104,29 @@ namespace Touchstone
 
 
 
+    /** What tightened bolts have come to, also in summary.json. */
+    class PretensionResults : public BuiltInQuantity<15>
+    {
+    public:
+      bool
+      in_summary() const override
+      {
+        return true;
+      }
+
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        for (const auto &[pair, result] : step.pretension)
+          {
+            values.add(pair, "shortening", result.first);
+            values.add(pair, "tension", result.second);
+          }
+      }
+    };
+
+
+
     /** Forces that supports exert on the bodies. */
     class Reactions : public BuiltInQuantity<20>
     {
@@ -156,6 +179,8 @@ namespace Touchstone
       step_counters_entry("counters", "Number, time and length of the step, and iterations.");
     const StepQuantityRegistry::Entry<PairResults>
       pair_results_entry("pair results", "Force, area, pressure and nodes of each contact pair.");
+    const StepQuantityRegistry::Entry<PretensionResults>
+      pretension_entry("pretension", "Shortening and tension of pairs with pretension.");
     const StepQuantityRegistry::Entry<Reactions> reactions_entry("reactions",
                                                                  "Forces of supports on bodies.");
     const StepQuantityRegistry::Entry<EnergyTerms>

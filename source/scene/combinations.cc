@@ -5,6 +5,8 @@
 #include <touchstone/scene/combinations.h>
 #include <touchstone/scene/scene.h>
 
+#include <algorithm>
+
 /**
  * @file
  * Combinations of keys that are refused. Each key is valid by itself here (the check() of its
@@ -253,6 +255,30 @@ namespace Touchstone
                "is later than the end of the run, so the overlap would never be there in full",
                "give a time up to 'Load stepping/End time', which is " +
                  as_text(scene.load_stepping.end_time)},
+              {pair.has_pretension() && scene.time_integration.dynamic(),
+               section,
+               pair.pretension_force.empty() ? "Pretension shortening" : "Pretension force",
+               pair.pretension_force + pair.pretension_shortening,
+               "is for static runs, but 'Time integration/Scheme' is '" +
+                 scene.time_integration.scheme.word() + "'",
+               "set the scheme to 'static'"},
+              {pair.has_pretension() && scene.refinement.active(),
+               section,
+               pair.pretension_force.empty() ? "Pretension shortening" : "Pretension force",
+               pair.pretension_force + pair.pretension_shortening,
+               "does not go over to a mesh that changes",
+               "set 'Refinement/Estimator' to 'none'"},
+              {!pair.pretension_until.empty() && std::none_of(scene.load_stepping.phases.begin(),
+                                                              scene.load_stepping.phases.end(),
+                                                              [&pair](const LoadPhase &phase) {
+                                                                return phase.name ==
+                                                                       pair.pretension_until;
+                                                              }),
+               section,
+               "Pretension until",
+               pair.pretension_until,
+               "is no phase of the run",
+               "name one of 'Load stepping/Phases'"},
               {pair.tied() && pair.sliding == ContactPairParameters::Sliding::finite,
                section,
                "Sliding",

@@ -85,8 +85,8 @@ namespace Touchstone
   {
     // "Reference displacement x" of a body says only what the result is compared with.
     // Phases are as free as the end of the run and the number of its steps.
-    return free_sections.count(section) > 0 || section.rfind("Load stepping/", 0) == 0 || free_keys.count({section, key}) > 0 ||
-           key.rfind("Reference displacement ", 0) == 0;
+    return free_sections.count(section) > 0 || section.rfind("Load stepping/", 0) == 0 ||
+           free_keys.count({section, key}) > 0 || key.rfind("Reference displacement ", 0) == 0;
   }
 
 

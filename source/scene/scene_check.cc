@@ -132,6 +132,11 @@ namespace Touchstone
           for (const auto &[key, text] : condition.formulas())
             check(body.section() + "/Boundary " + boundary, key, text);
       }
+    for (const ContactPairParameters &pair : pairs)
+      {
+        check(pair.section(), "Pretension force", pair.pretension_force);
+        check(pair.section(), "Pretension shortening", pair.pretension_shortening);
+      }
     for (const ObstacleParameters &obstacle : obstacles)
       for (const auto &[key, text] : {std::make_pair("Motion x", &obstacle.motion_x),
                                       std::make_pair("Motion y", &obstacle.motion_y),

@@ -54,6 +54,15 @@ namespace Touchstone
                                       {"ramp", Overlap::ramp}}};
     /** When a ramp has its full size; 0: at the end of the run. */
     double ramp_end = 0.;
+    /** Of a tied pair across a plane cut: the tension that it is tightened to, force, or by how
+     * much its sides are drawn together, length; expressions in t. And the phase after which it is
+     * locked, empty for none. */
+    std::string pretension_force, pretension_shortening, pretension_until;
+    bool
+    has_pretension() const
+    {
+      return !(pretension_force + pretension_shortening).empty();
+    }
     /** finite: search in each iteration; small: reference pairing. Tied pairs are always
      * small. */
     enum class Sliding
@@ -101,6 +110,8 @@ namespace Touchstone
     check(const std::string &section) const;
 
   private:
+    void
+    check_pretension(const std::string &section) const;
     /** Which surfaces meet. */
     void
     declare_surfaces(dealii::ParameterHandler &prm);
