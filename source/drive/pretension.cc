@@ -134,7 +134,7 @@ namespace Touchstone
       square += x * x;
     if (square == 0.)
       return;
-    constexpr double smallest = 0.1;
+    constexpr double smallest = 1e-3;
     const double     ratio    = denominator / square;
     const double     part =
       std::abs(ratio) >= smallest ? 1. : (1. - std::copysign(smallest, ratio)) / (1. - ratio);
@@ -183,7 +183,12 @@ namespace Touchstone
                           Patterns::Tools::to_string(forces[worst_cut].first) +
                           " at a shortening of " +
                           Patterns::Tools::to_string(present.shortening[worst_cut]));
-    if (!last_residual.empty())
+    // Small changes say more of the round-off in forces than of the compliance.
+    constexpr double telling = 1e-6;
+    double           change  = 0.;
+    for (unsigned int c = 0; c < n && !last_residual.empty(); ++c)
+      change = std::max(change, std::abs(residual[c] - last_residual[c]));
+    if (change > telling * scale)
       learn(residual);
     // What nothing is known of yet: a bar as long as it is thick, as stiff as the softer side.
     for (unsigned int c = 0; c < n; ++c)
