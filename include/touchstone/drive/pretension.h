@@ -21,7 +21,7 @@ namespace Touchstone
    * A cut is shortened by a length, which is given or such that its tension has a given force; once
    * locked it keeps the length that it has, and the force follows from what else acts. The lengths
    * of cuts with a force are the unknowns of Broyden's method (1965, Math. Comp. 19) around
-   * Newton's: one or two more solutions in a step, for any number of bolts that share a joint.
+   * Newton's: a few more solutions in a step, for any number of bolts that share a joint.
    */
   class Pretension : public Stateful
   {
