@@ -188,7 +188,7 @@ namespace
       box("1, 1, 1",
           "set Symmetry = left, front, bottom\nset Boundary conditions = top\n"
           "subsection Boundary top\nset Displacement z = 0.5 * t\nend",
-          "set Law = Mooney-Rivlin\nset Young modulus = 6\nset Poisson ratio = 0.45\n"
+          "set Law = my Mooney-Rivlin\nset Young modulus = 6\nset Poisson ratio = 0.45\n"
           "set Second share = 0.3");
     const RunSummary run = run_on(text, "rubber", {"Output/VTU interval=0"});
     say("  ",

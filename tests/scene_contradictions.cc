@@ -29,7 +29,7 @@ namespace
                  {law + "neo-Hookean", "Discretisation/Degree=2"});
     try_override("incompressible at finite strain",
                  {law + "neo-Hookean", "Body lower/Material/Poisson ratio=0.5"});
-    try_override("unknown law", {law + "Mooney-Rivlin"});
+    try_override("unknown law", {law + "Arruda-Boyce"});
   }
 
 

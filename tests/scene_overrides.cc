@@ -21,5 +21,50 @@ main()
   try_override("unknown boundary", {"Body upper/Boundary top/Pressure=1"});
   try_override("a boundary more",
                {"Body upper/Boundary conditions=bottom", "Body upper/Boundary bottom/Pressure=1"});
+  const std::string friction = "Contact pair between/Friction/";
+  try_override("friction is switched off",
+               {"Contact pair between/Behaviour=frictionless", friction + "Coefficient=0.3"});
+  try_override("a bound of tresca where there is no friction",
+               {"Contact pair between/Behaviour=tied", friction + "Shear strength=3"});
+  try_override("misspelt key of friction that is switched off",
+               {"Contact pair between/Behaviour=frictionless", friction + "Coeficient=0.3"});
+  try_override("keys that explicit dynamics has no use for",
+               {"Time integration/Scheme=central_differences",
+                "Newton/Gap tolerance=1e-6",
+                "Body lower/Material/Density=1",
+                "Body upper/Material/Density=1"});
+  try_override("pairs that are no longer listed",
+               {"Contact pairs=", "Contact/Enforcement=penalty"});
+  const std::string steps = "Load stepping/", two = steps + "Phases=clamp, pull",
+                    clamp = steps + "Phase clamp/End time=1",
+                    pull  = steps + "Phase pull/End time=3";
+  try_override("phases", {two, clamp, pull, steps + "Phase pull/Steps=3"});
+  try_override("a phase without a section", {two, clamp});
+  try_override("a phase without an end", {two, clamp, steps + "Phase pull/Steps=3"});
+  try_override("a phase that ends before it begins", {two, pull, steps + "Phase clamp/End time=4"});
+  try_override("a phase that is not listed", {steps + "Phases=clamp", clamp, pull});
+  try_override("a number of steps beside phases", {two, clamp, pull, steps + "Steps=7"});
+  const std::string overlap = "Contact pair between/Overlap end time=";
+  try_override("end of an overlap that does not grow", {overlap + "0.5"});
+  try_override("end of an overlap after the end of the run",
+               {"Contact pair between/Initial overlap=ramp", overlap + "1.5"});
+  const std::string right = "Body lower/Boundary right/";
+  try_override("force and moment at a point",
+               {right + "Force x=5*t", right + "Moment y=2", right + "Reference point=1, 2, 3"});
+  try_override("force that depends on the place", {right + "Force x=5*x"});
+  try_override("point without a force", {right + "Reference point=1, 2, 3"});
+  try_override("two coordinates", {right + "Force x=5", right + "Reference point=1, 2"});
+  try_override("force on a boundary that is moved",
+               {right + "Force x=5", right + "Displacement y=1", right + "Pressure="});
+  try_override("springs that pull", {right + "Spring stiffness normal=-1"});
+  const std::string cut = "Contact pair between/", tied = cut + "Behaviour=tied";
+  try_override("pretension", {tied, cut + "Pretension force=50*t"});
+  try_override("pretension of a pair that is not tied", {cut + "Pretension force=50*t"});
+  try_override("force and shortening",
+               {tied, cut + "Pretension force=50*t", cut + "Pretension shortening=0.1"});
+  try_override("lock without pretension", {tied, cut + "Pretension until=clamp"});
+  try_override("lock at no phase",
+               {tied, cut + "Pretension force=50*t", cut + "Pretension until=clamp"});
+  try_override("pretension that depends on the place", {tied, cut + "Pretension force=50*x"});
   return 0;
 }

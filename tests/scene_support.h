@@ -80,6 +80,8 @@ try_scene(const std::string              &what,
     {
       const Touchstone::Scene scene(text, "scene.prm", overrides);
       std::cout << "  accepted" << std::endl;
+      for (const std::string &sentence : scene.without_effect)
+        std::cout << "  " << sentence << std::endl;
     }
   catch (const Touchstone::InputError &error)
     {

@@ -3,7 +3,7 @@
 // tangent that of the stress, the undeformed state is that of linear elasticity,
 // and a rotation turns the stress with it.
 
-#include <touchstone/solid/body_parameters.h>
+#include <touchstone/scene/scene.h>
 #include <touchstone/solid/hyperelastic_law.h>
 
 #include <deal.II/physics/transformations.h>
@@ -15,14 +15,30 @@ using namespace dealii;
 
 namespace
 {
+  /** The material of a scene with E = 2: keys of laws with moduli of their own. */
   MaterialParameters
-  material(const double nu)
+  material(const std::string &law, const double nu)
   {
-    MaterialParameters material;
-    material.young_modulus = 2.;
-    material.poisson_ratio = nu;
-    material.check("Body x/Material");
-    return material;
+    const double       mu = 1. / (1. + nu);
+    std::ostringstream keys;
+    keys.precision(17);
+    if (law == "Mooney-Rivlin")
+      keys << "set C10 = " << 0.35 * mu << "\nset C01 = " << 0.15 * mu << '\n';
+    else if (law == "Gent")
+      keys << "set Shear modulus = " << mu << "\nset Locking stretch = 3\n";
+    else if (law == "Ogden")
+      keys << "set Moduli = " << 0.7 * mu << ", " << 0.1 * mu << ", " << -0.2 * mu
+           << "\nset Exponents = 2, 4, -1\n";
+    else
+      keys << "set Young modulus = 2\n";
+    keys << "set Poisson ratio = " << nu << '\n';
+    return Scene("set Bodies = x\nsubsection Body x\nsubsection Geometry\nset Type = box\nend\n"
+                 "subsection Material\nset Law = " +
+                   law + "\n" + keys.str() + "end\nend\n",
+                 "scene.prm",
+                 {})
+      .bodies.front()
+      .material;
   }
 
 
@@ -64,9 +80,10 @@ namespace
   void
   check(const std::string &name, const double nu)
   {
-    const auto     law = HyperelasticRegistry::make(name, material(nu));
-    const double   mu = 1. / (1. + nu), lambda = 2. * nu / ((1. + nu) * (1. - 2. * nu));
-    Tensor<2, dim> identity, F;
+    const MaterialParameters parameters = material(name, nu);
+    const auto               law        = parameters.law.make<HyperelasticRegistry>(parameters);
+    const double             mu = 1. / (1. + nu), lambda = 2. * nu / ((1. + nu) * (1. - 2. * nu));
+    Tensor<2, dim>           identity, F;
     for (unsigned int i = 0; i < dim; ++i)
       {
         identity[i][i] = 1.;

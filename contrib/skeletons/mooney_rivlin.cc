@@ -79,6 +79,6 @@ namespace Touchstone
 
     // TODO: the name that scenes use, and a sentence for the reference of keys.
     const HyperelasticRegistry::Entry<MooneyRivlin>
-      mooney_rivlin("Mooney-Rivlin", "for rubber at large strain, linear in both invariants.");
+      mooney_rivlin("my Mooney-Rivlin", "for rubber at large strain, linear in both invariants.");
   } // namespace
 } // namespace Touchstone

@@ -123,19 +123,18 @@ namespace Touchstone
 
 
   void
-  check_at_all_steps(const std::string &section,
-                     const std::string &key,
-                     const std::string &text,
-                     const double       end_time,
-                     const unsigned int steps)
+  check_at_all_steps(const std::string         &section,
+                     const std::string         &key,
+                     const std::string         &text,
+                     const std::vector<double> &times)
   {
     if (empty(text) || depends_on_place(text))
       return;
     Formulas   one;
     const auto formula = one.add(section, key, text);
-    for (unsigned int step = 0; step <= steps; ++step)
-      // The end time itself, without the round-off of the division.
-      formula->value(Point<dim>(), step == steps ? end_time : end_time * step / steps);
+    formula->value(Point<dim>(), 0.);
+    for (const double t : times)
+      formula->value(Point<dim>(), t);
     one.check(MPI_COMM_SELF);
   }
 } // namespace Touchstone

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact_parameters.h>
 #include <touchstone/contact/enforcement/enforcement.h>
@@ -88,7 +89,27 @@ namespace Touchstone
       "An overlap of the bodies as they are placed is an 'interference' that "
       "presses them apart, or a fault of the mesh to 'adjust': gaps count from "
       "it, and it leads to no stress. 'ramp' is an interference that grows "
-      "with time until the end of the run. Tied pairs are always adjusted.");
+      "with time until 'Overlap end time'. Tied pairs are always adjusted.");
+    prm.add_parameter("Overlap end time",
+                      ramp_end,
+                      "Of 'Initial overlap = ramp': when the overlap has its full size, which it "
+                      "keeps from then on; 0: at the end of the run. [time]",
+                      Patterns::Double(0.));
+    prm.add_parameter("Pretension force",
+                      pretension_force,
+                      "Of a tied pair across a plane cut, through a bolt for example: the tension "
+                      "to which the sides are drawn together, a formula in t; empty: none. [force]",
+                      FormulaPattern());
+    prm.add_parameter("Pretension shortening",
+                      pretension_shortening,
+                      "The same by the length by which they are drawn together. [length]",
+                      FormulaPattern());
+    prm.add_parameter(
+      "Pretension until",
+      pretension_until,
+      "The phase of 'Load stepping/Phases' at whose end the cut is locked: it keeps "
+      "its length, and its tension follows from what else acts. Empty: never.",
+      Patterns::Anything());
     sliding.declare(prm,
                     "Sliding",
                     "'finite' searches the partners in each iteration, 'small' "
@@ -152,6 +173,7 @@ namespace Touchstone
                        "name the boundaries of '" + master_body + "' that come into contact");
     behaviour.check(section + "/Friction");
     pairing.check(section);
+    check_pretension(section);
     if (!obstacle.empty() && !master_boundaries.empty())
       throw InputError(section,
                        "Master boundaries",
@@ -185,6 +207,41 @@ namespace Touchstone
                              "this boundary of '" + master_body +
                                "' is slave and master at the same time",
                              "let different boundaries be slave and master");
+  }
+
+
+
+  void
+  ContactPairParameters::check_pretension(const std::string &section) const
+  {
+    for (const auto &[key, text] :
+         {std::make_pair("Pretension force", &pretension_force),
+          std::make_pair("Pretension shortening", &pretension_shortening)})
+      {
+        if (text->empty())
+          continue;
+        check_expression(section, key, *text, "t");
+        if (!tied() || master_body.empty())
+          throw InputError(
+            section,
+            key,
+            *text,
+            "is for tied pairs of two bodies, the parts of a bolt on both sides of a "
+            "plane cut",
+            "set 'Behaviour = tied' and 'Master body', or remove the key");
+      }
+    if (!pretension_force.empty() && !pretension_shortening.empty())
+      throw InputError(section,
+                       "Pretension shortening",
+                       pretension_shortening,
+                       "contradicts 'Pretension force': one follows from the other",
+                       "remove one of them");
+    if (!pretension_until.empty() && !has_pretension())
+      throw InputError(section,
+                       "Pretension until",
+                       pretension_until,
+                       "there is no pretension that could be locked",
+                       "remove the key, or set 'Pretension force' or 'Pretension shortening'");
   }
 
 

@@ -90,14 +90,14 @@ namespace Touchstone
   ContactPair::update_small_sliding(const Vector &u)
   {
     // Gap vector g_0 + M u with constant weights and normal. A tied pair keeps its initial gap:
-    // only the relative displacement M u is constrained.
+    // only the relative displacement M u is constrained, or what it lacks of a shortening.
     stencil_values = u;
     for (std::size_t k = 0; k < present.size(); ++k)
       {
         ContactRow &row = present[k];
         if (!row.has_partner)
           continue;
-        row.gap_vector = is_tied ? Tensor<1, dim>() : reference[k].gap_vector;
+        row.gap_vector = is_tied ? shortening * row.normal : reference[k].gap_vector;
         for (unsigned int d = 0; d < dim; ++d)
           {
             row.gap_vector[d] += stencil_values(dim * row.slave + d);

@@ -141,7 +141,8 @@ namespace Touchstone
   void
   ExplicitStep::evaluate_forces(const double step)
   {
-    const CellPlace failed = cells.evaluate(now.u, now.v, step, now.internal, now.viscous);
+    const CellPlace failed =
+      cells.evaluate(now.u, now.v, now.time, step, now.internal, now.viscous);
     if (!loads.empty())
       loads.evaluate(now.time, now.u, now.external);
     check(failed);

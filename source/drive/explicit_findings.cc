@@ -127,6 +127,7 @@ namespace Touchstone
             *this,
             solid,
             {},
+            {},
             [this]() { return supports.reactions(kept.support); },
             [this]() {
               Vector result(displacement);

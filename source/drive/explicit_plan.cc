@@ -48,7 +48,9 @@ namespace Touchstone
       map,
       cells.masses(),
       now.u,
-      [&](NodeField &u, NodeField &force) { cells.evaluate(u, at_rest, 0., force, viscous); },
+      [&](NodeField &u, NodeField &force) {
+        cells.evaluate(u, at_rest, now.time, 0., force, viscous);
+      },
       size);
     // The bound of the cells is one for the mesh, too.
     assembled_to_cells = std::max(1., 2. / std::sqrt(square) / of_cells);
@@ -68,6 +70,7 @@ namespace Touchstone
           find_assembled_step(stable.length);
         counts.stable_step *= assembled_to_cells;
       }
+    counts.stable_step = with_springs(counts.stable_step, loads.square_frequency(cells.masses()));
     if (impulses)
       counts.stable_step = with_springs(counts.stable_step,
                                         impulses->square_frequency(now.u, now.time, stable.length));

@@ -112,7 +112,7 @@ namespace Touchstone
     set_from_formulas("Initial velocity ", &BodyParameters::initial_velocity, now.v);
     // A support prescribes the difference quotient of its displacement over a time that is short
     // beside the interval; other components keep their initial velocity.
-    const double instant  = 1e-6 * scene.load_stepping.end_time / scene.load_stepping.steps;
+    const double instant  = 1e-6 * scene.load_stepping.nominal_step(0.);
     NodeField    at_start = now.u;
     supports.set_displacements(0., at_start);
     supports.set_velocities(instant, instant, at_start, now.v);
@@ -150,7 +150,7 @@ namespace Touchstone
       }
     if (impulses)
       set_mobilities(0.);
-    const double interval = scene.load_stepping.end_time / scene.load_stepping.steps;
+    const double interval = scene.load_stepping.nominal_step(0.);
     unsigned int n        = 1;
     try
       {
@@ -191,7 +191,8 @@ namespace Touchstone
     char text[200];
     std::snprintf(text, sizeof(text), "stable step %.4g, of ", counts.stable_step);
     lines.push_back(text + counts.cell + ": about " +
-                    std::to_string(std::uint64_t(n) * scene.load_stepping.steps) + " cycles");
+                    std::to_string(std::llround(n * scene.load_stepping.end_time / interval)) +
+                    " cycles");
     return lines;
   }
 
@@ -224,6 +225,7 @@ namespace Touchstone
         if (left == 1)
           now.time = t;
       }
+    solid.set_time(t); // of the stresses that results show
     boundary_conditions.all_formulas().check(solid.communicator);
     // What results show of supports is their mean force over the interval, as of contact.
     for (std::size_t k = 0; k < now.support.size(); ++k)

@@ -21,12 +21,13 @@ namespace Touchstone
   void
   Simulation::load_stepping()
   {
-    const double end = scene.load_stepping.end_time, nominal = end / scene.load_stepping.steps;
+    const LoadSteppingParameters &plan = scene.load_stepping;
+    const double                  end  = plan.end_time;
     // A resumed run starts with the position of its checkpoint; size zero stands for a run from the
     // beginning.
     Position at = start;
     if (at.size <= 0.)
-      at.size = nominal;
+      at.size = plan.nominal_step(0.);
     /**
      * Fraction of the step size that is made next, below 1 if the step is to end where bodies meet
      * ("Adapt steps" of doc/time_integration.md). It is not a cut: later steps have their full size
@@ -36,15 +37,20 @@ namespace Touchstone
     // The tolerance stands for the round-off of summing up step sizes.
     while (at.time < end * (1. - 1e-12))
       {
-        // The last step ends exactly at the end time: neither beyond it, nor just before it, which
-        // would leave a step of the size of round-off.
-        at.size = std::min(at.size, end - at.time);
+        // The last step of a phase ends exactly at its end: neither beyond it, nor just before it,
+        // which would leave a step of the size of round-off.
+        const double stop_at = plan.phase_end(at.time), nominal = plan.nominal_step(at.time);
+        at.size = std::min(at.size, stop_at - at.time);
         const double next =
-          end - at.time - part * at.size < 1e-9 * nominal ? end : at.time + part * at.size;
+          stop_at - at.time - part * at.size < 1e-9 * nominal ? stop_at : at.time + part * at.size;
         // Number of steps in all if none is cut from here on, for the display only.
         const unsigned int expected =
-          at.step - 1 + static_cast<unsigned int>(std::ceil((end - at.time) / at.size - 1e-9));
-        progress.begin_step(at.step, expected, next);
+          at.step - 1 + static_cast<unsigned int>(std::ceil((stop_at - at.time) / at.size - 1e-9)) +
+          plan.steps_after_phase(at.time);
+        progress.begin_step(at.step,
+                            expected,
+                            next,
+                            plan.all_phases()[plan.phase_at(at.time)].name);
         try
           {
             part = make_step(at, next);
@@ -93,8 +99,10 @@ namespace Touchstone
   double
   Simulation::make_step(Position &at, const double next)
   {
-    const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
-    const double length  = next - at.time;
+    const LoadSteppingParameters &plan    = scene.load_stepping;
+    const unsigned int            phase   = plan.phase_at(at.time);
+    const double                  nominal = plan.nominal_step(at.time);
+    const double                  length  = next - at.time;
     // Solve, adapt the mesh, and solve again; all of it from the same committed state.
     unsigned int newton = solve_step(next);
     newton += adapt(at.step, next);
@@ -132,7 +140,7 @@ namespace Touchstone
     for (const std::string &text : findings.warnings)
       warnings.add(text);
     missed_pairs.end_step(findings.missed, warnings);
-    record_step(at.step, at.time, length, newton, at.cuts);
+    record_step(at.step, at.time, length, newton, at.cuts, phase);
     log.check();
     summary.steps = at.step;
     ++at.step;
@@ -142,6 +150,12 @@ namespace Touchstone
       {
         at.size *= 2.;
         --at.cuts;
+      }
+    // A new phase begins with steps of its own.
+    if (plan.phase_at(at.time) != phase)
+      {
+        at.size = plan.nominal_step(at.time);
+        at.cuts = 0;
       }
     if (checkpoint_due(at))
       write_checkpoint(at);
@@ -172,7 +186,7 @@ namespace Touchstone
         // tolerances) the run may resume from there.
         stop(reason + " (step " + std::to_string(at.step) + " at time " + std::to_string(next) +
                ", cut " + std::to_string(at.cuts) + " times)",
-             {at.time, scene.load_stepping.end_time / scene.load_stepping.steps, at.step, 0});
+             {at.time, scene.load_stepping.nominal_step(at.time), at.step, 0});
         return false;
       }
     ++at.cuts;

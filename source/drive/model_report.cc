@@ -146,11 +146,16 @@ namespace Touchstone
           });
         megabytes += (cheap ? 1.9e-3 : 4e-3) * mesh;
         // Equal cycles up to the end of each interval, as they are made.
-        const double n_cycles =
-          scene.load_stepping.steps *
-          std::ceil(scene.load_stepping.end_time / scene.load_stepping.steps /
-                    (scene.time_integration.cycles.courant_factor * cycles->stable_step) *
-                    (1. - 1e-9));
+        double n_cycles = 0., before = 0.;
+        for (const LoadPhase &phase : scene.load_stepping.all_phases())
+          {
+            n_cycles +=
+              phase.steps *
+              std::ceil((phase.end_time - before) / phase.steps /
+                        (scene.time_integration.cycles.courant_factor * cycles->stable_step) *
+                        (1. - 1e-9));
+            before = phase.end_time;
+          }
         seconds = (cheap ? 0.25e-6 : 0.6e-6) * mesh * n_cycles;
         what    = " for all of about " + readable(n_cycles) + " cycles";
       }

@@ -77,7 +77,7 @@ namespace Touchstone
     ArchiveWriter archive(solid.dof_handler);
     archive.put("position", position);
     archive.put("end time", scene.load_stepping.end_time);
-    archive.put("nominal step size", scene.load_stepping.end_time / scene.load_stepping.steps);
+    archive.put("nominal step size", scene.load_stepping.nominal_step(position.time));
     archive.put("summary", now);
     archive.put("warnings", warnings.list());
     archive.put("had contact", had_contact);
@@ -236,7 +236,7 @@ namespace Touchstone
     start = archive.get<Position>("position");
     // The size of the next step is that of the checkpoint, cut as it was. If the user has changed
     // the step size or the end time, the number of cuts is applied to the new nominal size.
-    const double nominal = scene.load_stepping.end_time / scene.load_stepping.steps;
+    const double nominal = scene.load_stepping.nominal_step(start.time);
     if (nominal != archive.get<double>("nominal step size") ||
         scene.load_stepping.end_time != archive.get<double>("end time"))
       start.size = std::ldexp(nominal, -static_cast<int>(start.cuts));

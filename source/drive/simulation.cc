@@ -91,6 +91,8 @@ namespace Touchstone
     summary.ranks    = Utilities::MPI::n_mpi_processes(communicator);
     summary.cells    = forest.triangulation.n_global_active_cells();
     summary.unknowns = solid.dof_handler.n_dofs();
+    for (const LoadPhase &phase : scene.load_stepping.phases)
+      summary.phases.emplace_back(phase.name, phase.end_time);
     if (scene.time_integration.dynamic())
       summary.motion.emplace();
     for (const BodyParameters &body : scene.bodies)
@@ -193,16 +195,19 @@ namespace Touchstone
                           const double       time,
                           const double       size,
                           const unsigned int newton,
-                          const unsigned int cuts)
+                          const unsigned int cuts,
+                          const unsigned int phase)
   {
     const Vector  u       = problem->state().ghosted_displacement();
     const auto    results = pair_results(problem->state().contact, u);
     ConvergedStep record;
-    record.solid             = &solid;
-    record.displacement      = &u;
-    record.points            = contact_points(problem->state().contact, u);
-    record.number            = step;
-    record.time              = time;
+    record.solid        = &solid;
+    record.displacement = &u;
+    record.points       = contact_points(problem->state().contact, u);
+    record.number       = step;
+    record.time         = time;
+    if (!scene.load_stepping.phases.empty())
+      record.phase = phase + 1;
     record.step_size         = size;
     record.newton_iterations = newton;
     // Iterations of this step: all so far less those of earlier steps, failed attempts included.
@@ -218,6 +223,7 @@ namespace Touchstone
         if (results[p].active > 0)
           had_contact[pair] = time;
       }
+    record.pretension = problem->state().pretension;
     summary.reactions.clear();
     for (const Reaction &reaction : problem->state().reactions())
       {
@@ -251,6 +257,8 @@ namespace Touchstone
              " nodes, " + std::to_string(summary.unknowns) + " unknowns on " +
              std::to_string(summary.ranks) + " rank(s); " + scene.contact.enforcement.name + ", " +
              scene.linear_solver.type);
+    for (const std::string &text : scene.without_effect)
+      warnings.add(text);
     // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
@@ -299,7 +307,7 @@ namespace Touchstone
     // gaps and formulas, and finds bodies that nothing holds.
     const std::unique_ptr<Step>    problem = Step::make(scene, forest, solid, timer);
     const std::vector<std::string> start   = problem->start();
-    problem->prepare(scene.load_stepping.end_time / scene.load_stepping.steps);
+    problem->prepare(scene.load_stepping.nominal_step(0.));
 
     std::vector<std::string> lines = {
       std::to_string(forest.triangulation.n_global_active_cells()) + " cells, " +
@@ -308,6 +316,7 @@ namespace Touchstone
     const auto add = [&lines](const std::vector<std::string> &more) {
       lines.insert(lines.end(), more.begin(), more.end());
     };
+    add(scene.without_effect);
     add(describe_bodies(scene, forest, solid));
     add(start);
     if (!problem->held_by_contact().empty())

@@ -62,7 +62,7 @@ namespace Touchstone
     {
       TimerOutput::Scope scope(timer, "assembly");
       solid.internal_force(u, internal);
-      if (!boundary_conditions.follower_pressure().empty())
+      if (boundary_conditions.depends_on_displacement())
         boundary_conditions.external_force(time, u, external);
     }
     // Time integration weighs the forces at both ends of the step and adds inertia. Forces on
@@ -177,8 +177,8 @@ namespace Touchstone
       {
         // The load stepping then cuts the step.
         if (halvings == 6)
-          throw InvertedCells("a cell turns inside out (det F <= 0), even with 1/64 of a Newton "
-                              "increment: " +
+          throw InvertedCells("a cell turns inside out (det F <= 0) or beyond the limit of its "
+                              "law, even with 1/64 of a Newton increment: " +
                               inverted_place(trial));
         increment *= 0.5;
         admissible_part *= 0.5;

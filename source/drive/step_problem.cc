@@ -30,6 +30,7 @@ namespace Touchstone
               scene.contact,
               solid,
               boundary_conditions.mirrors())
+    , pretension(scene.pairs, scene.load_stepping, contact)
     , u(solid.owned, solid.communicator)
     , committed_u(u)
     , external(u)
@@ -54,14 +55,11 @@ namespace Touchstone
     for (const ContactRow &row : contact.rows())
       if (!row.tied)
         slaves.insert(dim * row.slave);
-    integration = TimeIntegration::make(scene.time_integration,
-                                        scene.load_stepping.end_time / scene.load_stepping.steps,
-                                        solid,
-                                        slaves,
-                                        committed_u);
-    system      = std::make_unique<StepSystem>(
+    integration = TimeIntegration::make(
+      scene.time_integration, scene.load_stepping.nominal_step(0.), solid, slaves, committed_u);
+    system = std::make_unique<StepSystem>(
       StepSystem::Parts{scene, solid, boundary_conditions, contact, *integration});
-    parts = {integration.get(), &solid, &contact};
+    parts = {integration.get(), &solid, &contact, &pretension};
     // Two lengths: of the largest coordinate, which sets the round-off of positions; and of the box
     // around all bodies, beyond which no increment makes sense.
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
@@ -102,7 +100,7 @@ namespace Touchstone
         // The velocity that a support prescribes is the difference quotient of its displacement
         // over a time that is short compared with a step. Components across the prescribed
         // direction keep their initial velocity.
-        const double instant  = 1e-6 * scene.load_stepping.end_time / scene.load_stepping.steps;
+        const double instant  = 1e-6 * scene.load_stepping.nominal_step(0.);
         const auto   set_rate = [&](Vector &velocity) {
           const auto now  = boundary_conditions.displacements(0.),
                      soon = boundary_conditions.displacements(instant);
@@ -130,6 +128,7 @@ namespace Touchstone
   {
     time = t;
     contact.enforcement().begin_step();
+    pretension.begin_step(t);
     integration->begin_step(time, u);
     // Only the first residual of the step, at the first guess of its end, estimates when the first
     // gap closes: later iterates already obey contact.
@@ -138,7 +137,7 @@ namespace Touchstone
     system->begin_step();
     boundary_conditions.external_force(time, u, external);
     // Last: the functions above use the committed state of the material.
-    solid.begin_step(time - committed_time);
+    solid.begin_step(time - committed_time, time);
   }
 
 
@@ -149,7 +148,11 @@ namespace Touchstone
                      const Newton::Observer &observer)
   {
     begin_step(t);
-    return Newton(parameters).solve(*this, observer);
+    const Newton newton(parameters);
+    unsigned int n_iterations = newton.solve(*this, observer);
+    while (pretension.correct(solid.ghosted(u)))
+      n_iterations += newton.solve(*this, observer);
+    return n_iterations;
   }
 
 
@@ -200,6 +203,7 @@ namespace Touchstone
             *integration,
             solid,
             {linear_counts(), assemblies, n_searches()},
+            pretension.results(),
             [this, needed]() { return boundary_conditions.reactions(needed()); },
             [this, needed]() { return boundary_conditions.nodal_reactions(needed()); }};
   }

@@ -96,7 +96,7 @@ namespace Touchstone
     Enforcement &enforcement = parts.contact.enforcement();
     // Friction needs to know which conditions of contact were accepted.
     enforcement.enforce(parts.contact, graph, *system);
-    add_follower_pressure(state);
+    add_load_stiffness(state);
     enforcement.add_friction(parts.contact, *system);
     if (!parts.integration.dynamic())
       check_supports(state);
@@ -127,11 +127,12 @@ namespace Touchstone
 
 
   void
-  StepSystem::add_follower_pressure(const State &state)
+  StepSystem::add_load_stiffness(const State &state)
   {
-    if (parts.boundary_conditions.follower_pressure().empty())
+    if (!parts.boundary_conditions.depends_on_displacement())
       return;
     const std::size_t before = system->terms.size();
+    parts.boundary_conditions.ground_springs().add_stiffness(system->terms);
     parts.boundary_conditions.follower_pressure().add_stiffness(state.time,
                                                                 state.u,
                                                                 system->keep_symmetric,
@@ -141,9 +142,10 @@ namespace Touchstone
         // Loads at the end of the step enter the balance with this weight, and so does their
         // stiffness.
         entry.second *= parts.integration.weight();
-    // The load stiffness is unsymmetric in general (doc/theory.md 2.3); systems that have to be
-    // symmetric get its symmetric part.
-    system->symmetric = system->symmetric && system->keep_symmetric;
+    // The stiffness of a pressure is unsymmetric in general (doc/theory.md 2.3), that of springs is
+    // not; systems that have to be symmetric get its symmetric part.
+    if (!parts.boundary_conditions.follower_pressure().empty())
+      system->symmetric = system->symmetric && system->keep_symmetric;
   }
 
 
@@ -228,7 +230,10 @@ namespace Touchstone
   StepSystem::check_bodies_without_support(const Vector &u)
   {
     prescribe(0., u);
-    const FreeMotion motion = modes.free_motion(graph.accepted());
+    std::vector<Condition>       held    = graph.accepted();
+    const std::vector<Condition> springs = parts.boundary_conditions.ground_springs().conditions();
+    held.insert(held.end(), springs.begin(), springs.end());
+    const FreeMotion motion = modes.free_motion(held);
     unsupported_motions     = motion.description;
     for (const unsigned int body : motion.bodies)
       {
@@ -254,7 +259,9 @@ namespace Touchstone
   void
   StepSystem::check_supports(const State &state)
   {
-    std::vector<Condition> supports = graph.accepted();
+    std::vector<Condition> supports = parts.boundary_conditions.ground_springs().conditions();
+    const std::vector<Condition> &conditions = graph.accepted();
+    supports.insert(supports.end(), conditions.begin(), conditions.end());
     for (const ContactRow &row : parts.contact.rows())
       {
         const auto springs = elastic_stick(row, parts.contact.state(row));

@@ -15,9 +15,10 @@ namespace Touchstone
 
   BlockLaw::BlockLaw(const BodyParameters &body)
     : finite(body.material.finite_strain())
-    , formulas(body.material.linear()                    ? Formulas::linear_elastic
-               : body.material.law.name == "neo-Hookean" ? Formulas::neo_hookean
-                                                         : Formulas::any_law)
+    , formulas(body.material.linear() ? Formulas::linear_elastic
+               : body.material.law.name == "neo-Hookean" && !body.material.thermal()
+                 ? Formulas::neo_hookean
+                 : Formulas::any_law)
     , constants{body.material.shear_modulus(), body.material.bulk_modulus(), 0., 0.}
   {
     // The law that the elements of implicit runs have.
@@ -27,7 +28,7 @@ namespace Touchstone
       of_points = SmallStrainKernel(1, ElementType::full, body.material).material();
     // The formulas for eight cells are those of constant and of linear isotropic hardening.
     const std::string &hardening = body.material.hardening_type.name;
-    if (finite && of_points->n_state() > 0 && of_points->plastic() &&
+    if (finite && of_points->n_state() > 0 && of_points->plastic() && !body.material.thermal() &&
         body.material.kinematic_modulus == 0. && (hardening == "none" || hardening == "linear"))
       {
         formulas                = Formulas::von_mises;
@@ -101,6 +102,7 @@ namespace Touchstone
         for (unsigned int k = 0; k < before.size(); ++k)
           before[k] = state[k][lane];
         response.solved = !finite || determinant(F) > 0.;
+        response.solved = response.solved && of_points->admits({F, before.data(), step});
         if (response.solved)
           of_points->respond({F, before.data(), step}, Demand::stress, response, after.data());
         if (response.solved)

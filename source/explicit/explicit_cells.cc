@@ -124,6 +124,7 @@ namespace Touchstone
   CellPlace
   ExplicitCells::evaluate(const NodeField &u,
                           const NodeField &v,
+                          const double     time,
                           const double     step,
                           NodeField       &force,
                           NodeField       &viscous)
@@ -136,7 +137,8 @@ namespace Touchstone
       {
         const CellForces::BulkViscosity bulk{Viscosity(bodies[b].material, parameters, step),
                                              periods[b]};
-        const unsigned int              c =
+        of_bodies[b]->set_time(time);
+        const unsigned int c =
           of_bodies[b]->subtract_forces(u, v, step, damped ? &bulk : nullptr, force, viscous);
         if (c != numbers::invalid_unsigned_int)
           if (const CellPlace one = place(b, c); one.key < failed.key)

@@ -118,9 +118,9 @@ namespace Touchstone
                                   const std::vector<NodalMasses> &masses,
                                   std::vector<double>            &result)
   {
-    // The tangent of a law without history; with history, where cells that flow are softer than
-    // when they unload, the elastic stiffness of the present shape. It is costly, and scaled by an
-    // estimate from the shape alone until that has changed by this part.
+    // The tangent of a law without history; with history, where cells that flow or relax are softer
+    // than when they unload, the elastic stiffness of the present shape. It is costly, and scaled
+    // by an estimate from the shape alone until that has changed by this part.
     constexpr double change = 0.02;
     result.resize(cells.size());
     if (exact.empty())
@@ -135,7 +135,7 @@ namespace Touchstone
         const double now   = one_point_frequency(x, body.material, masses[c]);
         if (!(std::abs(now / estimate[c] - 1.) < change))
           {
-            if (states.size() > 0 || small)
+            if (kernel->material()->stiffest_at_rest())
               {
                 elastic.reinit(x);
                 exact[c] = largest_eigenvalue([&](const unsigned int i,

@@ -4,8 +4,10 @@
 #include <touchstone/explicit/nodal_loads.h>
 
 #include <deal.II/base/geometry_info.h>
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -140,7 +142,7 @@ namespace Touchstone
   void
   NodalLoads::add_surface_loads(const BoundaryConditions &conditions, const Solid &solid)
   {
-    if (conditions.surface_loads().empty() && conditions.follower_pressure().empty())
+    if (conditions.surface_loads().empty() && !conditions.depends_on_displacement())
       return;
     const auto            faces = boundary_faces(solid, map);
     const QGauss<dim - 1> quadrature(3);
@@ -172,6 +174,17 @@ namespace Touchstone
           tangents[i] += point.derivatives[i][k] * map.positions()[point.nodes[k]];
       return Tensor<1, dim>(point.sign * cross_product_3d(tangents[0], tangents[1]));
     };
+    const auto load_point = [](const PressurePoint &point) {
+      LoadPoint one;
+      one.position = point.position;
+      one.n_nodes  = 4;
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          one.nodes[k]  = point.nodes[k];
+          one.shapes[k] = point.shapes[k];
+        }
+      return one;
+    };
     for (const auto &load : conditions.surface_loads())
       for (unsigned int component = 0; component <= dim; ++component)
         {
@@ -180,15 +193,8 @@ namespace Touchstone
             continue;
           std::vector<LoadPoint> points;
           for_each_point(load.boundary, [&](const PressurePoint &point) {
-            const Tensor<1, dim> n = normal(point);
-            LoadPoint            one;
-            one.position = point.position;
-            one.n_nodes  = 4;
-            for (unsigned int k = 0; k < 4; ++k)
-              {
-                one.nodes[k]  = point.nodes[k];
-                one.shapes[k] = point.shapes[k];
-              }
+            const Tensor<1, dim> n   = normal(point);
+            LoadPoint            one = load_point(point);
             if (component < dim)
               one.direction[component] = n.norm();
             else
@@ -197,6 +203,31 @@ namespace Touchstone
           });
           add(function, std::move(points));
         }
+    for (const auto &load : conditions.surface_loads())
+      for (unsigned int k = 0; load.resultant && k < 2 * dim; ++k)
+        if (const Function &function = load.resultant->functions()[k])
+          {
+            std::vector<LoadPoint> points;
+            for_each_point(load.boundary, [&](const PressurePoint &point) {
+              LoadPoint one = load_point(point);
+              one.direction =
+                normal(point).norm() * load.resultant->traction_of_unit(k, point.position);
+              points.push_back(one);
+            });
+            add(function, std::move(points));
+          }
+    for (const auto &spring : conditions.ground_springs().all_springs())
+      for_each_point(spring.boundary, [&](const PressurePoint &point) {
+        const Tensor<1, dim> n    = normal(point);
+        const double         area = n.norm();
+        Spring               one;
+        one.nodes  = point.nodes;
+        one.shapes = point.shapes;
+        one.normal = n / area;
+        one.across = area * spring.normal;
+        one.along  = area * spring.tangential;
+        springs.push_back(one);
+      });
     for (const auto &load : conditions.follower_pressure().all_loads())
       {
         Pressure pressure{load.pressure, {}};
@@ -226,6 +257,17 @@ namespace Touchstone
               force[point.nodes[a]] += point.shapes[a] * whole;
           }
       }
+    for (const Spring &spring : springs)
+      {
+        Tensor<1, dim> moved;
+        for (unsigned int k = 0; k < 4; ++k)
+          moved += spring.shapes[k] * u[spring.nodes[k]];
+        const Tensor<1, dim> whole = -spring.along * moved + (spring.along - spring.across) *
+                                                               (spring.normal * moved) *
+                                                               spring.normal;
+        for (unsigned int k = 0; k < 4; ++k)
+          force[spring.nodes[k]] += spring.shapes[k] * whole;
+      }
     for (const Pressure &pressure : pressures)
       {
         const bool   uniform = !pressure.function->depends_on_position();
@@ -244,5 +286,23 @@ namespace Touchstone
               force[point.nodes[k]] += point.shapes[k] * whole;
           }
       }
+  }
+
+
+
+  double
+  NodalLoads::square_frequency(const std::vector<double> &masses) const
+  {
+    // Largest sum of the norms of the blocks of a row over the mass: the shapes of a face add up to
+    // one.
+    std::map<unsigned int, double> sums;
+    for (const Spring &spring : springs)
+      for (unsigned int k = 0; k < 4; ++k)
+        if (spring.nodes[k] < map.n_owned())
+          sums[spring.nodes[k]] += spring.shapes[k] * std::max(spring.across, spring.along);
+    double largest = 0.;
+    for (const auto &[node, sum] : sums)
+      largest = std::max(largest, sum / masses[node]);
+    return Utilities::MPI::max(largest, map.communicator());
   }
 } // namespace Touchstone

@@ -234,11 +234,9 @@ namespace Touchstone
              .set("values", scene.reference.values));
     export_mesh(scene, solid, model);
     model.set("pairs", export_pairs(scene, forest, solid));
-    Json               steps = Json::array();
-    const unsigned int n     = scene.load_stepping.steps;
-    for (unsigned int step = 1; step <= n; ++step)
-      steps.append(
-        export_step(conditions, solid, scene.load_stepping.end_time * (double(step) / n)));
+    Json steps = Json::array();
+    for (const double end : scene.load_stepping.step_ends())
+      steps.append(export_step(conditions, solid, end));
     model.set("steps", steps);
     // Sixteen digits: mesh and loads are to be the same numbers there.
     write_file_atomically(path, model.print(16));

@@ -47,12 +47,16 @@ namespace Touchstone
 
 
   void
-  Progress::begin_step(const unsigned int step, const unsigned int steps, const double time)
+  Progress::begin_step(const unsigned int step,
+                       const unsigned int steps,
+                       const double       time,
+                       const std::string &phase)
   {
     this->time = time;
     header_due = true;
     log.line();
-    log.line(format("Step %u/%u   t = %g", step, steps, time));
+    log.line(format("Step %u/%u   t = %g", step, steps, time) +
+             (phase.empty() ? "" : "   " + phase));
   }
 
 

@@ -59,6 +59,8 @@ namespace Touchstone
         values.add("Newton iterations", step.newton_iterations);
         values.add("linear iterations", step.linear_iterations);
         values.add("cuts", step.cuts);
+        if (step.phase > 0)
+          values.add("phase", step.phase);
         if (step.cycles)
           {
             values.add("cycles", step.cycles->first);
@@ -96,6 +98,29 @@ namespace Touchstone
             values.add(pair, "active nodes", result.active);
             values.add(pair, "stick nodes", result.stick);
             values.add(pair, "slip nodes", result.slip);
+          }
+      }
+    };
+
+
+
+    /** What tightened bolts have come to, also in summary.json. */
+    class PretensionResults : public BuiltInQuantity<15>
+    {
+    public:
+      bool
+      in_summary() const override
+      {
+        return true;
+      }
+
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        for (const auto &[pair, result] : step.pretension)
+          {
+            values.add(pair, "shortening", result.first);
+            values.add(pair, "tension", result.second);
           }
       }
     };
@@ -154,6 +179,8 @@ namespace Touchstone
       step_counters_entry("counters", "Number, time and length of the step, and iterations.");
     const StepQuantityRegistry::Entry<PairResults>
       pair_results_entry("pair results", "Force, area, pressure and nodes of each contact pair.");
+    const StepQuantityRegistry::Entry<PretensionResults>
+      pretension_entry("pretension", "Shortening and tension of pairs with pretension.");
     const StepQuantityRegistry::Entry<Reactions> reactions_entry("reactions",
                                                                  "Forces of supports on bodies.");
     const StepQuantityRegistry::Entry<EnergyTerms>

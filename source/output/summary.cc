@@ -240,6 +240,13 @@ namespace Touchstone
     if (motion)
       result.set("motion", motion->to_json());
     result.set("steps", steps);
+    if (!phases.empty())
+      {
+        Json list = Json::array();
+        for (const auto &[name, end] : phases)
+          list.append(Json::object().set("name", name).set("end_time", end));
+        result.set("phases", list);
+      }
     add_cycles(*this, result);
     return result
       .set("iterations",

@@ -5,6 +5,8 @@
 #include <touchstone/scene/combinations.h>
 #include <touchstone/scene/scene.h>
 
+#include <algorithm>
+
 /**
  * @file
  * Combinations of keys that are refused. Each key is valid by itself here (the check() of its
@@ -46,32 +48,33 @@ namespace Touchstone
       const bool small_only = type == ElementType::b_bar || type == ElementType::incompatible_modes;
       const std::string section = body.section(), name = body.element_type.word(),
                         but_law = ", but 'Material/Law' is '" + material.law.name + "'";
-      return {{scene.discretisation.degree > 1 && type != ElementType::full,
-               section,
-               "Element",
-               name,
-               "is made for degree 1, but 'Discretisation/Degree' is " +
-                 std::to_string(scene.discretisation.degree),
-               "take the element 'automatic' or 'full', or degree 1"},
-              {type == ElementType::incompatible_modes && !material.linear() &&
-                 !material.finite_strain(),
-               section,
-               "Element",
-               name,
-               "has no plasticity" + but_law,
-               "take the element 'automatic' or 'b-bar', degree 2, or the law 'linear elastic'"},
-              {material.finite_strain() && small_only,
-               section,
-               "Element",
-               name,
-               "is for small strain" + but_law,
-               "take the element 'automatic', 'F-bar' or 'full', or the law 'linear elastic'"},
-              {!material.finite_strain() && type == ElementType::f_bar,
-               section,
-               "Element",
-               name,
-               "is for finite strain" + but_law,
-               "take the element 'automatic', 'b-bar' or 'full', or another law"}};
+      return {
+        {scene.discretisation.degree > 1 && type != ElementType::full,
+         section,
+         "Element",
+         name,
+         "is made for degree 1, but 'Discretisation/Degree' is " +
+           std::to_string(scene.discretisation.degree),
+         "take the element 'automatic' or 'full', or degree 1"},
+        {type == ElementType::incompatible_modes && !material.linear() && !material.finite_strain(),
+         section,
+         "Element",
+         name,
+         (material.law.name == "linear elastic" ? "takes no thermal strain"
+                                                : "is for the law 'linear elastic'" + but_law),
+         "take the element 'automatic' or 'b-bar', or degree 2"},
+        {material.finite_strain() && small_only,
+         section,
+         "Element",
+         name,
+         "is for small strain" + but_law,
+         "take the element 'automatic', 'F-bar' or 'full', or the law 'linear elastic'"},
+        {!material.finite_strain() && type == ElementType::f_bar,
+         section,
+         "Element",
+         name,
+         "is for finite strain" + but_law,
+         "take the element 'automatic', 'b-bar' or 'full', or another law"}};
     }
 
 
@@ -182,6 +185,19 @@ namespace Touchstone
                body.element_type.word(),
                "is for explicit dynamics: its stiffness is that of a single point",
                "take 'automatic', or set 'Time integration/Scheme' to 'central_differences'"},
+              {one_point && body.material.thermal(),
+               section + "/Material/Thermal expansion",
+               "Temperature",
+               body.material.temperature,
+               "the element 'one point' takes no thermal strain",
+               "set 'Element = automatic'"},
+              {one_point && body.material.law.name == "orthotropic",
+               section,
+               "Element",
+               body.element_type.word(),
+               "has a control of hourglass modes for isotropic laws, but 'Material/Law' is "
+               "'orthotropic'",
+               "set it to 'automatic'"},
               {!one_point && body.hourglass != BodyParameters::Hourglass::stiffness,
                section,
                "Hourglass control",
@@ -226,6 +242,43 @@ namespace Touchstone
                pair.initial_overlap.word(),
                "a tied pair holds the bodies as they are placed",
                "remove the key"},
+              {pair.ramp_end > 0. && pair.initial_overlap != ContactPairParameters::Overlap::ramp,
+               section,
+               "Overlap end time",
+               as_text(pair.ramp_end),
+               "means nothing while 'Initial overlap' is '" + pair.initial_overlap.word() + "'",
+               "remove it, or set 'Initial overlap' to 'ramp'"},
+              {pair.ramp_end > scene.load_stepping.end_time,
+               section,
+               "Overlap end time",
+               as_text(pair.ramp_end),
+               "is later than the end of the run, so the overlap would never be there in full",
+               "give a time up to 'Load stepping/End time', which is " +
+                 as_text(scene.load_stepping.end_time)},
+              {pair.has_pretension() && scene.time_integration.dynamic(),
+               section,
+               pair.pretension_force.empty() ? "Pretension shortening" : "Pretension force",
+               pair.pretension_force + pair.pretension_shortening,
+               "is for static runs, but 'Time integration/Scheme' is '" +
+                 scene.time_integration.scheme.word() + "'",
+               "set the scheme to 'static'"},
+              {pair.has_pretension() && scene.refinement.active(),
+               section,
+               pair.pretension_force.empty() ? "Pretension shortening" : "Pretension force",
+               pair.pretension_force + pair.pretension_shortening,
+               "does not go over to a mesh that changes",
+               "set 'Refinement/Estimator' to 'none'"},
+              {!pair.pretension_until.empty() && std::none_of(scene.load_stepping.phases.begin(),
+                                                              scene.load_stepping.phases.end(),
+                                                              [&pair](const LoadPhase &phase) {
+                                                                return phase.name ==
+                                                                       pair.pretension_until;
+                                                              }),
+               section,
+               "Pretension until",
+               pair.pretension_until,
+               "is no phase of the run",
+               "name one of 'Load stepping/Phases'"},
               {pair.tied() && pair.sliding == ContactPairParameters::Sliding::finite,
                section,
                "Sliding",

@@ -19,7 +19,7 @@ namespace Touchstone
     input.slave_body = scene.body_index(parameters.slave_body);
     // Young's modulus of the softer body scales contact forces: c = E A/h, doc/theory.md 5.
     input.modulus  = scene.bodies[input.slave_body].material.young_modulus;
-    input.end_time = scene.load_stepping.end_time;
+    input.end_time = parameters.ramp_end > 0. ? parameters.ramp_end : scene.load_stepping.end_time;
     // Explicit steps know of edges by their own search, see GeneralContact.
     input.edges = !scene.time_integration.runs_in_cycles();
     for (const ObstacleParameters &obstacle : scene.obstacles)

@@ -84,8 +84,9 @@ namespace Touchstone
   may_change(const std::string &section, const std::string &key)
   {
     // "Reference displacement x" of a body says only what the result is compared with.
-    return free_sections.count(section) > 0 || free_keys.count({section, key}) > 0 ||
-           key.rfind("Reference displacement ", 0) == 0;
+    // Phases are as free as the end of the run and the number of its steps.
+    return free_sections.count(section) > 0 || section.rfind("Load stepping/", 0) == 0 ||
+           free_keys.count({section, key}) > 0 || key.rfind("Reference displacement ", 0) == 0;
   }
 
 
@@ -133,7 +134,8 @@ namespace Touchstone
     // A ramped initial overlap grows up to the end time: with another end the committed steps would
     // have had another overlap.
     for (const ContactPairParameters &pair : scene.pairs)
-      if (pair.initial_overlap == ContactPairParameters::Overlap::ramp && !same(old_end, end))
+      if (pair.initial_overlap == ContactPairParameters::Overlap::ramp && pair.ramp_end == 0. &&
+          !same(old_end, end))
         throw InputError(end_key.first,
                          end_key.second,
                          end,

@@ -3,6 +3,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
 #include <touchstone/mesh/obstacle_shape.h>
+#include <touchstone/scene/idle_sections.h>
 #include <touchstone/scene/scene.h>
 #include <touchstone/scene/scene_entries.h>
 #include <touchstone/scene/scene_text.h>
@@ -83,10 +84,16 @@ namespace Touchstone
                const std::string              &file_name,
                const std::vector<std::string> &overrides)
   {
-    const SceneText text(content, file_name, overrides);
+    SceneText text(content, file_name, overrides);
     read_lists(text);
     declare(text);
+    // The keys exist from here on, those of the present behaviours: what is set beside them is
+    // taken away before the entries are compared with the keys.
+    without_effect             = take_idle_friction(*this, text);
+    const std::string defaults = complete_entries();
     set_entries(text, prm);
+    const std::vector<std::string> idle = idle_sections(*this, defaults, complete_entries());
+    without_effect.insert(without_effect.end(), idle.begin(), idle.end());
     resolve(text, file_name);
     check();
   }
@@ -118,6 +125,8 @@ namespace Touchstone
         probes.emplace_back();
         probes.back().name = name;
       }
+    for (const std::string &name : names_of_list(text, "Load stepping", "Phases", "Phase "))
+      load_stepping.phases.push_back({name, 0., 1});
     // "all" needs no subsection: everything touches everything without friction.
     if (text.value("", "Contact pairs", "") == "all" &&
         text.sections().count("Contact pair all") == 0)
@@ -228,6 +237,8 @@ namespace Touchstone
   Scene::resolve(const SceneText &text, const std::string &file_name)
   {
     for (BodyParameters &body : bodies)
+      body.material.resolve();
+    for (BodyParameters &body : bodies)
       // Resolved once, so that everything else sees the element that is used.
       if (body.element_type == ElementType::automatic)
         body.element_type = body.automatic_element(discretisation.degree);
@@ -261,6 +272,9 @@ namespace Touchstone
       contact.enforcement =
         ContactParameters::default_enforcement(time_integration.runs_in_cycles());
 
+    if (!load_stepping.phases.empty())
+      resolve_phases(text);
+
     if (output.directory.empty())
       {
         // The default folder is named after the scene file: output/STEM. A leading dot belongs to
@@ -271,6 +285,31 @@ namespace Touchstone
         const std::size_t dot = stem.find_last_of('.');
         output.directory      = "output/" + (dot == 0 ? stem : stem.substr(0, dot));
       }
+  }
+
+
+
+  void
+  Scene::resolve_phases(const SceneText &text)
+  {
+    const double end   = load_stepping.phases.back().end_time;
+    unsigned int steps = 0;
+    for (const LoadPhase &phase : load_stepping.phases)
+      steps += phase.steps;
+    // A complete scene that was printed before sets both to these values.
+    for (const auto &[key, differs] : {std::make_pair("End time", load_stepping.end_time != end),
+                                       std::make_pair("Steps", load_stepping.steps != steps)})
+      if (text.is_set("Load stepping", key) && differs)
+        throw InputError("Load stepping",
+                         key,
+                         text.value("Load stepping", key, ""),
+                         "follows from the phases, with another value",
+                         "remove it; each phase has this key in its own subsection");
+    // Through the handler, so that the printed scene shows them.
+    prm.enter_subsection("Load stepping");
+    prm.set("End time", end);
+    prm.set("Steps", static_cast<long int>(steps));
+    prm.leave_subsection();
   }
 
 

@@ -116,17 +116,26 @@ namespace Touchstone
     // Formulas of time alone can be evaluated at all steps without a mesh: a division by zero at
     // the last step is found now and not after hours. Those that depend on position are checked
     // where they are evaluated (Formulas::check).
-    const auto check =
+    const std::vector<double> times = load_stepping.step_ends();
+    const auto                check =
       [&](const std::string &section, const std::string &key, const std::string &text) {
-        check_at_all_steps(section, key, text, load_stepping.end_time, load_stepping.steps);
+        check_at_all_steps(section, key, text, times);
       };
     for (const BodyParameters &body : bodies)
       {
         for (unsigned int d = 0; d < 3; ++d)
           check(body.section(), std::string("Body force ") + "xyz"[d], body.body_force[d]);
+        check(body.section() + "/Material/Thermal expansion",
+              "Temperature",
+              body.material.temperature);
         for (const auto &[boundary, condition] : body.boundaries)
           for (const auto &[key, text] : condition.formulas())
             check(body.section() + "/Boundary " + boundary, key, text);
+      }
+    for (const ContactPairParameters &pair : pairs)
+      {
+        check(pair.section(), "Pretension force", pair.pretension_force);
+        check(pair.section(), "Pretension shortening", pair.pretension_shortening);
       }
     for (const ObstacleParameters &obstacle : obstacles)
       for (const auto &[key, text] : {std::make_pair("Motion x", &obstacle.motion_x),

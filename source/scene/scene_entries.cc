@@ -100,10 +100,11 @@ namespace Touchstone
             {"Contact pair ", "Contact pairs"},
             {"Obstacle ", "Obstacles"},
             {"Probe ", "Probes"},
-            {"Boundary ", "Boundary conditions"}};
+            {"Boundary ", "Boundary conditions"},
+            {"Phase ", "Phases"}};
           for (const auto &[prefix, list] : lists)
             if (part.compare(0, prefix.size(), prefix) == 0 &&
-                parent.empty() == (prefix != "Boundary "))
+                parent.empty() == (prefix != "Boundary " && prefix != "Phase "))
               throw InputError(join_path(path),
                                "",
                                "",

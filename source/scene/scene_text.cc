@@ -156,6 +156,27 @@ namespace Touchstone
 
 
 
+  std::vector<SceneEntry>
+  SceneText::take(const std::string &section)
+  {
+    const auto within = [&section](const std::string &other) {
+      return other == section || other.compare(0, section.size() + 1, section + '/') == 0;
+    };
+    std::vector<SceneEntry> taken, kept;
+    for (const SceneEntry &entry : all_entries)
+      {
+        if (within(entry.section))
+          all_constants.insert(entry.value);
+        (within(entry.section) ? taken : kept).push_back(entry);
+      }
+    all_entries = kept;
+    for (auto other = all_sections.begin(); other != all_sections.end();)
+      other = within(other->first) ? all_sections.erase(other) : std::next(other);
+    return taken;
+  }
+
+
+
   void
   SceneText::note_section(const std::string &section, const unsigned int line)
   {

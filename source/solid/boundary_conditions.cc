@@ -48,9 +48,13 @@ namespace Touchstone
       constexpr double parallel = 0.999;
       for (const auto &[key, text] : condition.formulas())
         {
-          const std::size_t d      = std::string("xyz").find(key.back());
-          const bool        across = d != std::string::npos ? std::abs(plane[d]) > parallel
-                                                            : plane.norm() > 0.; // the pressure
+          const std::size_t d = std::string("xyz").find(key.back());
+          // The pressure, and moments but that about the normal, push across.
+          const bool about  = key.rfind("Moment", 0) == 0;
+          const bool across = d != std::string::npos && about
+                                ? plane.norm() > 0. && std::abs(plane[d]) <= parallel
+                              : d != std::string::npos ? std::abs(plane[d]) > parallel
+                                                       : plane.norm() > 0.;
           if (!text.empty() && (fixed || across))
             throw InputError(section,
                              key,
@@ -67,6 +71,7 @@ namespace Touchstone
   BoundaryConditions::BoundaryConditions(const Forest &forest, const Solid &solid)
     : solid(solid)
     , following(solid)
+    , springs(solid)
   {
     for (unsigned int b = 0; b < solid.bodies.size(); ++b)
       {
@@ -143,6 +148,15 @@ namespace Touchstone
                    condition,
                    supported.is_fixed(id),
                    plane != supported.planes.end() ? plane->second : Tensor<1, dim>());
+    for (const auto &[key, value] :
+         {std::make_pair("Spring stiffness normal", condition.spring_normal),
+          std::make_pair("Spring stiffness tangential", condition.spring_tangential)})
+      if (value > 0. && supported.is_fixed(id))
+        throw InputError(section,
+                         key,
+                         Patterns::Tools::to_string(value),
+                         "has no effect: 'Fixed' of the body holds this boundary",
+                         "remove this entry or take the boundary from that list");
     const auto parse = [&](const std::string &key, const std::string &text) {
       return formulas.add(section, key, text);
     };
@@ -165,9 +179,33 @@ namespace Touchstone
                     {{parse("Traction x", condition.traction_x),
                       parse("Traction y", condition.traction_y),
                       parse("Traction z", condition.traction_z)}},
-                    follows ? nullptr : pressure};
-    if (load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
+                    follows ? nullptr : pressure,
+                    make_resultant(id, condition, section)};
+    if (condition.spring_normal > 0. || condition.spring_tangential > 0.)
+      springs.add({id, condition.spring_normal, condition.spring_tangential});
+    if (load.resultant || load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
       loads.push_back(load);
+  }
+
+
+
+  std::shared_ptr<const ResultantLoad>
+  BoundaryConditions::make_resultant(const BoundaryIds        &id,
+                                     const BoundaryParameters &condition,
+                                     const std::string        &section)
+  {
+    if (!condition.has_resultant())
+      return nullptr;
+    ResultantLoad::Functions functions;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const std::string letter(1, "xyz"[d]);
+        functions[d]       = formulas.add(section, "Force " + letter, condition.force[d]);
+        functions[dim + d] = formulas.add(section, "Moment " + letter, condition.moment[d]);
+      }
+    const std::vector<double> &x     = condition.reference_point;
+    const Point<dim>           point = x.empty() ? Point<dim>() : Point<dim>(x[0], x[1], x[2]);
+    return std::make_shared<ResultantLoad>(solid, id, functions, x.empty() ? nullptr : &point);
   }
 
 
@@ -321,6 +359,7 @@ namespace Touchstone
   {
     force = 0.;
     following.add_force(t, u, force);
+    springs.add_force(u, force);
     add_body_forces(t, force);
     add_tractions(t, force);
     formulas.check(solid.communicator);
@@ -358,6 +397,8 @@ namespace Touchstone
                       -evaluate(load.pressure, x, t) * values.normal_vector(q);
                     for (unsigned int d = 0; d < dim; ++d)
                       traction[d] += evaluate(load.traction[d], x, t);
+                    if (load.resultant)
+                      traction += load.resultant->traction(x, t);
                     for (unsigned int i = 0; i < dofs.size(); ++i)
                       if (solid.owned.is_element(dofs[i]))
                         force(dofs[i]) += values.shape_value(i, q) *

@@ -4,11 +4,14 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/solid/boundary_parameters.h>
 
+#include <cmath>
+
 // Keys of a section 'Boundary NAME' of a body: prescribed displacements and loads, all as
 // formulas in x, y, z and t.
 namespace Touchstone
 {
   using dealii::ParameterHandler;
+  namespace Patterns = dealii::Patterns;
 
   void
   BoundaryParameters::declare(ParameterHandler &prm)
@@ -38,6 +41,42 @@ namespace Touchstone
       "normal; 'nothing': on the reference area along the normal there (a dead "
       "load); 'automatic': on the deformed surface if the material has a law for "
       "finite strain.");
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("Force ") + "xyz"[d],
+                        force[d],
+                        std::string(1, "xyz"[d]) +
+                          " component of a force that acts at 'Reference point' and is carried to "
+                          "the boundary by tractions that are linear in the position, a formula in "
+                          "t; empty: none. [force]",
+                        FormulaPattern());
+    for (unsigned int d = 0; d < 3; ++d)
+      prm.add_parameter(std::string("Moment ") + "xyz"[d],
+                        moment[d],
+                        std::string(1, "xyz"[d]) +
+                          " component of a moment, in the same way. [force times length]",
+                        FormulaPattern());
+    prm.add_parameter("Reference point",
+                      reference_point,
+                      "x, y, z of the point at which 'Force' acts; empty: the centroid of the "
+                      "boundary. [length]",
+                      Patterns::List(Patterns::Double(), 0, 3));
+    prm.add_parameter("Spring stiffness normal",
+                      spring_normal,
+                      "Stiffness of springs to the ground across the boundary, in tension as in "
+                      "compression; 0: none. [force per area and length]",
+                      Patterns::Double());
+    prm.add_parameter("Spring stiffness tangential",
+                      spring_tangential,
+                      "The same along the boundary. [force per area and length]",
+                      Patterns::Double());
+  }
+
+
+
+  bool
+  BoundaryParameters::has_resultant() const
+  {
+    return !(force[0] + force[1] + force[2] + moment[0] + moment[1] + moment[2]).empty();
   }
 
 
@@ -54,7 +93,13 @@ namespace Touchstone
             {"Displacement z", displacement_z},
             {"Traction x", traction_x},
             {"Traction y", traction_y},
-            {"Traction z", traction_z}};
+            {"Traction z", traction_z},
+            {"Force x", force[0]},
+            {"Force y", force[1]},
+            {"Force z", force[2]},
+            {"Moment x", moment[0]},
+            {"Moment y", moment[1]},
+            {"Moment z", moment[2]}};
   }
 
 
@@ -81,10 +126,36 @@ namespace Touchstone
                            "contradicts 'Displacement " + letter +
                              "', which moves the same component",
                            "prescribe either the displacement or the traction");
+        for (const auto &[key, text] :
+             {std::make_pair("Force ", &force[d]), std::make_pair("Moment ", &moment[d])})
+          if (!text->empty())
+            check_expression(section, key + letter, *text, "t");
+        if (!displacements[d]->empty() && has_resultant())
+          throw InputError(section,
+                           "Displacement " + letter,
+                           *displacements[d],
+                           "the boundary has a force or moment, whose tractions would be taken by "
+                           "this support",
+                           "prescribe either the displacement or the force");
         all_moved = all_moved && !displacements[d]->empty();
       }
     if (!pressure.empty())
       check_expression(section, "Pressure", pressure);
+    if (!reference_point.empty() && (reference_point.size() != 3 || !has_resultant()))
+      throw InputError(section,
+                       "Reference point",
+                       Patterns::Tools::to_string(reference_point),
+                       has_resultant() ? "is no point" : "there is no force on this boundary",
+                       has_resultant() ? "give three numbers" : "remove the key, or set 'Force x'");
+    for (const auto &[key, value] :
+         {std::make_pair("Spring stiffness normal", spring_normal),
+          std::make_pair("Spring stiffness tangential", spring_tangential)})
+      if (!(value >= 0.) || !std::isfinite(value))
+        throw InputError(section,
+                         key,
+                         Patterns::Tools::to_string(value),
+                         "must not be negative",
+                         "give force per area and length, or 0 for no springs");
     // A key without effect is an error: it shows that the user expects something else.
     if (pressure.empty() && pressure_follows != Follows::automatic)
       throw InputError(section,

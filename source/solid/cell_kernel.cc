@@ -160,6 +160,18 @@ namespace Touchstone
 
 
 
+  bool
+  CellKernel::admitted() const
+  {
+    for (unsigned int q = 0; q < n_points; ++q)
+      if (const Tensor<2, dim> gradient = deformation(q);
+          !law->admits({gradient, committed_state, step_length, points[q].position, time}))
+        return false;
+    return true;
+  }
+
+
+
   /** Evaluate the law at all points from the committed state. The committed state is not touched,
    * so any number of evaluations gives the same answer: line search and repeated iterations leave
    * no trace in the history. */
@@ -171,7 +183,7 @@ namespace Touchstone
     for (unsigned int q = 0; q < n_points; ++q)
       {
         const unsigned int at = q * law->n_state();
-        law->respond({deformation(q), committed_state + at, step_length},
+        law->respond({deformation(q), committed_state + at, step_length, points[q].position, time},
                      demand,
                      points[q].response,
                      present_state.data() + at);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/solid/finite_strain_kernel.h>
+#include <touchstone/solid/thermal_strain.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,12 @@ namespace Touchstone
       {
       }
 
+      bool
+      admits(const MaterialInput &input) const override
+      {
+        return law->admits(input.deformation);
+      }
+
       void
       respond(const MaterialInput &input,
               const Demand         demand,
@@ -47,11 +54,11 @@ namespace Touchstone
     /** Laws with history are registered as MaterialLaw, hyperelastic ones by their energy alone;
      * the kernel sees both through the same interface. */
     std::shared_ptr<const MaterialLaw>
-    make_law(const MaterialParameters &material)
+    make_finite_strain_law(const MaterialParameters &material)
     {
       if (FiniteStrainRegistry::knows(material.law.name))
-        return material.law.make<FiniteStrainRegistry>(material);
-      return std::make_shared<Hyperelastic>(material);
+        return with_thermal_strain(material, material.law.make<FiniteStrainRegistry>(material));
+      return with_thermal_strain(material, std::make_shared<Hyperelastic>(material));
     }
   } // namespace
 
@@ -60,7 +67,7 @@ namespace Touchstone
   FiniteStrainKernel::FiniteStrainKernel(const unsigned int        degree,
                                          const ElementType         type,
                                          const MaterialParameters &material)
-    : CellKernel(degree, make_law(material), type == ElementType::f_bar)
+    : CellKernel(degree, make_finite_strain_law(material), type == ElementType::f_bar)
     , kinematics(n_points)
   {
     Assert(type != ElementType::b_bar && type != ElementType::incompatible_modes,
@@ -98,7 +105,7 @@ namespace Touchstone
         point.alpha = averaged ? std::cbrt(mean_J / point.J) : 1.;
         point.F_bar = point.alpha * point.F;
       }
-    return smallest;
+    return admitted() ? smallest : 0.;
   }
 
 

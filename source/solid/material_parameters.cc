@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/expression.h>
 #include <touchstone/base/input_error.h>
 #include <touchstone/solid/hardening_law.h>
 #include <touchstone/solid/hyperelastic_law.h>
 #include <touchstone/solid/material_law.h>
 #include <touchstone/solid/material_parameters.h>
+#include <touchstone/solid/own_moduli.h>
+
+#include <cmath>
 
 // Keys of the section 'Material' of a body (doc/materials.md, "Keys"): elastic constants, density
 // and damping for all laws, and the subsection 'Plasticity' for laws with plastic flow.
@@ -32,7 +36,7 @@ namespace Touchstone
   MaterialParameters::finite_strain() const
   {
     // All laws that are neither linear nor registered for small strain are for finite strain.
-    return !linear() && !SmallStrainRegistry::knows(law.name);
+    return law.name != "linear elastic" && !SmallStrainRegistry::knows(law.name);
   }
 
 
@@ -43,20 +47,23 @@ namespace Touchstone
     law.declare_key(prm,
                     values,
                     "Law",
-                    "The material law, always isotropic. 'linear elastic': small "
+                    "The material law, isotropic but for 'orthotropic'. 'linear elastic': small "
                     "strain and small rotations.",
                     {"linear elastic"});
-    prm.add_parameter("Young modulus",
-                      young_modulus,
-                      "Young's modulus, greater than zero. Required. "
-                      "[force per area]",
-                      Patterns::Double(),
-                      /*has_to_be_set=*/true);
-    prm.add_parameter("Poisson ratio",
-                      poisson_ratio,
-                      "Poisson's ratio, greater than -1 and less than 0.5. "
-                      "[no unit]",
-                      Patterns::Double());
+    const auto own = law.own_keys<OwnModuli>();
+    if (!own)
+      prm.add_parameter("Young modulus",
+                        young_modulus,
+                        "Young's modulus, greater than zero. Required. "
+                        "[force per area]",
+                        Patterns::Double(),
+                        /*has_to_be_set=*/true);
+    if (!own || own->keeps_poisson_ratio())
+      prm.add_parameter("Poisson ratio",
+                        poisson_ratio,
+                        "Poisson's ratio, greater than -1 and less than 0.5. "
+                        "[no unit]",
+                        Patterns::Double());
     prm.add_parameter("Density",
                       density,
                       "Mass per volume, for inertia. [mass per volume]",
@@ -73,6 +80,7 @@ namespace Touchstone
     // The subsection exists for plastic laws only, so that its keys are an error with an elastic
     // law.
     law.declare_own_keys(prm);
+    declare_thermal_expansion(prm);
     if (!has_plasticity(law.chosen(), *this))
       return;
     prm.enter_subsection("Plasticity");
@@ -101,8 +109,65 @@ namespace Touchstone
 
 
   void
+  MaterialParameters::declare_thermal_expansion(ParameterHandler &prm)
+  {
+    prm.enter_subsection("Thermal expansion");
+    prm.add_parameter("Coefficient",
+                      thermal_coefficient,
+                      "Strain per temperature, the same in all directions. [1 / temperature]",
+                      Patterns::Double());
+    prm.add_parameter("Temperature",
+                      temperature,
+                      "Temperature above that at which the material has no thermal strain, a "
+                      "formula in x, y, z (reference coordinates) and t; empty: none. "
+                      "[temperature]",
+                      FormulaPattern());
+    prm.leave_subsection();
+  }
+
+
+
+  void
+  MaterialParameters::resolve()
+  {
+    const auto own = law.own_keys<OwnModuli>();
+    if (!own)
+      return;
+    if (!own->keeps_poisson_ratio())
+      poisson_ratio = 0.;
+    young_modulus = 2. * (1. + poisson_ratio) * own->initial_shear_modulus();
+  }
+
+
+
+  void
+  MaterialParameters::check_thermal_expansion(const std::string &section) const
+  {
+    if (!temperature.empty())
+      check_expression(section, "Temperature", temperature, "x,y,z,t");
+    if (!std::isfinite(thermal_coefficient))
+      throw InputError(section,
+                       "Coefficient",
+                       Patterns::Tools::to_string(thermal_coefficient),
+                       "is no number",
+                       "give the strain per temperature, e.g. 1.2e-5 for steel");
+    if (temperature.empty() != (thermal_coefficient == 0.))
+      throw InputError(section,
+                       temperature.empty() ? "Temperature" : "Coefficient",
+                       temperature.empty() ? "" : Patterns::Tools::to_string(thermal_coefficient),
+                       std::string("without it '") +
+                         (temperature.empty() ? "Coefficient" : "Temperature") + "' has no effect",
+                       "give both, or neither");
+  }
+
+
+
+  void
   MaterialParameters::check(const std::string &section) const
   {
+    if (law.own_keys<OwnModuli>())
+      law.check(section); // young_modulus follows from its constants
+    check_thermal_expansion(section + "/Thermal expansion");
     if (young_modulus <= 0.)
       throw InputError(section,
                        "Young modulus",

@@ -36,6 +36,7 @@ namespace Touchstone
               std::make_unique<SmallStrainKernel>(fe.degree, body.element(), body.material);
           any_body      = true;
           any_history   = any_history || kernels[b]->n_state() > 0;
+          any_failure   = any_failure || kernels[b]->material()->can_fail();
           any_plastic   = any_plastic || kernels[b]->material()->plastic();
           all_symmetric = all_symmetric && kernels[b]->material()->symmetric();
         }
@@ -155,6 +156,16 @@ namespace Touchstone
         for (unsigned int d = 0; d < dim; ++d)
           position[dim * a + d] = x[d];
       }
+  }
+
+
+
+  void
+  NonlinearCells::set_time(const double time)
+  {
+    for (const auto &kernel : kernels)
+      if (kernel)
+        kernel->set_time(time);
   }
 
 

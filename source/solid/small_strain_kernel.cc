@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/solid/small_strain_kernel.h>
+#include <touchstone/solid/thermal_strain.h>
 
 #include <algorithm>
 
@@ -11,11 +12,55 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Hooke's law, for bodies that are not assembled once because of their thermal strain. */
+    class Hooke : public SmallStrainLaw
+    {
+    public:
+      explicit Hooke(const MaterialParameters &material)
+        : mu(material.shear_modulus())
+        , lambda(material.bulk_modulus() - 2. / 3. * mu)
+      {
+      }
+
+      void
+      respond(const MaterialInput &input,
+              const Demand         demand,
+              MaterialResponse    &response,
+              double *) const override
+      {
+        const SymmetricTensor<2, dim> strain = symmetrize(input.deformation);
+        const SymmetricTensor<2, dim> stress =
+          lambda * trace(strain) * unit_symmetric_tensor<dim>() + 2. * mu * strain;
+        response.energy = response.elastic_energy = 0.5 * (stress * strain);
+        response.stress                           = stress;
+        if (demand == Demand::tangent)
+          response.tangent = Tensor<4, dim>(
+            lambda * outer_product(unit_symmetric_tensor<dim>(), unit_symmetric_tensor<dim>()) +
+            2. * mu * identity_tensor<dim>());
+      }
+
+    private:
+      const double mu, lambda;
+    };
+
+    std::shared_ptr<const MaterialLaw>
+    make_small_strain_law(const MaterialParameters &material)
+    {
+      if (SmallStrainRegistry::knows(material.law.name))
+        return material.law.make<SmallStrainRegistry>(material);
+      return std::make_shared<Hooke>(material);
+    }
+  } // namespace
+
+
+
   SmallStrainKernel::SmallStrainKernel(const unsigned int        degree,
                                        const ElementType         type,
                                        const MaterialParameters &material)
     : CellKernel(degree,
-                 material.law.make<SmallStrainRegistry>(material),
+                 with_thermal_strain(material, make_small_strain_law(material)),
                  type == ElementType::b_bar)
   {
     Assert(type != ElementType::f_bar && type != ElementType::incompatible_modes,

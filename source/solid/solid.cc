@@ -64,6 +64,7 @@ namespace Touchstone
 
     nonlinear = std::make_unique<NonlinearCells>(bodies, fe);
     nonlinear->reinit(mapping, dof_handler);
+    set_time(time);
   }
 
 
@@ -164,11 +165,11 @@ namespace Touchstone
 
 
   /** Turn the failure of a material law on any rank into an exception on all of them; it cuts the
-   * step. Laws without history cannot fail, so elastic runs are spared the reduction. */
+   * step. Most laws without history cannot fail, so elastic runs are spared the reduction. */
   void
   Solid::check_solved(const bool solved) const
   {
-    if (has_history() && Utilities::MPI::min(solved ? 1 : 0, communicator) == 0)
+    if (nonlinear->can_fail() && Utilities::MPI::min(solved ? 1 : 0, communicator) == 0)
       throw MaterialFailure(plastic() ? "the plastic strain of some point could not be found"
                                       : "a material law has no answer at some point");
   }

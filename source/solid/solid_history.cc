@@ -14,11 +14,23 @@ namespace Touchstone
 {
   using namespace dealii;
 
+  bool
+  Solid::thermal() const
+  {
+    return std::any_of(bodies.begin(), bodies.end(), [](const BodyParameters &body) {
+      return body.material.thermal();
+    });
+  }
+
+
+
   /** Ranks assemble their ghost cells as well, so history of a cell must be known to all of these.
    * Collective. */
   void
   Solid::save(ArchiveWriter &archive) const
   {
+    if (thermal())
+      archive.put("material time", committed_time);
     if (has_history())
       archive.put_cells("material", [this](const unsigned int cell) { return cell_state(cell); });
   }
@@ -28,6 +40,11 @@ namespace Touchstone
   void
   Solid::load(const ArchiveReader &archive)
   {
+    if (thermal())
+      {
+        committed_time = archive.get<double>("material time");
+        set_time(committed_time);
+      }
     if (!has_history())
       return;
     const auto &states = archive.cells("material");

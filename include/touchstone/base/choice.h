@@ -106,6 +106,14 @@ namespace Touchstone
       return chosen_name;
     }
 
+    /** @brief The own keys as an object of type @p Keys; null if they are something else. */
+    template <class Keys>
+    std::shared_ptr<Keys>
+    own_keys() const
+    {
+      return std::dynamic_pointer_cast<Keys>(parameters);
+    }
+
     /** @param section Where its own keys stand. @throws InputError */
     void
     check(const std::string &section) const

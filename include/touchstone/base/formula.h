@@ -89,14 +89,13 @@ namespace Touchstone
   /** @brief Evaluate a formula that depends on nothing but the time at the ends of all
    * steps, before the run starts; formulas that depend on the point are skipped.
    * @param section, key, text As of Formula; an empty text is skipped.
-   * @param end_time, steps The equal steps from 0 to the end time.
+   * @param times The ends of the steps; time 0 is tried as well.
    * @throws InputError if a value is not finite. */
   void
-  check_at_all_steps(const std::string &section,
-                     const std::string &key,
-                     const std::string &text,
-                     double             end_time,
-                     unsigned int       steps);
+  check_at_all_steps(const std::string         &section,
+                     const std::string         &key,
+                     const std::string         &text,
+                     const std::vector<double> &times);
 } // namespace Touchstone
 
 #endif

@@ -127,6 +127,14 @@ namespace Touchstone
       return solid.communicator;
     }
 
+    /** @brief Draw the sides of the tied pair @p p together by this length, from the next update()
+     * on. */
+    void
+    set_shortening(const unsigned int p, const double length)
+    {
+      pairs[p]->set_shortening(length);
+    }
+
     /** @brief Update the geometry of the rows, and the slip, to the displacement @p u (owned dofs)
      * at time @p time. Collective. */
     void

@@ -133,6 +133,20 @@ namespace Touchstone
     double
     part_of_overlap(double time) const;
 
+    /** @brief Draw the sides of a tied pair together by this length, see Pretension. */
+    void
+    set_shortening(const double length)
+    {
+      shortening = length;
+    }
+
+    /** @brief Young's modulus of the softer body, force per area. */
+    double
+    modulus() const
+    {
+      return input.modulus;
+    }
+
     /** @brief What nodes pass through counts from the displacement of the last update() on. Done by
      * commit(), too. */
     void
@@ -218,6 +232,7 @@ namespace Touchstone
     std::vector<double>     overlaps;
     const Vector           *displacement = nullptr;
     double                  time         = 0.;
+    double                  shortening   = 0.;
     unsigned int            searches     = 0;
     bool                    started      = false;
 

@@ -45,13 +45,24 @@ namespace Touchstone
       interference,
       /** Gaps count from it: no overlap. */
       adjust,
-      /** An interference that grows over the time of the run. */
+      /** An interference that grows with time, until #ramp_end. */
       ramp
     };
     Keyword<Overlap> initial_overlap{Overlap::interference,
                                      {{"interference", Overlap::interference},
                                       {"adjust", Overlap::adjust},
                                       {"ramp", Overlap::ramp}}};
+    /** When a ramp has its full size; 0: at the end of the run. */
+    double ramp_end = 0.;
+    /** Of a tied pair across a plane cut: the tension that it is tightened to, force, or by how
+     * much its sides are drawn together, length; expressions in t. And the phase after which it is
+     * locked, empty for none. */
+    std::string pretension_force, pretension_shortening, pretension_until;
+    bool
+    has_pretension() const
+    {
+      return !(pretension_force + pretension_shortening).empty();
+    }
     /** finite: search in each iteration; small: reference pairing. Tied pairs are always
      * small. */
     enum class Sliding
@@ -99,6 +110,8 @@ namespace Touchstone
     check(const std::string &section) const;
 
   private:
+    void
+    check_pretension(const std::string &section) const;
     /** Which surfaces meet. */
     void
     declare_surfaces(dealii::ParameterHandler &prm);

@@ -165,7 +165,8 @@ namespace Touchstone
                 double       time,
                 double       size,
                 unsigned int newton,
-                unsigned int cuts);
+                unsigned int cuts,
+                unsigned int phase);
     void
     write_vtu(unsigned int step, double time);
     void

@@ -37,6 +37,8 @@ namespace Touchstone
     const CommittedMotion &time_integration;
     const Solid           &solid;
     StepCounts             counts;
+    /** Shortening and tension of cuts with pretension, by pair: length, force. */
+    std::map<std::string, std::pair<double, double>> pretension;
     /** Forces of the supports. */
     std::function<std::vector<Reaction>()> reactions;
     /** The same forces at the nodes, without ghosts; collective. */

@@ -5,6 +5,7 @@
 
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/forcing_term.h>
+#include <touchstone/drive/pretension.h>
 #include <touchstone/drive/step.h>
 #include <touchstone/drive/step_system.h>
 #include <touchstone/scene/scene.h>
@@ -110,6 +111,7 @@ namespace Touchstone
     dealii::TimerOutput &timer;
     BoundaryConditions   boundary_conditions;
     Contact              contact;
+    Pretension           pretension;
 
     double time = 0., committed_time = 0.;
     /** Displacements, and forces on the nodes: of loads (external) and of stresses (internal);

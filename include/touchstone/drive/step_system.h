@@ -165,7 +165,7 @@ namespace Touchstone
       return begins_consistent() || (state.slow && may_change_linearisation());
     }
     void
-    add_follower_pressure(const State &state);
+    add_load_stiffness(const State &state);
     /** All dofs that this rank refers to: those of its ghost layer, and those of contact terms. */
     dealii::IndexSet
     dofs_of_system() const;

@@ -46,6 +46,12 @@ namespace Touchstone
     }
     virtual ~CellForces() = default;
 
+    /** @brief The time of the forces that follow, for materials that depend on it. */
+    virtual void
+    set_time(double /*time*/)
+    {
+    }
+
     /** @brief What suits the body. */
     static std::unique_ptr<CellForces>
     make(const NodeMap &map, const std::vector<unsigned int> &cells, const BodyParameters &body);

@@ -68,12 +68,13 @@ namespace Touchstone
     /**
      * @brief Set the forces of stress on the nodes (as they act on these), and those of bulk
      * viscosity; the history of materials goes on to @p u.
-     * @param step Time since the last call.
+     * @param time The present one. @param step Time since the last call.
      * @return the first cell that is inverted or whose law fails, of this rank.
      */
     CellPlace
     evaluate(const NodeField &u,
              const NodeField &v,
+             double           time,
              double           step,
              NodeField       &force,
              NodeField       &viscous);

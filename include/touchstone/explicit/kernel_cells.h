@@ -34,6 +34,12 @@ namespace Touchstone
                        std::vector<double>            &result) override;
 
     void
+    set_time(const double time) override
+    {
+      kernel->set_time(time);
+    }
+
+    void
     forget() override
     {
       std::fill(estimate.begin(), estimate.end(), 0.);

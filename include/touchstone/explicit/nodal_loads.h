@@ -27,12 +27,17 @@ namespace Touchstone
     bool
     empty() const
     {
-      return loads.empty() && pressures.empty();
+      return loads.empty() && pressures.empty() && springs.empty();
     }
 
     /** @brief Set the forces on the owned nodes at time @p t in the displacement @p u. */
     void
     evaluate(double t, const NodeField &u, NodeField &force) const;
+
+    /** @brief A bound of the squared frequency that springs add to that of the cells. Collective.
+     */
+    double
+    square_frequency(const std::vector<double> &masses) const;
 
   private:
     using Function = BoundaryConditions::Function;
@@ -75,9 +80,19 @@ namespace Touchstone
       std::vector<PressurePoint> points;
     };
 
+    /** A quadrature point of springs to the ground: stiffnesses times the weight. */
+    struct Spring
+    {
+      std::array<unsigned int, 4> nodes;
+      std::array<double, 4>       shapes;
+      dealii::Tensor<1, dim>      normal;
+      double                      across, along;
+    };
+
     const NodeMap        &map;
     std::vector<Load>     loads;
     std::vector<Pressure> pressures;
+    std::vector<Spring>   springs;
 
     void
     add(const Function &function, std::vector<LoadPoint> &&points);

@@ -30,8 +30,12 @@ namespace Touchstone
     unsigned int linear_iterations = 0;
     /** How often the step was cut before it converged. */
     unsigned int cuts = 0;
+    /** Number of its phase, from 1; 0 if there are none. */
+    unsigned int phase = 0;
     /** By name of the contact pair, summed over all ranks. */
     std::map<std::string, PairResult> pairs;
+    /** Shortening and tension of pairs with pretension: length, force. */
+    std::map<std::string, std::pair<double, double>> pretension;
     /** Reaction forces, by "BODY/BOUNDARY". */
     std::map<std::string, dealii::Tensor<1, dim>> reactions;
     /** Energies by name, force times length. */

@@ -42,9 +42,9 @@ namespace Touchstone
     }
 
     /** @brief "Step 2/4   t = 0.5": a step to the time @p time begins.
-     * @param steps Number of steps expected in all. */
+     * @param steps Number of steps expected in all. @param phase Its name, empty if it has none. */
     void
-    begin_step(unsigned int step, unsigned int steps, double time);
+    begin_step(unsigned int step, unsigned int steps, double time, const std::string &phase = "");
 
     void
     iteration(const IterationRecord &record);

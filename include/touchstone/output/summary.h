@@ -142,6 +142,8 @@ namespace Touchstone
     std::map<std::string, double> errors;
     /** Only where there is inertia. */
     std::optional<Motion> motion;
+    /** Names of the phases of the run and when they end; none if it has one without a name. */
+    std::vector<std::pair<std::string, double>> phases;
     /** What the user should know of the results. */
     std::vector<std::string> warnings;
     /** Why the run did not converge; empty if it did. */

@@ -54,6 +54,8 @@ namespace Touchstone
     std::vector<ProbeParameters>          probes;
     ReferenceParameters                   reference;
     CheckpointParameters                  checkpoints;
+    /** Sentences on sections that are given and have no effect. */
+    std::vector<std::string> without_effect;
 
     /**
      * @brief Read a scene file and the overrides of the command line.
@@ -111,6 +113,10 @@ namespace Touchstone
     /** Replace automatic choices by what they choose. */
     void
     resolve(const SceneText &text, const std::string &file_name);
+    /** End time and number of steps from the phases. @throws InputError if they are set otherwise.
+     */
+    void
+    resolve_phases(const SceneText &text);
     /** Each section, then what goes across sections (combinations.h). */
     void
     check() const;

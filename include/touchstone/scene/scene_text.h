@@ -61,6 +61,11 @@ namespace Touchstone
     bool
     is_set(const std::string &section, const std::string &key) const;
 
+    /** @brief Remove a subsection and all within it. Constants that it uses count as used.
+     * @return its entries. */
+    std::vector<SceneEntry>
+    take(const std::string &section);
+
     /** @brief What the keys "Constants" define; they are no entries. */
     const Constants &
     constants() const;

@@ -6,6 +6,8 @@
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/base/formula.h>
 #include <touchstone/solid/follower_pressure.h>
+#include <touchstone/solid/ground_springs.h>
+#include <touchstone/solid/resultant_load.h>
 
 #include <algorithm>
 #include <functional>
@@ -60,12 +62,13 @@ namespace Touchstone
       displacement(double t) const;
     };
 
-    /** Tractions and dead pressure of a boundary; null for none. */
+    /** Tractions, dead pressure, and force and moment of a boundary; null for none. */
     struct Load
     {
-      BoundaryIds               boundary;
-      std::array<Function, dim> traction;
-      Function                  pressure;
+      BoundaryIds                          boundary;
+      std::array<Function, dim>            traction;
+      Function                             pressure;
+      std::shared_ptr<const ResultantLoad> resultant;
     };
 
     /** @throws InputError for boundaries that do not exist, and for a symmetry
@@ -119,6 +122,20 @@ namespace Touchstone
       return following;
     }
 
+    /** @brief Springs to the ground. */
+    const GroundSprings &
+    ground_springs() const
+    {
+      return springs;
+    }
+
+    /** @brief Whether forces of external_force() depend on the displacement. */
+    bool
+    depends_on_displacement() const
+    {
+      return !following.empty() || !springs.empty();
+    }
+
     /**
      * @brief Add the prescribed displacements at time @p t, as increments from
      * @p u, to the constraint graph.
@@ -168,6 +185,7 @@ namespace Touchstone
     /** Force per reference volume, by body; empty if there is none at all. */
     std::vector<std::array<Function, dim>> body_forces;
     FollowerPressure                       following;
+    GroundSprings                          springs;
     std::vector<Reaction>                  supports;
 
     /** Boundaries of a body that are fixed, and those of symmetry with their normals. */
@@ -189,6 +207,11 @@ namespace Touchstone
                  const BoundaryIds &boundary,
                  const std::string &name,
                  Supported         &supported);
+    /** Null if there is neither force nor moment. Collective. */
+    std::shared_ptr<const ResultantLoad>
+    make_resultant(const BoundaryIds        &boundary,
+                   const BoundaryParameters &condition,
+                   const std::string        &section);
     /** Displacements and loads of a boundary.
      * @throws InputError if it cannot move in the direction of a condition. */
     void

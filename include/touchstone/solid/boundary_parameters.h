@@ -8,6 +8,7 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,6 +41,17 @@ namespace Touchstone
                                       {{"automatic", Follows::automatic},
                                        {"surface", Follows::surface},
                                        {"nothing", Follows::nothing}}};
+
+    /** Force and moment components that are carried to the boundary, expressions in t. */
+    std::array<std::string, 3> force, moment;
+    /** Where the force acts, length: x, y, z, or nothing for the centroid. */
+    std::vector<double> reference_point;
+    /** Springs to the ground, force per area and length. */
+    double spring_normal = 0., spring_tangential = 0.;
+
+    /** @brief Whether a force or moment is carried to the boundary. */
+    bool
+    has_resultant() const;
 
     /** @brief The pressure acts on the deformed surface: as the key says, and if that
      * says nothing for materials with a law for finite strain. */

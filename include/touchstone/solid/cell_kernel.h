@@ -57,6 +57,13 @@ namespace Touchstone
       step_length = length;
     }
 
+    /** @brief The present time, see MaterialInput. */
+    void
+    set_time(const double present)
+    {
+      time = present;
+    }
+
     /** @brief Number of history variables of a cell; those of its points follow one another. */
     unsigned int
     n_state() const
@@ -74,8 +81,9 @@ namespace Touchstone
      * @param displacement Displacements of the nodes, length.
      * @param committed    State of the cell at the end of the last step; is not copied.
      *                     Null for virgin material.
-     * @return the smallest det F of the quadrature points; 1 for small strain. Unless it is
-     * positive no other function may be called.
+     * @return the smallest det F of the quadrature points; 1 for small strain; 0 if the law does
+     * not admit the deformation of one of them. Unless it is positive no other function may be
+     * called.
      */
     double
     reinit(const double *positions, const double *displacement, const double *committed = nullptr);
@@ -211,6 +219,10 @@ namespace Touchstone
     void
     respond(Demand demand);
 
+    /** Whether the law admits the deformations of all points. */
+    bool
+    admitted() const;
+
     /** The response holds the stress of the present deformation. */
     bool has_stress = false;
 
@@ -221,8 +233,8 @@ namespace Touchstone
     std::vector<double> unit_weights;
     std::vector<double> virgin, present_state;
     const double       *committed_state = nullptr;
-    double              step_length     = 0.;
-    bool                all_solved      = true;
+    double              step_length = 0., time = 0.;
+    bool                all_solved = true;
 
     std::vector<double> nodal_force, blocks, matrix;
     /** Mixed derivatives of the energy by the displacements and the averaged dilatation. */

@@ -25,6 +25,14 @@ namespace Touchstone
   public:
     virtual ~HyperelasticLaw() = default;
 
+    /** @brief Whether W is defined at F, det F > 0; a law whose chains have a limit says no beyond
+     * it, and nothing else is called there. */
+    virtual bool
+    admits(const dealii::Tensor<2, dim> & /*F*/) const
+    {
+      return true;
+    }
+
     /** @brief W(F), energy per reference volume; zero for F = I. */
     virtual double
     energy(const dealii::Tensor<2, dim> &F) const = 0;

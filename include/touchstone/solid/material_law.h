@@ -6,6 +6,7 @@
 #include <touchstone/base/registry.h>
 #include <touchstone/base/types.h>
 
+#include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
 namespace Touchstone
@@ -23,6 +24,9 @@ namespace Touchstone
     /** Time since then; 0 where no time passes: at the end of a step that has been committed,
      * and for the stiffness before the first step. */
     double step_length;
+    /** Reference position of the point, and the present time, for what depends on them. */
+    dealii::Point<dim> position = dealii::Point<dim>();
+    double             time     = 0.;
   };
 
   /** @brief Output of a material law at one quadrature point. */
@@ -110,6 +114,31 @@ namespace Touchstone
     symmetric() const
     {
       return true;
+    }
+
+    /** @brief Whether the law has a response to the deformation, which is not inverted. Unlike
+     * MaterialResponse::solved this is asked for before anything is evaluated: a Newton increment
+     * is shortened until it is true. */
+    virtual bool
+    admits(const MaterialInput & /*input*/) const
+    {
+      return true;
+    }
+
+    /** @brief Whether respond() can fail, also without history. */
+    virtual bool
+    can_fail() const
+    {
+      return n_state() > 0;
+    }
+
+    /** @brief Whether no state is stiffer than the undeformed one, as of material that flows or
+     * relaxes: the stable step of explicit dynamics then follows from the elastic stiffness, else
+     * from the tangent. */
+    virtual bool
+    stiffest_at_rest() const
+    {
+      return n_state() > 0;
     }
 
     /**

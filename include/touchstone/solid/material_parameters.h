@@ -17,7 +17,7 @@ namespace Touchstone
   class SmallStrainLaw;
   class FiniteStrainLaw;
 
-  /** @brief Section "Body NAME/Material": an isotropic elastic or elastoplastic material. */
+  /** @brief Section "Body NAME/Material": the material of a body. */
   struct MaterialParameters
   {
     /** "linear elastic" (small strain) or the name of a HyperelasticLaw, a SmallStrainLaw
@@ -48,11 +48,24 @@ namespace Touchstone
     double kinematic_modulus = 0., kinematic_recovery = 0.;
     /** @} */
 
-    /** @brief The law is "linear elastic". */
+    /** @name Subsection "Thermal expansion" */
+    /** @{ */
+    /** Strain per temperature; and the temperature above that without strain, an expression in x,
+     * y, z, t. */
+    double      thermal_coefficient = 0.;
+    std::string temperature;
+    bool
+    thermal() const
+    {
+      return thermal_coefficient != 0. && !temperature.empty();
+    }
+    /** @} */
+
+    /** @brief The law is "linear elastic", and forces are products with a constant stiffness. */
     bool
     linear() const
     {
-      return law.name == "linear elastic";
+      return law.name == "linear elastic" && !thermal();
     }
     /** @brief Whether the law is for finite strain. */
     bool
@@ -73,10 +86,18 @@ namespace Touchstone
      * @param values Of this section: law and hardening decide on other keys. */
     void
     declare(dealii::ParameterHandler &prm, const EarlyValues &values);
+    /** @brief Set Young's modulus and, if it is no key, Poisson's ratio where the law has moduli of
+     * its own. Call when all values are read. */
+    void
+    resolve();
     void
     check(const std::string &section) const;
 
   private:
+    void
+    declare_thermal_expansion(dealii::ParameterHandler &prm);
+    void
+    check_thermal_expansion(const std::string &section) const;
     void
     check_plasticity(const std::string &section) const;
   };

@@ -68,6 +68,17 @@ namespace Touchstone
       return any_plastic;
     }
 
+    /** @brief Whether a law may have no answer; the same on all ranks. */
+    bool
+    can_fail() const
+    {
+      return any_failure;
+    }
+
+    /** @brief The present time for all materials. */
+    void
+    set_time(double time);
+
     /** @brief Time since the committed state for all materials, see MaterialInput. */
     void
     set_step_length(double length);
@@ -175,6 +186,7 @@ namespace Touchstone
 
     const dealii::MappingQ<dim>   *mapping     = nullptr;
     const dealii::DoFHandler<dim> *dof_handler = nullptr;
+    bool                           any_failure = false;
     bool         any_body = false, any_history = false, any_plastic = false, all_symmetric = true;
     unsigned int n_nodes;
     std::vector<std::unique_ptr<CellKernel>> kernels;

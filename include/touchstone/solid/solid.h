@@ -158,11 +158,20 @@ namespace Touchstone
     }
 
     /** @brief Forces and stiffness are now those of a state that follows upon the committed
-     * one after the time @p length, until commit() or rollback(). */
+     * one after the time @p length, until commit() or rollback(). @param end Its time. */
     void
-    begin_step(const double length)
+    begin_step(const double length, const double end)
     {
       nonlinear->set_step_length(length);
+      set_time(end);
+    }
+
+    /** @brief The time of forces and stresses, of a step that has no end to be cut from. */
+    void
+    set_time(const double present)
+    {
+      time = present;
+      nonlinear->set_time(time);
     }
 
     /** @brief Keep the state of the last internal_force(); no time passes any more. */
@@ -171,6 +180,7 @@ namespace Touchstone
     {
       nonlinear->commit();
       nonlinear->set_step_length(0.);
+      committed_time = time;
     }
 
     void
@@ -178,6 +188,7 @@ namespace Touchstone
     {
       nonlinear->rollback();
       nonlinear->set_step_length(0.);
+      set_time(committed_time);
     }
 
     void
@@ -246,11 +257,16 @@ namespace Touchstone
     /** Null until it is asked for. */
     mutable std::unique_ptr<Matrix> matrix;
     bool                            any_hanging = false;
+    /** Present time, and that of the committed state. */
+    double time = 0., committed_time = 0.;
     /** Sum of the absolute entries of each owned row. */
     std::vector<double> row_sums;
     /** Behind a pointer: its kernels are scratch space of const functions. */
     std::unique_ptr<NonlinearCells> nonlinear;
 
+    /** Whether any body has thermal strain. */
+    bool
+    thermal() const;
     Matrix &
     matrix_to_fill() const;
     void

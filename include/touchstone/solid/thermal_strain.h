@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_solid_thermal_strain_h
+#define touchstone_solid_thermal_strain_h
+
+#include <touchstone/solid/material_law.h>
+
+#include <memory>
+
+namespace Touchstone
+{
+  struct MaterialParameters;
+
+  /** @brief @p law with the thermal strain that the material has; the same law if it has none. */
+  std::shared_ptr<const MaterialLaw>
+  with_thermal_strain(const MaterialParameters                 &material,
+                      const std::shared_ptr<const MaterialLaw> &law);
+} // namespace Touchstone
+
+#endif

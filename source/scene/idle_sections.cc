@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/input_error.h>
+#include <touchstone/base/suggestion.h>
+#include <touchstone/contact/friction/friction_law.h>
+#include <touchstone/scene/idle_sections.h>
+#include <touchstone/scene/scene.h>
+#include <touchstone/scene/scene_text.h>
+
+#include <algorithm>
+#include <sstream>
+
+/**
+ * @file
+ * Sections without effect. A scene that is varied by --set has some: friction is switched off, or
+ * the scheme of time integration is changed. The run goes on, but the user is told, because a
+ * section that was meant to act and does not gives a result that looks right.
+ */
+
+namespace Touchstone
+{
+  namespace
+  {
+    /** Keys of all friction laws. */
+    std::vector<std::string>
+    friction_keys()
+    {
+      dealii::ParameterHandler                       prm;
+      std::vector<std::shared_ptr<PluginParameters>> laws;
+      for (const auto &[name, record] : FrictionLawRegistry::records())
+        {
+          laws.push_back(record.make_parameters());
+          laws.back()->declare(prm);
+        }
+      std::ostringstream listing;
+      prm.print_parameters(listing, dealii::ParameterHandler::ShortPRM);
+      std::vector<std::string> keys;
+      for (const SceneEntry &entry : SceneText(listing.str(), "listing").entries())
+        keys.push_back(entry.key);
+      return keys;
+    }
+
+    /** Sections of @p complete with a value that is not that of @p defaults. A complete scene that
+     * the program has printed sets all keys, most of them to their defaults. */
+    std::vector<std::string>
+    changed_sections(const std::string &defaults, const std::string &complete)
+    {
+      const SceneText          before(defaults, "defaults"), after(complete, "scene");
+      std::vector<std::string> changed;
+      for (const SceneEntry &entry : after.entries())
+        if (entry.value != before.value(entry.section, entry.key, ""))
+          changed.push_back(entry.section);
+      return changed;
+    }
+  } // namespace
+
+
+
+  std::vector<std::string>
+  take_idle_friction(const Scene &scene, SceneText &text)
+  {
+    std::vector<std::string> sentences;
+    const auto               take = [&](const auto &pair) {
+      const std::string section = pair.section() + "/Friction";
+      if (pair.friction || text.sections().count(section) == 0)
+        return;
+      const std::vector<std::string> known = friction_keys();
+      for (const SceneEntry &entry : text.take(section))
+        if (std::find(known.begin(), known.end(), entry.key) == known.end())
+          throw InputError(section,
+                           entry.key,
+                           entry.value,
+                           "there is no such key (" + text.location(entry.line) + ")" +
+                             did_you_mean(entry.key, known),
+                           "no friction law has it; the pair has no friction, so the whole "
+                                         "subsection can be removed");
+      sentences.push_back("section '" + section + "' has no effect: 'Behaviour' of the pair is '" +
+                          pair.behaviour.name + "'");
+    };
+    for (const ContactPairParameters &pair : scene.pairs)
+      take(pair);
+    for (const GeneralContactParameters &one : scene.general)
+      take(one);
+    return sentences;
+  }
+
+
+
+  std::vector<std::string>
+  idle_sections(const Scene &scene, const std::string &defaults, const std::string &complete)
+  {
+    const std::vector<std::string> changed = changed_sections(defaults, complete);
+    std::vector<std::string>       sentences;
+    const auto add = [&](const bool idle, const std::string &section, const std::string &reason) {
+      if (idle && std::find(changed.begin(), changed.end(), section) != changed.end())
+        sentences.push_back("section '" + section + "' has no effect: " + reason);
+    };
+    add(!scene.has_contact(), "Contact", "there are no contact pairs");
+    const std::string explicit_scheme = "explicit dynamics solves no systems of equations";
+    add(scene.time_integration.runs_in_cycles(), "Newton", explicit_scheme);
+    add(scene.time_integration.runs_in_cycles(), "Linear solver", explicit_scheme);
+    add(!scene.refinement.active(), "Refinement", "its 'Estimator' is 'none'");
+    add(scene.reference.type.name == "none", "Reference solution", "its 'Type' is 'none'");
+    for (const ObstacleParameters &obstacle : scene.obstacles)
+      if (std::none_of(scene.pairs.begin(), scene.pairs.end(), [&](const auto &pair) {
+            return pair.obstacle == obstacle.name;
+          }))
+        sentences.push_back("section '" + obstacle.section() +
+                            "' has no effect: no contact pair names the obstacle");
+    return sentences;
+  }
+} // namespace Touchstone
