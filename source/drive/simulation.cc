@@ -93,6 +93,8 @@ namespace Touchstone
     summary.unknowns = solid.dof_handler.n_dofs();
     if (scene.time_integration.dynamic())
       summary.motion.emplace();
+    for (const std::string &text : forest.warnings())
+      warnings.add(text);
     for (const BodyParameters &body : scene.bodies)
       mesh_files.push_back(body.geometry->fingerprint(folder_of_scene));
     for (const ObstacleParameters &obstacle : scene.obstacles)
@@ -309,6 +311,8 @@ namespace Touchstone
       lines.insert(lines.end(), more.begin(), more.end());
     };
     add(describe_bodies(scene, forest, solid));
+    for (const std::string &text : forest.warnings())
+      lines.push_back("warning: " + text);
     add(start);
     if (!problem->held_by_contact().empty())
       lines.push_back("held by contact alone: " + problem->held_by_contact());
