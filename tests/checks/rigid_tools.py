@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # ctest: goldens = cone_obstacle, turning_obstacle, turning_roller, stl_plate
 """Rigid tools: a cone against the force of the half space, a turned tool is the tool in another place,
-a block on a plane that turns follows it without stress with each enforcement and on two ranks,
-friction of a roller that turns on the spot has the moment mu R N."""
+a block on a plane that turns follows it, tied without stress with each enforcement, or held by friction,
+on two ranks as well; friction of a roller that turns on the spot has the moment mu R N."""
 
 import math
 
@@ -35,6 +35,15 @@ same(run("plate_turned", tests / "stl_plate.prm",
 
 # Tied to a plane that turns by 120 degrees, about an axis that takes x to y and so on for the right
 # axis; the probe stands at (1, 0, 0) at first.
+
+
+def end(result):
+    """The last values of the probe."""
+    lines = (result.folder / "probe_corner.csv").read_text(encoding="utf-8").splitlines()
+    names = [title.partition("[")[0] for title in lines[0].split(",")]
+    return dict(zip(names, map(float, lines[-1].split(","))))
+
+
 PROBE = {"Probes": "corner", "Probe corner/Body": "block", "Probe corner/Point": "1,0,0"}
 for enforcement in ENFORCEMENTS:
     tied = run(f"tied_{enforcement}", tests / "turning_obstacle.prm", {ENFORCEMENT: enforcement})
@@ -43,13 +52,20 @@ for steps, ranks in (3, 1), (9, 2):
     tied = run(f"tied_{steps}", tests / "turning_obstacle.prm",
                {STEPS: steps, "Obstacle table/Rotate axis": "1,1,1",
                 "Obstacle table/Rotate point": "0,0,0", **PROBE}, ranks)
-    last = (tied.folder / "probe_corner.csv").read_text(encoding="utf-8").splitlines()
-    names = [title.partition("[")[0] for title in last[0].split(",")]
-    values = dict(zip(names, map(float, last[-1].split(","))))
-    print(values)
+    values = end(tied)
     # (1, 0, 0) goes to (0, 1, 0), and by 1 along x.
     for name, value in ("displacement_x", 0), ("displacement_y", 1), ("displacement_z", 0):
         below(f"{tied}, {name} deviates", abs(values[name] - value), 1e-8)
+
+# Held by friction alone on a table that turns by 0.4 degrees about (0.5, 0.5).
+turn = math.radians(0.4)
+corner = 0.5 * (math.cos(turn) - 1), 0.5 * math.sin(turn)
+for ranks in 1, 2:
+    table = run(f"table_{ranks}", tests / "turning_table.prm", PROBE, ranks)
+    moved = end(table)
+    for name, value in (("displacement_x", corner[0] + corner[1]), ("displacement_y", corner[1] - corner[0])):
+        below(f"{table}, {name} deviates", abs(moved[name] - value), 1e-8)
+    check(table.column("contact: stick nodes")[-1] == 9, f"{table}: not all nodes stick")
 
 # The moment of friction about the axis of the roller, which stands at a height of 2.98. Normals
 # have almost one direction: N from the resultant.

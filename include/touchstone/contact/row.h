@@ -142,8 +142,10 @@ namespace Touchstone
       visit(row.lever);
       visit(row.position);
       visit(row.motion.shift);
-      visit(row.motion.turn);
-      visit(row.motion.turned);
+      // Known from the pairing, whose update comes before a row is read; checkpoints of earlier
+      // versions have no rotation.
+      if (row.motion.turned)
+        visit(row.motion.turn);
     }
   };
 
