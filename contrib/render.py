@@ -17,28 +17,45 @@ field pressure, unless told otherwise. The camera looks from the direction X Y Z
 cropped to what it shows, or, with a width, to a square of that size around the focus; panels
 have at most WIDTH by HEIGHT pixels (760 600). --no-outline leaves out the lines along sharp edges. --mirror
 adds the other half of bodies that are cut by the planes x = 0 or y = 0. --points also writes the
-values at the contact nodes as a table "x y z pressure gap status".
+values at the contact nodes as a table "x y z pressure gap status". Without --unit the legend says what
+the field is made of, as force/length^2.
 
 The images of the documentation are made by contrib/make_pictures.sh.
 """
 
 import argparse
 import pathlib
+import re
 import sys
 import xml.etree.ElementTree
 
-import numpy
-from vtkmodules.util import numpy_support
-import vtkmodules.all as vtk
+try:
+    import numpy
+    from vtkmodules.util import numpy_support
+    import vtkmodules.all as vtk
+except ImportError as error:
+    sys.exit(f"contrib/render.py needs VTK 9 and numpy for Python ({error}): apt-get install python3-vtk9 "
+             "python3-numpy xvfb xauth, and start it with Debian's own /usr/bin/python3")
 
 MARGIN, TEXT, SMALL = 16, 27, 23
 # From low to high; every colour is light enough to show the edges of cells.
 COLOURS = ["3b4cc0", "4f69d9", "6788ee", "82a6fb", "9dbdff", "b7cff9", "cedaeb", "e2dad5",
            "f0cdbb", "f7b89c", "f6a081", "ee8468", "df634e", "cb3e38", "b40426"]
+# What fields are made of, by the beginnings of their names; others have no unit.
+DIMENSIONS = {"displacement|gap|slip": "length", "velocity": "length/time", "reaction": "force",
+              "stress|von_mises|hydrostatic_pressure|pressure|traction": "force/length^2"}
 
 
 def numbers(text):
     return [float(x) for x in text.split()]
+
+
+def dimension(field, unit):
+    """The unit of a field in brackets: as it is given, or what it is made of."""
+    if unit is None:
+        found = [made_of for names, made_of in DIMENSIONS.items() if re.match(names, field)]
+        unit = found[0] if found else ""
+    return f" ({unit})" if unit else ""
 
 
 def arguments():
@@ -51,7 +68,7 @@ def arguments():
     add("--contact", default="pressure")
     add("--no-contact", action="store_true")
     add("--no-bodies", action="store_true")
-    add("--unit", default="")
+    add("--unit")
     add("--contact-unit")
     add("--scale", type=float, default=1.0)
     add("--time", type=float)
@@ -352,8 +369,8 @@ def write_points(grid, file_name):
 
 def main():
     a = arguments()
-    unit = f" ({a.unit})" if a.unit else ""
-    contact_unit = unit if a.contact_unit is None else f" ({a.contact_unit})"
+    unit = dimension(a.field, a.unit)
+    contact_unit = dimension(a.contact, a.unit if a.contact_unit is None else a.contact_unit)
     deformed = {0: "", 1: ", deformed"}.get(a.scale, f", deformed {a.scale:g} times")
     style = a.size, not a.no_edges, not a.no_outline
     panels = []

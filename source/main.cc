@@ -4,6 +4,7 @@
 #include <touchstone/base/interruption.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/output/model_export.h>
+#include <touchstone/output/preview.h>
 #include <touchstone/scene/command_line.h>
 
 #include <deal.II/base/mpi.h>
@@ -60,6 +61,14 @@ namespace
             for (const std::string &remark : remarks)
               std::cout << "  " << remark << '\n';
           }
+        return 0;
+      }
+
+    if (line.preview)
+      {
+        for (const std::string &text : write_preview(scene, folder, communicator))
+          if (first)
+            std::cout << text << '\n';
         return 0;
       }
 

@@ -53,7 +53,14 @@ namespace
                    "cylinder",
                    "set Cells = 1, 1, 4\nset Axial grading = 8");
 
+    print_geometry("cylinder graded to its side: 3.141593; side 6.283185",
+                   "cylinder",
+                   "set Cells = 1, 4, 1\nset Radial grading = 0.2");
+
     print_geometry("ball: 4.188790; surface 12.566371", "ball", "set Centre = 1, 2, 3");
+    print_geometry("ball graded to its surface: 4.188790; surface 12.566371",
+                   "ball",
+                   "set Cells = 1, 4\nset Radial grading = 0.2");
     print_geometry("octant: 0.523599; surface 1.570796, cuts 0.785398",
                    "ball",
                    "set Keep = +, -, +\nset Cells = 3, 2");

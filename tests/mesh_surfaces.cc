@@ -2,6 +2,8 @@
 // Analytic surfaces: closest point, its derivative against central differences,
 // normals, and what happens on the axis and in the centre.
 
+#include <touchstone/mesh/obstacle_shape.h>
+
 #include "mesh_common.h"
 
 using namespace Touchstone;
@@ -40,6 +42,47 @@ namespace
                   << small((gradient - transpose(gradient)).norm()) << '\n';
       }
   }
+
+  /** The surface of an obstacle with these keys. */
+  std::shared_ptr<const AnalyticSurface>
+  obstacle(const std::string &shape, const std::string &text)
+  {
+    const auto       result = ObstacleShapeRegistry::make(shape);
+    ParameterHandler prm;
+    result->declare(prm);
+    prm.parse_input_from_string(text);
+    result->check("Obstacle x");
+    return result->surface();
+  }
+
+
+
+  /** Tools with other radii of curvature than bodies have, outside, inside and at their tips. */
+  void
+  print_tools(const std::vector<Point<3>> &points)
+  {
+    const std::string cone = "set Tip = 0.1, 0, 0\nset Direction = 1, 1, 0\nset Half angle = ";
+    print("sharp cone", *obstacle("cone", cone + "70"), points);
+    print("blunt cone", *obstacle("cone", cone + "20\nset Tip radius = 0.5"), points);
+    print("hollow cone", *obstacle("cone", cone + "40\nset Side = inside"), points);
+    const std::string torus = "set Centre = 0.1, 0, 0\nset Direction = 1, 0, 1\nset Radius = 2\n"
+                              "set Tube radius = ";
+    print("torus", *obstacle("torus", torus + "0.5"), points);
+    print("within a torus", *obstacle("torus", torus + "1.5\nset Side = inside"), points);
+
+    for (const char *radius : {"0", "0.25"})
+      {
+        const auto tip = obstacle("cone", std::string("set Tip radius = ") + radius);
+        for (const double z : {-1., 0., 0.125})
+          std::cout << "tip of radius " << radius << ", axis at " << z << " -> "
+                    << tip->project({0., 0., z}) << ", normal " << tip->normal({0., 0., z}) << '\n';
+      }
+    for (const char *keys :
+         {"set Half angle = 90", "set Direction = 0, 0, 0", "set Tip radius = -1"})
+      print_error([keys] { obstacle("cone", keys); });
+    for (const char *keys : {"set Radius = 0.25", "set Tube radius = 0", "set Direction = 0, 0, 0"})
+      print_error([keys] { obstacle("torus", keys); });
+  }
 } // namespace
 
 int
@@ -65,5 +108,6 @@ main()
   std::cout << "centre of the sphere -> " << sphere->project({1., 2., 3.}) << '\n'
             << "axis of the cylinder -> " << cone->project({3., 0., 0.}) << ", normal "
             << cone->normal({3., 0., 0.}) << '\n';
+  print_tools(points);
   return 0;
 }

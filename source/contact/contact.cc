@@ -158,7 +158,8 @@ namespace Touchstone
     double work = 0.;
     for (const ContactRow &row : all_rows)
       if (state(row).active())
-        work += part_of_force(row, state(row), part) * (row.shift - committed(row).shift);
+        work += part_of_force(row, state(row), part) *
+                row.motion.since(committed(row).motion, contact_point(row));
     return Utilities::MPI::sum(work, solid.communicator);
   }
 

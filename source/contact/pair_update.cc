@@ -98,6 +98,14 @@ namespace Touchstone
         if (!row.has_partner)
           continue;
         row.gap_vector = is_tied ? shortening * row.normal : reference[k].gap_vector;
+        if (input.obstacle != nullptr)
+          {
+            // The node keeps its place on an obstacle that moves.
+            row.motion = pairing_method->motion(time);
+            row.gap_vector -=
+              row.motion.since(reference[k].motion,
+                               row.motion.place(reference[k].motion.back(row.reference)));
+          }
         for (unsigned int d = 0; d < dim; ++d)
           {
             row.gap_vector[d] += stencil_values(dim * row.slave + d);

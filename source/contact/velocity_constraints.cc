@@ -26,7 +26,8 @@ namespace Touchstone
         constraint.condition.stencil = row.stencil;
         // An obstacle imposes its own velocity, taken as constant over the step; zero for a master
         // body.
-        const Tensor<1, dim> velocity = (row.shift - contact.committed(row).shift) / step;
+        const Tensor<1, dim> velocity =
+          row.motion.since(contact.committed(row).motion, contact_point(row)) / step;
         const auto offer = [&](const Tensor<1, dim> &direction, const Tensor<1, dim> &force) {
           constraint.condition.direction       = direction;
           constraint.condition.force_direction = force;

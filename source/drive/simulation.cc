@@ -95,6 +95,8 @@ namespace Touchstone
       summary.phases.emplace_back(phase.name, phase.end_time);
     if (scene.time_integration.dynamic())
       summary.motion.emplace();
+    for (const std::string &text : forest.warnings())
+      warnings.add(text);
     for (const BodyParameters &body : scene.bodies)
       mesh_files.push_back(body.geometry->fingerprint(folder_of_scene));
     for (const ObstacleParameters &obstacle : scene.obstacles)
@@ -318,6 +320,8 @@ namespace Touchstone
     };
     add(scene.without_effect);
     add(describe_bodies(scene, forest, solid));
+    for (const std::string &text : forest.warnings())
+      lines.push_back("warning: " + text);
     add(start);
     if (!problem->held_by_contact().empty())
       lines.push_back("held by contact alone: " + problem->held_by_contact());

@@ -68,30 +68,10 @@ namespace Touchstone
 
 
 
-  std::vector<Tensor<1, dim>>
-  StepProblem::obstacle_shifts() const
-  {
-    std::vector<Tensor<1, dim>> result(contact.n_pairs());
-    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          // All rows of a pair have the same shift, but a rank may have no row of it: the maximum
-          // over the ranks, with the lowest number where there is none.
-          double high = std::numeric_limits<double>::lowest();
-          if (!contact.pair(p).rows().empty())
-            high = contact.pair(p).rows().front().shift[d];
-          result[p][d] = Utilities::MPI::max(high, solid.communicator);
-        }
-    return result;
-  }
-
-
-
   void
   StepProblem::remember_contact()
   {
     committed_active = active_rows();
-    committed_shift  = obstacle_shifts();
   }
 
 
@@ -114,11 +94,13 @@ namespace Touchstone
     const auto before = boundary_conditions.displacements(committed_time);
     for (std::size_t k = 0; k < now.size(); ++k)
       pushed = std::max(pushed, std::abs(now[k].value - before[k].value));
-    const auto shifts = obstacle_shifts();
-    for (unsigned int p = 0; p < shifts.size(); ++p)
-      pushed = std::max(pushed, (shifts[p] - committed_shift[p]).norm());
     for (const ContactRow &row : contact.rows())
-      size = std::max(size, row.size);
+      {
+        size = std::max(size, row.size);
+        pushed =
+          std::max(pushed,
+                   row.motion.since(contact.committed(row).motion, contact_point(row)).norm());
+      }
     const double limit = Utilities::MPI::max(size, solid.communicator) +
                          10. * Utilities::MPI::max(pushed, solid.communicator);
 

@@ -13,9 +13,24 @@ namespace Touchstone
   using namespace dealii;
 
   Tensor<1, dim>
-  ImpulseContact::motion_of_obstacle(const ContactPair &pair, const double time, const double step)
+  ImpulseContact::motion_of_obstacle(const ContactPair &pair,
+                                     const Point<dim>  &x,
+                                     const double       time,
+                                     const double       step)
   {
-    return pair.pairing().shift(time + step) - pair.pairing().shift(time);
+    return -1. * pair.pairing().motion(time).since(pair.pairing().motion(time + step), x);
+  }
+
+
+
+  double
+  ImpulseContact::largest_motion(const unsigned int p, const double time, const double step) const
+  {
+    const Pairing    &pairing = contact.pair(p).pairing();
+    const RigidMotion now = pairing.motion(time), then = pairing.motion(time + step);
+    // The axis may be anywhere: that of the centre of the slave surface, and what the turn adds.
+    return (now.since(then, centre[p])).norm() +
+           (then.turn - now.turn).norm() * (now.turned || then.turned ? radius[p] : 0.);
   }
 
 
@@ -28,10 +43,13 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const ContactPair &pair = contact.pair(p); !pair.master())
         {
-          const Tensor<1, dim> move = motion_of_obstacle(pair, time, step);
-          if (move.norm() <= smallest_face[p])
+          const double way = largest_motion(p, time, step);
+          if (way <= smallest_face[p])
             continue;
-          unsigned int axis = 0;
+          const RigidMotion now     = pair.pairing().motion(time),
+                            then    = pair.pairing().motion(time + step);
+          const Tensor<1, dim> move = then.shift - now.shift;
+          unsigned int         axis = 0;
           for (unsigned int d = 1; d < dim; ++d)
             if (std::abs(move[d]) > std::abs(move[axis]))
               axis = d;
@@ -40,7 +58,7 @@ namespace Touchstone
                         sizeof(text),
                         "moves the obstacle by %.4g within the cycle of %.4g at time %.6g, which "
                         "is more than a face of the body that it meets (%.4g)",
-                        move.norm(),
+                        way,
                         step,
                         time,
                         smallest_face[p]);
@@ -48,9 +66,10 @@ namespace Touchstone
           const std::string *const  motions[] = {&obstacle.motion_x,
                                                  &obstacle.motion_y,
                                                  &obstacle.motion_z};
+          const bool                turns     = now.turned || then.turned;
           throw InputError(obstacle.section(),
-                           "Motion " + std::string(1, "xyz"[axis]),
-                           *motions[axis],
+                           turns ? "Rotate angle" : "Motion " + std::string(1, "xyz"[axis]),
+                           turns ? obstacle.rotate_angle : *motions[axis],
                            text,
                            "let it move smoothly, as 'min(v*t, d)' or 'd*(1-cos(pi*t/T))/2' do");
         }
@@ -71,14 +90,18 @@ namespace Touchstone
     const Point<dim>   x(reference[node] + u_nodes[node]);
     const auto         here    = pair.pairing().at(x, time);
     const double       overlap = pair.overlap(of.index - pair.rows().front().index);
-    row.drive                  = motion_of_obstacle(pair, time, step) / step;
-    RowHistory &h              = history[of.index];
-    h.drive_before             = h.driven ? h.drive : row.drive;
-    row.normal                 = here->normal;
+    row.drive      = motion_of_obstacle(pair, Point<dim>(x - here->gap_vector), time, step) / step;
+    RowHistory &h  = history[of.index];
+    h.drive_before = h.driven ? h.drive : row.drive;
+    row.normal     = here->normal;
     if (row.tied)
       {
-        row.allowed =
-          (from.gap_vector + u_nodes[node] - (pair.pairing().shift(time) - of.shift)) / step;
+        // The point of the obstacle that the node had when the rows were made.
+        const RigidMotion now = pair.pairing().motion(time);
+        row.drive             = motion_of_obstacle(pair, x, time, step) / step;
+        row.allowed           = (from.gap_vector + u_nodes[node] -
+                       now.since(of.motion, now.place(of.motion.back(of.position)))) /
+                      step;
         return;
       }
     const double gap   = here->gap_vector * here->normal - pair.part_of_overlap(time) * overlap;

@@ -4,6 +4,7 @@
 #include <touchstone/explicit/impulse_contact.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -44,6 +45,29 @@ namespace Touchstone
       smallest_face[row.pair] = std::min(smallest_face[row.pair], row.size);
     for (double &size : smallest_face)
       size = Utilities::MPI::min(size, nodes.communicator());
+    centre.resize(contact.n_pairs());
+    radius.resize(contact.n_pairs());
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      {
+        // The lowest coordinates, and the highest with the other sign.
+        std::array<double, 2 * dim> ends;
+        ends.fill(std::numeric_limits<double>::max());
+        for (const ContactRow &row : contact.pair(p).rows())
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              ends[d]       = std::min(ends[d], row.reference[d]);
+              ends[dim + d] = std::min(ends[dim + d], -row.reference[d]);
+            }
+        Point<dim> corner;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double low        = Utilities::MPI::min(ends[d], nodes.communicator()),
+                         minus_high = Utilities::MPI::min(ends[dim + d], nodes.communicator());
+            centre[p][d]            = (low - minus_high) / 2.;
+            corner[d]               = -minus_high;
+          }
+        radius[p] = 2. * corner.distance(centre[p]);
+      }
   }
 
 

@@ -31,6 +31,12 @@ namespace Touchstone
                           "Number of cells from the centre to the side of the core, which "
                           "is about half of the radius, and from there to the surface.",
                           Patterns::List(Patterns::Integer(1), 2, 2));
+        prm.add_parameter("Radial grading",
+                          grading,
+                          "Thickness of the last cell at the surface over that of the first "
+                          "outside of the core; the cells between grow geometrically. No unit; 1 "
+                          "is uniform, less than 1 is finer at the surface.",
+                          Patterns::Double(1e-6, 1e6));
       }
 
       void
@@ -51,7 +57,7 @@ namespace Touchstone
         // zero in the cut planes, so that faces of cuts can be told by comparison with zero; only
         // the vertices of the mesh are scaled and moved.
         const RoundLattice lattice(
-          3, keep, scaled_cells(cells[0], factor), scaled_cells(cells[1], factor), 1);
+          3, keep, scaled_cells(cells[0], factor), scaled_cells(cells[1], factor), 1, grading);
 
         BodyMesh mesh;
         mesh.cells = lattice.cells;
@@ -86,9 +92,10 @@ namespace Touchstone
 
     private:
       Point<3>                  centre;
-      double                    radius = 1.;
-      std::vector<std::string>  keep   = {"both", "both", "both"};
-      std::vector<unsigned int> cells  = {2, 2};
+      double                    radius  = 1.;
+      std::vector<std::string>  keep    = {"both", "both", "both"};
+      std::vector<unsigned int> cells   = {2, 2};
+      double                    grading = 1.;
     };
 
     const GeometryRegistry::Entry<Ball>

@@ -231,7 +231,9 @@ namespace Touchstone
         }
     for (const auto &cell : triangulation.cell_iterators_on_level(0))
       for (const auto &face : cell->face_iterators())
-        if (face->at_boundary() && face->manifold_id() != numbers::flat_manifold_id)
+        // Not those that have that of their cell: their edges may be those of such a face.
+        if (face->at_boundary() && face->manifold_id() != numbers::flat_manifold_id &&
+            face->manifold_id() != cell->manifold_id())
           face->set_all_manifold_ids(face->manifold_id());
 
     for (const auto &[id, manifold] : mesh.manifolds)

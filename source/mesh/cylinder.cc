@@ -52,7 +52,7 @@ namespace Touchstone
       double        start = 0., end = 1., radius = 1.;
 
       std::vector<unsigned int> cells   = {2, 2, 2};
-      double                    grading = 1.;
+      double                    grading = 1., radial_grading = 1.;
     };
 
 
@@ -83,6 +83,12 @@ namespace Touchstone
                         "along the axis. A quarter of the circumference has twice the "
                         "first number of cells.",
                         Patterns::List(Patterns::Integer(1), 3, 3));
+      prm.add_parameter("Radial grading",
+                        radial_grading,
+                        "Thickness of the last cell at the surface over that of the first "
+                        "outside of the core; the cells between grow geometrically. No unit; 1 "
+                        "is uniform, less than 1 is finer at the surface.",
+                        Patterns::Double(1e-6, 1e6));
       prm.add_parameter("Axial grading",
                         grading,
                         "Length of the last cell along the axis over that of the first; the "
@@ -119,9 +125,13 @@ namespace Touchstone
       // a half or quarter.
       const std::vector<std::string> keep = {part == Part::quarter ? "+" : "both",
                                              part == Part::full ? "both" : "+"};
-      const unsigned int layers = scaled_cells(cells[2], factor);
-      const RoundLattice lattice(
-        2, keep, scaled_cells(cells[0], factor), scaled_cells(cells[1], factor), layers);
+      const unsigned int        layers = scaled_cells(cells[2], factor);
+      const RoundLattice        lattice(2,
+                                 keep,
+                                 scaled_cells(cells[0], factor),
+                                 scaled_cells(cells[1], factor),
+                                 layers,
+                                 radial_grading);
       const Axes                axes(axis, origin);
       const std::vector<double> along = graded_positions(start, end, layers, grading);
 

@@ -18,11 +18,14 @@ namespace Touchstone
   void
   FileGeometry::declare(ParameterHandler &prm)
   {
-    prm.add_parameter("File",
-                      file,
-                      "Mesh file, relative to the folder of the scene file: Gmsh .msh "
-                      "(version 2.2 or 4.1), Abaqus .inp or legacy .vtk, in ASCII, with "
-                      "hexahedra of order one.");
+    prm.add_parameter(
+      "File",
+      file,
+      "Mesh file, relative to the folder of the scene file: Gmsh .msh "
+      "(version 2.2, or 4.1 in ASCII or binary), Abaqus .inp, legacy .vtk in ASCII, "
+      "or .vtu, with hexahedra of 8, 20 or 27 nodes. Nodes in the middle of edges "
+      "and faces give curved cells, which elements of degree 2 have and new nodes "
+      "of refinement lie on.");
     prm.add_parameter("Volume",
                       volume,
                       "Which cells of the file are this body: the name or number of a "
@@ -32,6 +35,11 @@ namespace Touchstone
                       extra_names,
                       "Names for boundaries that have only numbers in the file: 'contact: "
                       "1, bottom: 2'. Faces that the file does not mark are number 0.");
+    prm.add_parameter("Boundary arrays",
+                      boundary_arrays,
+                      "Boundaries of a .vtu file by arrays of one component that have these "
+                      "names: 'contact, bottom'. A face belongs to each whose value is not zero "
+                      "in it, if it is a cell of the file, or at all of its corners.");
     prm.add_parameter("Exact surfaces",
                       exact,
                       std::string("The shapes that boundaries of the mesh stand for; "
@@ -47,13 +55,19 @@ namespace Touchstone
     // The file itself is opened only when the mesh is made; here are checks of what the input
     // says.
     const std::string extension = std::filesystem::path(file).extension();
-    if (extension != ".msh" && extension != ".inp" && extension != ".vtk")
+    if (extension != ".msh" && extension != ".inp" && extension != ".vtk" && extension != ".vtu")
       throw InputError(section,
                        "File",
                        file,
                        file.empty() ? "there is no file name."
-                                    : "the name does not end in .msh, .inp or .vtk",
-                       "name a mesh file of Gmsh (.msh), Abaqus (.inp) or VTK (.vtk)");
+                                    : "the name does not end in .msh, .inp, .vtk or .vtu",
+                       "name a mesh file of Gmsh (.msh), Abaqus (.inp) or VTK (.vtk, .vtu)");
+    if (!boundary_arrays.empty() && extension != ".vtu")
+      throw InputError(section,
+                       "Boundary arrays",
+                       Patterns::Tools::to_string(boundary_arrays),
+                       "the file '" + file + "' has no arrays of boundaries",
+                       "leave it empty; only .vtu files have such arrays");
     try
       {
         parse_exact_surfaces(exact);
@@ -89,7 +103,8 @@ namespace Touchstone
     const MeshFile mesh_file = read(section, folder);
 
     std::map<unsigned int, unsigned int> vertex_numbers;
-    BodyMesh                             mesh = select(mesh_file, vertex_numbers, section);
+    std::vector<unsigned int>            cell_numbers;
+    BodyMesh mesh = select(mesh_file, vertex_numbers, cell_numbers, section);
     orient(mesh, section);
     try
       {
@@ -110,6 +125,7 @@ namespace Touchstone
                          "remove duplicate cells from the mesh");
       }
     attach_exact_surfaces(mesh, section);
+    curve(mesh, mesh_file, vertex_numbers, cell_numbers, section);
     return mesh;
   }
 

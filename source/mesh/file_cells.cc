@@ -10,11 +10,12 @@
 #include <fstream>
 #include <map>
 #include <new>
+#include <numeric>
 #include <utility>
 
 // The cells of a body from a mesh file: read, those of one volume selected, checked and oriented.
-// The formats are read elsewhere (read_gmsh.cc, read_abaqus.cc, read_vtk.cc) into the common
-// MeshFile.
+// The formats are read elsewhere (read_gmsh.cc, read_abaqus.cc, read_vtk.cc, read_vtu.cc) into the
+// common MeshFile.
 namespace Touchstone
 {
   using namespace dealii;
@@ -23,7 +24,7 @@ namespace Touchstone
   FileGeometry::read(const std::string &section, const std::string &folder) const
   {
     const std::filesystem::path path = std::filesystem::path(folder) / file;
-    std::ifstream               in(path);
+    std::ifstream               in(path, std::ios::binary);
     if (!in || std::filesystem::is_directory(path))
       throw InputError(section,
                        "File",
@@ -35,6 +36,7 @@ namespace Touchstone
         const std::string extension = path.extension();
         MeshFile          mesh      = extension == ".msh"   ? read_gmsh(in)
                                       : extension == ".inp" ? read_abaqus(in)
+                                      : extension == ".vtu" ? read_vtu(in, boundary_arrays)
                                                             : read_vtk(in);
         if (mesh.cells.empty())
           throw MeshFileError("The file has no hexahedra.");
@@ -67,26 +69,28 @@ namespace Touchstone
   BodyMesh
   FileGeometry::select(const MeshFile                       &mesh_file,
                        std::map<unsigned int, unsigned int> &vertex_numbers,
+                       std::vector<unsigned int>            &cell_numbers,
                        const std::string                    &section) const
   {
     // A volume can be called by its name or by its number; if several groups match, all of them
     // are taken.
-    std::vector<CellData<3>> cells;
     if (volume.empty())
-      cells = mesh_file.cells;
+      {
+        cell_numbers.resize(mesh_file.cells.size());
+        std::iota(cell_numbers.begin(), cell_numbers.end(), 0);
+      }
     else
       {
         std::string available;
         for (const MeshFile::Group &group : mesh_file.volumes)
           {
             if (group.name == volume || std::to_string(group.number) == volume)
-              for (const unsigned int c : group.members)
-                cells.push_back(mesh_file.cells[c]);
+              cell_numbers.insert(cell_numbers.end(), group.members.begin(), group.members.end());
             available +=
               (available.empty() ? "" : ", ") +
               (group.name.empty() ? std::to_string(group.number) : "'" + group.name + "'");
           }
-        if (cells.empty())
+        if (cell_numbers.empty())
           throw InputError(section,
                            "Volume",
                            volume,
@@ -96,7 +100,8 @@ namespace Touchstone
       }
 
     BodyMesh mesh;
-    mesh.cells = cells;
+    for (const unsigned int c : cell_numbers)
+      mesh.cells.push_back(mesh_file.cells[c]);
     for (CellData<3> &cell : mesh.cells)
       for (unsigned int &v : cell.vertices)
         {

@@ -158,6 +158,13 @@ namespace Touchstone
 
         const BodyMesh mesh = create(*input.bodies[body].geometry, factor, section, scene_folder);
         check_cells(mesh, section);
+        if (mesh.bulge > 0. && level == 0 && input.discretisation.degree == 1)
+          notices.push_back(
+            "The nodes in the middle of edges and faces of the mesh of body '" +
+            input.bodies[body].name + "' lie up to " + Patterns::Tools::to_string(mesh.bulge) +
+            " beside straight cells, and elements of degree 1 do not have them: the "
+            "body has straight edges. Use 'Discretisation/Degree = 2', or a "
+            "'Refinement factor' of 2, whose new nodes they are.");
         const auto ids = append(mesh, body, all);
 
         names.emplace_back();

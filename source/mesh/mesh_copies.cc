@@ -27,6 +27,7 @@ namespace Touchstone
           std::swap(cell.vertices[v], cell.vertices[v + 1]);
     for (auto &[id, manifold] : mesh.manifolds)
       manifold = mapped_manifold(manifold, map);
+    mesh.bulge *= std::cbrt(std::abs(determinant(map.linear())));
     if (with_surfaces)
       for (auto &[id, surface] : mesh.surfaces)
         surface = mapped_surface(surface, map);

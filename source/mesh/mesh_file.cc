@@ -18,6 +18,7 @@ namespace Touchstone
     CellData<3> cell;
     cell.vertices = {v[0], v[1], v[3], v[2], v[4], v[5], v[7], v[6]};
     cells.push_back(cell);
+    mid_nodes.emplace_back(v.begin() + 8, v.end());
     cell_lines.push_back(line);
   }
 
@@ -95,20 +96,30 @@ namespace Touchstone
     // place.
     std::vector<unsigned int> number(cells.size()), lines;
     std::vector<CellData<3>>  kept;
+
+    std::vector<std::vector<unsigned int>> kept_mid_nodes;
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (const unsigned int f = first[c]; f == c)
         {
           number[c] = kept.size();
           kept.push_back(cells[c]);
+          kept_mid_nodes.push_back(mid_nodes[c]);
           lines.push_back(cell_lines[c]);
         }
       else if (!one_for_each_volume || volumes_of[f] < copies[f] ||
-               cells[c].vertices != cells[f].vertices)
-        throw MeshFileError(cell_lines[c],
-                            "This cell has the same nodes as that of line " +
-                              std::to_string(cell_lines[f]) + ".",
-                            "remove one of the two from the file");
+               cells[c].vertices != cells[f].vertices || mid_nodes[c] != mid_nodes[f])
+        {
+          const std::string same = "This cell has the same nodes as that of " + place + " " +
+                                   std::to_string(cell_lines[f]) + ".",
+                            remedy = "remove one of the two from the file";
+          if (place == "line")
+            throw MeshFileError(cell_lines[c], same, remedy);
+          throw MeshFileError("Cell of " + place + " " + std::to_string(cell_lines[c]) + ": " +
+                                same,
+                              remedy);
+        }
     cells      = kept;
+    mid_nodes  = kept_mid_nodes;
     cell_lines = lines;
     for (Group &volume : volumes)
       for (unsigned int &c : volume.members)

@@ -37,7 +37,7 @@ namespace Touchstone
 
 
   const char *const MeshFileError::default_remedy =
-    "save the mesh again, with hexahedra of order one, in ASCII.";
+    "save the mesh again, with hexahedra of order 1 or 2, in ASCII.";
 
   MeshFileError::MeshFileError(const std::string &problem, std::string remedy)
     : std::runtime_error(problem)
@@ -179,7 +179,14 @@ namespace Touchstone
   unsigned int
   MeshText::announced(const char *what)
   {
-    const unsigned long n = number(what);
+    return announced(what, number(what));
+  }
+
+
+
+  unsigned int
+  MeshText::announced(const char *what, const unsigned long n) const
+  {
     // The bound comes from the number of bytes to the end of the file.
     const auto here = in.tellg();
     in.seekg(0, std::ios::end);
@@ -189,6 +196,16 @@ namespace Touchstone
       fail(std::string(what) + " announces " + std::to_string(n) +
            " entries, more than the file can hold.");
     return n;
+  }
+
+
+
+  void
+  MeshText::bytes(void *to, const std::size_t n, const char *what)
+  {
+    const auto read = in.rdbuf()->sgetn(static_cast<char *>(to), static_cast<std::streamsize>(n));
+    if (read != static_cast<std::streamsize>(n))
+      fail_in(what);
   }
 
 

@@ -31,6 +31,16 @@ namespace Touchstone
     prm.add_parameter("Motion x", motion_x, "The x" + motion, FormulaPattern());
     prm.add_parameter("Motion y", motion_y, "The y" + motion, FormulaPattern());
     prm.add_parameter("Motion z", motion_z, "The z" + motion, FormulaPattern());
+    prm.add_parameter("Rotate axis",
+                      rotate_axis,
+                      "Direction of the axis of 'Rotate angle'; its length does not count.");
+    prm.add_parameter("Rotate point", rotate_point, "A point of that axis at time 0. [length]");
+    prm.add_parameter("Rotate angle",
+                      rotate_angle,
+                      "The angle by which the obstacle is turned, counter-clockwise for one whom "
+                      "the axis points at, a formula in t (time); the motion moves the obstacle "
+                      "with its axis. [degrees]",
+                      FormulaPattern());
   }
 
 
@@ -42,5 +52,18 @@ namespace Touchstone
     check_expression(section, "Motion x", motion_x, "t");
     check_expression(section, "Motion y", motion_y, "t");
     check_expression(section, "Motion z", motion_z, "t");
+    check_expression(section, "Rotate angle", rotate_angle, "t");
+    if (!(rotate_axis.norm() > 0.))
+      throw InputError(section,
+                       "Rotate axis",
+                       dealii::Patterns::Tools::to_string(rotate_axis),
+                       "must not be zero",
+                       "give the direction of the axis");
+    if (rotate_angle == "0" && rotate_point.norm() > 0.)
+      throw InputError(section,
+                       "Rotate point",
+                       dealii::Patterns::Tools::to_string(rotate_point),
+                       "means nothing without 'Rotate angle'",
+                       "give the angle or remove the point");
   }
 } // namespace Touchstone

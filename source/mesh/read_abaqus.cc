@@ -9,9 +9,9 @@
 #include <set>
 #include <sstream>
 
-// Meshes from Abaqus input files (.inp): *NODE, *ELEMENT with C3D8 and quadrilaterals, *ELSET and
-// *SURFACE; other keywords are skipped. Sets of elements become volumes or surfaces,
-// element-based surfaces become surfaces.
+// Meshes from Abaqus input files (.inp): *NODE, *ELEMENT with C3D8, C3D20, C3D27 and
+// quadrilaterals, *ELSET and *SURFACE; other keywords are skipped. Sets of elements become volumes
+// or surfaces, element-based surfaces become surfaces.
 namespace Touchstone
 {
   using namespace dealii;
@@ -40,6 +40,22 @@ namespace Touchstone
         words.pop_back();
       return words;
     }
+
+    /** Nodes of an element of this type, by the beginning of its name: variants with reduced
+     * integration, mixed fields and the like have the same nodes. A digit may not follow, so that
+     * C3D8 is not C3D80. Zero for others. */
+    unsigned int
+    nodes_of(const std::string &type, const std::map<std::string, unsigned int> &known)
+    {
+      for (const auto &[name, n] : known)
+        if (type.compare(0, name.size(), name) == 0 &&
+            (type.size() == name.size() ||
+             !std::isdigit(static_cast<unsigned char>(type[name.size()]))))
+          return n;
+      return 0;
+    }
+
+
 
     /** Reads line by line and remembers the keyword line that rules. */
     class AbaqusReader
@@ -197,11 +213,21 @@ namespace Touchstone
     {
       // Solid elements of another shape are an error, since the body would have holes without
       // them; elements that carry no volume are skipped.
-      const std::string type    = upper(parameters["TYPE"]);
-      const bool        is_cell = type.compare(0, 4, "C3D8") == 0;
-      const bool is_face = type.compare(0, 2, "S4") == 0 || type.compare(0, 4, "CPS4") == 0 ||
-                           type.compare(0, 4, "CPE4") == 0 || type.compare(0, 4, "M3D4") == 0 ||
-                           type.compare(0, 6, "SFM3D4") == 0;
+      const std::string  type      = upper(parameters["TYPE"]);
+      const unsigned int n_of_cell = nodes_of(type, {{"C3D8", 8}, {"C3D20", 20}, {"C3D27", 27}}),
+                         n_of_face = nodes_of(type,
+                                              {{"S4", 4},
+                                               {"S8", 8},
+                                               {"CPS4", 4},
+                                               {"CPS8", 8},
+                                               {"CPE4", 4},
+                                               {"CPE8", 8},
+                                               {"M3D4", 4},
+                                               {"M3D8", 8},
+                                               {"M3D9", 9},
+                                               {"SFM3D4", 4},
+                                               {"SFM3D8", 8}});
+      const bool is_cell = n_of_cell > 0, is_face = n_of_face > 0;
       if (!is_cell && !is_face)
         {
           // Solids of any kind and shape, and elements without a type.
@@ -231,7 +257,7 @@ namespace Touchstone
         line_of_pending = line_number;
       for (const std::string &word : words)
         pending.push_back(whole_number(word));
-      const unsigned int n = is_cell ? 8 : 4;
+      const unsigned int n = n_of_cell + n_of_face;
       if (pending.size() < n + 1)
         return;
       if (pending.size() > n + 1)

@@ -3,14 +3,16 @@
 #include <touchstone/mesh/mesh_file.h>
 #include <touchstone/mesh/mesh_text.h>
 
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <map>
 #include <set>
 
-// Meshes of Gmsh (.msh) in ASCII, versions 2.2 and 4.1. In version 2 elements name their physical
-// groups themselves; in version 4 they name an entity, whose groups are listed in $Entities. Each
-// section is checked to end where it should, for a wrong number of entries shifts all that
-// follows.
+// Meshes of Gmsh (.msh), versions 2.2 and 4.1, the latter in ASCII or binary. In version 2 elements
+// name their physical groups themselves; in version 4 they name an entity, whose groups are listed
+// in $Entities. Each section is checked to end where it should, for a wrong number of entries
+// shifts all that follows.
 namespace Touchstone
 {
   using namespace dealii;
@@ -34,6 +36,8 @@ namespace Touchstone
       MeshFile mesh;
       double   version      = 0.;
       bool     has_entities = false;
+      /** Numbers are bytes: size_t, int and double of this machine. */
+      bool binary = false;
 
       /** Index of a node's number. */
       std::map<unsigned long, unsigned int> node;
@@ -44,6 +48,16 @@ namespace Touchstone
       /** Names of physical surfaces and volumes. */
       std::map<unsigned int, std::string> names[4];
 
+      /** Numbers of sections that are binary in binary files. @{ */
+      unsigned long
+      size(const char *what);
+      long
+      integer(const char *what);
+      double
+      real(const char *what);
+      unsigned long
+      tag(const char *what);
+      /** @} */
       void
       read_format();
       void
@@ -59,7 +73,9 @@ namespace Touchstone
       void
       new_element(unsigned long number);
       void
-      read_element(unsigned int type, const std::vector<unsigned int> &groups);
+      read_element(unsigned int                     element_number,
+                   unsigned int                     type,
+                   const std::vector<unsigned int> &groups);
       void
       check_sum(unsigned long found, unsigned long announced, const char *what);
     };
@@ -84,6 +100,8 @@ namespace Touchstone
                                 word == "$Entities" || word == "$Nodes" || word == "$Elements";
           if (is_known && !sections.insert(word).second)
             text.fail("The file has a second " + word + ".");
+          if (binary && word != "$PhysicalNames")
+            text.next_line(); // the bytes begin there
           if (word == "$MeshFormat")
             read_format();
           else if (word == "$PhysicalNames")
@@ -124,16 +142,82 @@ namespace Touchstone
     void
     GmshReader::read_format()
     {
-      // Version 4.0 has another layout of entities and nodes than 4.1 and is an error, like
-      // binary files.
+      // Version 4.0 has another layout of entities and nodes than 4.1 and is an error.
       const char *what = "$MeshFormat";
       version          = text.real(what);
-      if (text.number(what) != 0)
-        text.fail("The file is binary; save it as ASCII.");
+      binary           = text.number(what) != 0;
       if (!((version >= 2. && version < 3.) || (version >= 4.1 && version < 5.)))
         text.fail("The format is version " + std::to_string(version) +
                   "; save it as version 2.2 or 4.1.");
-      text.number(what); // size of a floating point number
+      const auto size_of_real = text.number(what);
+      if (!binary)
+        return;
+      if (version < 3.)
+        text.fail("The file is binary and of version 2.",
+                  "save it in binary as version 4.1, or as ASCII");
+      if (size_of_real != sizeof(double))
+        text.fail("The file is binary with numbers of " + std::to_string(size_of_real) +
+                    " bytes, not 8.",
+                  "save the mesh again on a machine of 64 bits");
+      text.next_line();
+      int one = 0;
+      text.bytes(&one, sizeof(one), what);
+      if (one != 1)
+        text.fail("The file is binary, with bytes in another order than this machine has.",
+                  "save the mesh as ASCII");
+      mesh.place = "element";
+    }
+
+
+
+    unsigned long
+    GmshReader::size(const char *what)
+    {
+      if (!binary)
+        return text.number(what);
+      std::uint64_t value = 0;
+      text.bytes(&value, sizeof(value), what);
+      return value;
+    }
+
+
+
+    long
+    GmshReader::integer(const char *what)
+    {
+      if (!binary)
+        return text.signed_number(what);
+      std::int32_t value = 0;
+      text.bytes(&value, sizeof(value), what);
+      return value;
+    }
+
+
+
+    double
+    GmshReader::real(const char *what)
+    {
+      if (!binary)
+        return text.real(what);
+      double value = 0.;
+      text.bytes(&value, sizeof(value), what);
+      if (!std::isfinite(value))
+        text.fail(std::string("A number in ") + what + " is not finite.");
+      return value;
+    }
+
+
+
+    /** Numbers of entities and types, which have a sign in the format only. */
+    unsigned long
+    GmshReader::tag(const char *what)
+    {
+      if (!binary)
+        return text.number(what);
+      const long value = integer(what);
+      if (value < 0)
+        text.fail(std::string("A number in ") + what + " is negative.");
+      return value;
     }
 
 
@@ -174,23 +258,23 @@ namespace Touchstone
       const char   *what = "$Entities";
       unsigned long n[4];
       for (unsigned long &count : n)
-        count = text.number(what);
+        count = size(what);
       for (unsigned int d = 0; d < 4; ++d)
         for (unsigned long i = 0; i < n[d]; ++i)
           {
-            const auto tag = text.number(what);
+            const auto number = tag(what);
             for (unsigned int b = 0; b < (d == 0 ? 3 : 6); ++b)
-              text.real(what);
+              real(what);
             std::vector<unsigned int> groups;
-            for (auto left = text.number(what); left > 0; --left)
-              groups.push_back(std::abs(text.signed_number(what)));
-            if (!physical[d].insert({tag, groups}).second)
-              text.fail("Entity " + std::to_string(tag) + " of dimension " + std::to_string(d) +
+            for (auto left = size(what); left > 0; --left)
+              groups.push_back(std::abs(integer(what)));
+            if (!physical[d].insert({number, groups}).second)
+              text.fail("Entity " + std::to_string(number) + " of dimension " + std::to_string(d) +
                           " appears twice.",
                         "remove one of the two from the file");
             if (d > 0)
-              for (auto left = text.number(what); left > 0; --left)
-                text.signed_number(what);
+              for (auto left = size(what); left > 0; --left)
+                integer(what);
           }
     }
 
@@ -199,7 +283,10 @@ namespace Touchstone
     void
     GmshReader::read_node(const unsigned long number)
     {
-      mesh.vertices.push_back(text.point("$Nodes"));
+      Point<3> x;
+      for (unsigned int d = 0; d < 3; ++d)
+        x[d] = real("$Nodes");
+      mesh.vertices.push_back(x);
       if (!node.insert({number, mesh.vertices.size() - 1}).second)
         text.fail("Node " + std::to_string(number) + " appears twice.",
                   "remove one of the two from the file, or save the mesh again");
@@ -233,19 +320,19 @@ namespace Touchstone
             read_node(text.number(what));
           return;
         }
-      const auto n         = text.number(what);
-      const auto announced = text.number(what);
-      text.number(what); // smallest
-      text.number(what); // and largest number of a node
+      const auto n         = size(what);
+      const auto announced = size(what);
+      size(what); // smallest
+      size(what); // and largest number of a node
       for (unsigned long block = 0; block < n; ++block)
         {
-          text.number(what);
-          text.signed_number(what);
-          if (text.number(what) != 0)
+          tag(what);
+          integer(what);
+          if (tag(what) != 0)
             text.fail("The nodes have parametric coordinates; save the file without them.");
-          std::vector<unsigned long> numbers(text.announced(what));
+          std::vector<unsigned long> numbers(text.announced(what, size(what)));
           for (unsigned long &number : numbers)
-            number = text.number(what);
+            number = size(what);
           for (const unsigned long number : numbers)
             read_node(number);
         }
@@ -259,8 +346,9 @@ namespace Touchstone
     {
       const auto [known, is_new] = element.insert({number, text.line()});
       if (!is_new)
-        text.fail("Element " + std::to_string(number) + " stands in line " +
-                    std::to_string(known->second) + " already.",
+        text.fail("Element " + std::to_string(number) +
+                    (binary ? " stands twice in the file."
+                            : " stands in line " + std::to_string(known->second) + " already."),
                   "remove one of the two from the file, or save the mesh again");
     }
 
@@ -272,12 +360,13 @@ namespace Touchstone
     GmshReader::read_elements()
     {
       const char *what = "$Elements";
-      const auto  n    = text.number(what);
+      const auto  n    = size(what);
       if (version < 3.)
         {
           for (unsigned long i = 0; i < n; ++i)
             {
-              new_element(text.number(what));
+              const auto number = text.number(what);
+              new_element(number);
               const unsigned int        type = text.number(what);
               std::vector<unsigned int> groups;
               // The first tag is the physical group, or zero for none.
@@ -285,27 +374,28 @@ namespace Touchstone
               for (unsigned long t = 0; t < n_tags; ++t)
                 if (const long tag = text.signed_number(what); t == 0 && tag != 0)
                   groups.push_back(std::abs(tag));
-              read_element(type, groups);
+              read_element(number, type, groups);
             }
           return;
         }
-      const auto announced = text.number(what);
-      text.number(what);
-      text.number(what);
+      const auto announced = size(what);
+      size(what);
+      size(what);
       for (unsigned long block = 0; block < n; ++block)
         {
-          const auto d    = text.number(what);
-          const auto tag  = text.number(what);
-          const auto type = text.number(what);
+          const auto d      = tag(what);
+          const auto entity = tag(what);
+          const auto type   = tag(what);
           if (d > 3)
             text.fail("$Elements is damaged.");
-          if (has_entities && physical[d].count(tag) == 0)
-            text.fail("The elements belong to entity " + std::to_string(tag) + " of dimension " +
+          if (has_entities && physical[d].count(entity) == 0)
+            text.fail("The elements belong to entity " + std::to_string(entity) + " of dimension " +
                       std::to_string(d) + ", which $Entities does not have.");
-          for (auto left = text.number(what); left > 0; --left)
+          for (auto left = size(what); left > 0; --left)
             {
-              new_element(text.number(what));
-              read_element(type, physical[d][tag]);
+              const auto number = size(what);
+              new_element(number);
+              read_element(number, type, physical[d][entity]);
             }
         }
       check_sum(element.size(), announced, what);
@@ -314,42 +404,62 @@ namespace Touchstone
 
 
     void
-    GmshReader::read_element(const unsigned int type, const std::vector<unsigned int> &groups)
+    GmshReader::read_element(const unsigned int               element_number,
+                             const unsigned int               type,
+                             const std::vector<unsigned int> &groups)
     {
-      // Elements of order one; the codes are those of the Gmsh manual.
-      constexpr unsigned int                            quadrangle = 3, hexahedron = 5;
-      static const std::map<unsigned int, unsigned int> n_nodes = {
-        {15, 1}, {1, 2}, {2, 3}, {quadrangle, 4}, {hexahedron, 8}};
-      if (type == 4 || type == 6 || type == 7)
-        text.fail("It has tetrahedra, prisms or pyramids.");
+      // Points, lines, triangles, quadrangles and hexahedra of order 1 and 2; the codes are those
+      // of the Gmsh manual.
+      static const std::map<unsigned int, unsigned int> n_nodes = {{15, 1},
+                                                                   {1, 2},
+                                                                   {8, 3},
+                                                                   {2, 3},
+                                                                   {9, 6},
+                                                                   {3, 4},
+                                                                   {10, 9},
+                                                                   {16, 8},
+                                                                   {5, 8},
+                                                                   {12, 27},
+                                                                   {17, 20}};
+      const bool is_face = type == 3 || type == 10 || type == 16;
+      const bool is_cell = type == 5 || type == 12 || type == 17;
+      for (const unsigned int other : {4, 6, 7, 11, 13, 14, 18, 19})
+        if (type == other)
+          text.fail("It has tetrahedra, prisms or pyramids.");
       const auto known = n_nodes.find(type);
       if (known == n_nodes.end())
         text.fail("It has elements of Gmsh's type " + std::to_string(type) +
-                  ", perhaps of higher order; save it with order 1.");
+                  ", perhaps of higher order; save it with order 1 or 2.");
 
       std::vector<unsigned int> vertices(known->second);
       for (unsigned int &vertex : vertices)
         {
           // The nodes must end with the line: with a wrong type or a missing node, numbers of the
           // next element would be taken for those of this one.
-          if (text.at_end_of_line())
+          if (!binary && text.at_end_of_line())
             text.fail_in("$Elements");
-          const auto number = text.number("$Elements");
+          const auto number = size("$Elements");
           const auto found  = node.find(number);
           if (found == node.end())
             text.fail("An element uses node " + std::to_string(number) +
                       ", which the file does not have.");
           vertex = found->second;
         }
-      if (!text.at_end_of_line())
+      if (!binary && !text.at_end_of_line())
         text.fail("An element of Gmsh's type " + std::to_string(type) + " has more than its " +
                   std::to_string(known->second) + " nodes.");
 
       // Quadrangles carry the boundary ids; points, lines and triangles have none here.
-      const bool is_cell = type == hexahedron;
       if (is_cell)
-        mesh.add_cell(vertices, text.line());
-      else if (type == quadrangle)
+        {
+          // Gmsh numbers edges by their ends, others go around the bottom and the top.
+          static constexpr unsigned int edges[12] = {8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15};
+          const std::vector<unsigned int> nodes   = vertices;
+          for (unsigned int e = 0; e < 12 && nodes.size() > 8; ++e)
+            vertices[8 + e] = nodes[edges[e]];
+          mesh.add_cell(vertices, binary ? element_number : text.line());
+        }
+      else if (is_face)
         mesh.faces.push_back({{vertices[0], vertices[1], vertices[2], vertices[3]}});
       else
         return;

@@ -54,8 +54,6 @@ namespace Touchstone
       /** @return whether the numbers were read, not skipped */
       bool
       read_scalars();
-      void
-      add(const VtkCell &cell);
     };
 
 
@@ -160,40 +158,6 @@ namespace Touchstone
 
 
 
-    void
-    VtkReader::add(const VtkCell &cell)
-    {
-      // Codes of the VTK manual. Lower-dimensional cells are dropped, other solids are an error,
-      // for the body would have holes without them.
-      constexpr unsigned int quad = 9, hexahedron = 12, first_solid = 10;
-      if (cell.type == quad || cell.type == hexahedron)
-        {
-          const unsigned int n = cell.type == quad ? 4 : 8;
-          if (cell.vertices.size() != n)
-            throw MeshFileError(cell.line,
-                                "A cell of VTK's type " + std::to_string(cell.type) + " has " +
-                                  std::to_string(cell.vertices.size()) + " points, not " +
-                                  std::to_string(n) + ".");
-        }
-      else if (cell.type >= first_solid || cell.type == 0)
-        throw MeshFileError(cell.line,
-                            "It has cells of VTK's type " + std::to_string(cell.type) + ".");
-
-      if (cell.type == hexahedron)
-        {
-          MeshFile::group(mesh.volumes, cell.number).members.push_back(mesh.cells.size());
-          mesh.add_cell(cell.vertices, cell.line);
-        }
-      else if (cell.type == quad)
-        {
-          const auto &v = cell.vertices;
-          MeshFile::group(mesh.surfaces, cell.number).members.push_back(mesh.faces.size());
-          mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
-        }
-    }
-
-
-
     MeshFile
     VtkReader::read()
     {
@@ -241,7 +205,7 @@ namespace Touchstone
         if (sections.count(needed) == 0)
           throw MeshFileError(std::string("The file has no ") + needed + ".");
       for (const VtkCell &cell : cells)
-        add(cell);
+        add_vtk_cell(mesh, cell.type, cell.vertices, cell.number, cell.line);
       mesh.join_copies(false);
       return std::move(mesh);
     }

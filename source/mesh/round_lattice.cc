@@ -41,7 +41,8 @@ namespace Touchstone
                              const std::vector<std::string> &keep,
                              const unsigned int              core,
                              const unsigned int              rings,
-                             const unsigned int              layers)
+                             const unsigned int              layers,
+                             const double                    grading)
   {
     const double sides = dimensions == 2 ? 4. : 6.; // where rings stand on the core
     check_number_of_cells((2. * core) * (2. * core) * (dimensions == 2 ? layers : 2. * core) +
@@ -54,7 +55,8 @@ namespace Touchstone
         upper[d] = keep[d] == "-" ? 0 : n;
       }
 
-    const auto position = [&](const Key &key) {
+    const std::vector<double> fractions = graded_positions(0., 1., rings, grading);
+    const auto                position  = [&](const Key &key) {
       Tensor<1, 3> straight, direction;
       double       size = 0.;
       for (unsigned int d = 0; d < dimensions; ++d)
@@ -74,7 +76,7 @@ namespace Touchstone
       // from the side of the core to the surface.
       const Tensor<1, 3> inside =
         core_width * ((1. - core_bulge) * straight + core_bulge * size * direction);
-      const double fraction = static_cast<double>(key.ring) / rings;
+      const double fraction = fractions[key.ring];
       Tensor<1, 3> x        = (1. - fraction) * inside + fraction * direction;
       if (dimensions == 2)
         x[2] = static_cast<double>(key.i[2]) / layers;

@@ -80,6 +80,21 @@ namespace Touchstone
     using ContactDisplacementField =
       ContactMember<8, dealii::Tensor<1, dim>, &ContactPoint::displacement>;
 
+    /** A share of the surface at a node. */
+    template <class Field>
+    class Summed : public Field
+    {
+    public:
+      bool
+      summed() const override
+      {
+        return true;
+      }
+    };
+
+    using AreaField  = Summed<ContactNumber<9, &ContactPoint::area>>;
+    using ForceField = Summed<ContactMember<10, dealii::Tensor<1, dim>, &ContactPoint::force>>;
+
     const ContactFieldRegistry::Entry<StatusField>
       status_field("status", "Number of the ContactStatus; no unit.");
     const ContactFieldRegistry::Entry<GapField> gap_field("gap", "Gap; length.");
@@ -96,6 +111,10 @@ namespace Touchstone
       slip_field("slip", "Tangential slip of the last step; length.");
     const ContactFieldRegistry::Entry<ContactDisplacementField>
       contact_displacement_field("displacement", "Displacement; length.");
+    const ContactFieldRegistry::Entry<AreaField>
+      area_field("area", "Covered area that belongs to the node; length squared.");
+    const ContactFieldRegistry::Entry<ForceField> force_field("force",
+                                                              "Contact force on the node; force.");
   } // namespace
 
 

@@ -48,7 +48,9 @@ namespace Touchstone
             return {};
           for (const ContactFieldList::Entry &entry : fields.entries())
             for (unsigned int i = entry.first; i < entry.first + entry.field->n_components(); ++i)
-              if (entry.field->interpolated())
+              if (entry.field->summed())
+                result.values[i] = 0.;
+              else if (entry.field->interpolated())
                 result.values[i] += weight * found->second.values[i];
               else if (weight > largest)
                 result.values[i] = found->second.values[i];

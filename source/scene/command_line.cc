@@ -55,6 +55,7 @@ namespace Touchstone
                                                     {"-h", &line.help},
                                                     {"--version", &line.version},
                                                     {"--validate", &line.validate},
+                                                    {"--preview", &line.preview},
                                                     {"--print-parameters", &line.print_parameters},
                                                     {"--results-only", &line.results_only},
                                                     {"--resume", &line.resume}};
@@ -139,6 +140,8 @@ namespace Touchstone
            "if every step converged.\n"
            "\n"
            "  --validate              check the scene, mesh and boundaries, then stop\n"
+           "  --preview               write the meshes with the names of boundaries, and a\n"
+           "                          drawing, into the output folder, then stop\n"
            "  --print-parameters      print the complete scene with all keys, then stop\n"
            "  --set \"Section/Key=value\"  change one key of the scene; can be repeated\n"
            "  --output FOLDER         write there instead of to output/STEM\n"

@@ -140,7 +140,8 @@ namespace Touchstone
     for (const ObstacleParameters &obstacle : obstacles)
       for (const auto &[key, text] : {std::make_pair("Motion x", &obstacle.motion_x),
                                       std::make_pair("Motion y", &obstacle.motion_y),
-                                      std::make_pair("Motion z", &obstacle.motion_z)})
+                                      std::make_pair("Motion z", &obstacle.motion_z),
+                                      std::make_pair("Rotate angle", &obstacle.rotate_angle)})
         check(obstacle.section(), key, *text);
   }
 

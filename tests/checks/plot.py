@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """contrib/plot: the curves that it takes from a run, with matplotlib its pictures and without it
-what to install, and what it says of folders that are none of a run."""
+what to install, and what it says of folders that are none of a run; the module that reads runs."""
 
 import argparse
 import importlib.machinery
@@ -54,6 +54,33 @@ for name in "one", "two":
     check(len(x) == 4 and x == sorted(x), f"line at {x}")
     check(max(p) == max(node.pressure for node in nodes) > 0, f"pressures {p}")
 check(len({node.position for node in plot.surface(folder / "two")}) == 16, "surface of two ranks")
+
+# The module that reads runs.
+touchstone = sys.modules["touchstone"]
+two = touchstone.Run(folder / "two")
+columns, units = two.statistics()
+check(two.summary["converged"] and units["time"] == "time" and columns["time"] == time, f"{columns['time']}")
+check(math.isclose(two.probe("top")[0]["displacement_z"][-1], -0.037), "probe")
+check(two.times() == two.times("solution") == time, f"{two.times()}")
+check(len(two.contact()) == len(two.contact(time[-1])) == 16, "nodes of the contact surface")
+check(all(node.pressure == 0 for node in two.contact(0.)), "pressure at t = 0")
+pieces = two.bodies()
+check(len(pieces) == 2 and all(len(piece["displacement"]) == len(piece["position"]) == 3 * len(piece["von_mises"])
+                               for piece in pieces), "bodies of two ranks")
+check(max(abs(u) for piece in two.bodies(0.) for u in piece["displacement"]) == 0, "bodies at t = 0")
+try:
+    touchstone.Run(folder)
+    check(False, "a folder of no run is read")
+except FileNotFoundError as error:
+    check("no summary.json" in str(error), str(error))
+
+# Without VTK contrib/render.py says what to install.
+blocked = folder / "blocked"
+blocked.mkdir(exist_ok=True)
+(blocked / "numpy.py").write_text("raise ImportError('blocked')\n", encoding="utf-8")
+rendered = subprocess.run([sys.executable, source / "contrib/render.py", folder / "one", "one.png"],
+                          env={"PYTHONPATH": str(blocked)}, capture_output=True, text=True, check=False)
+check(rendered.returncode != 0 and "apt-get install python3-vtk9" in rendered.stderr, rendered.stderr)
 
 
 def call(*arguments):

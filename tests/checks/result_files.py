@@ -8,7 +8,7 @@ import csv
 import math
 import xml.etree.ElementTree as xml
 
-from touchstone_test import STEPS, check, checks, finish, folder, launch, run, settings_options
+from touchstone_test import STEPS, check, checks, finish, folder, launch, prm, run, settings_options
 from fuzzing import vtu  # pylint: disable=wrong-import-order
 
 SCENE, SETTINGS = folder / "probes.prm", {STEPS: 4}
@@ -110,6 +110,29 @@ for d in range(3):
     check(math.isclose(summed, named, rel_tol=1e-4, abs_tol=1e-4 * size),
           f"nodal reactions {summed}, those of boundaries {named}")
 check(max(abs(x) for value in force.values() for x in value) > 0, "no reactions")
+
+def summed(result, pair, *, scale=1e-5):
+    """Forces and areas of slave nodes add up to those of the pair, hanging nodes included."""
+    found, areas = {}, {}
+    for file in sorted(result.folder.glob("contact_????*.vtu"))[-1:]:
+        for arrays in vtu.pieces(file):
+            for i, area in enumerate(arrays["area"]):
+                place = tuple(arrays["position"][3 * i:3 * i + 3])
+                areas[place] = area
+                found[place] = arrays["force"][3 * i:3 * i + 3]
+    size = max(abs(x) for x in result.force(pair))
+    check(size > 0, f"{result}: no force")
+    for d in range(3):
+        total = sum(value[d] for value in found.values())
+        check(abs(total - result.force(pair)[d]) <= scale * size,
+              f"{result}: nodal forces {total}, that of the pair {result.force(pair)[d]}")
+    check(sum(areas.values()) >= result.contact(pair, "area") * (1 - scale) > 0, f"{result}: areas")
+
+
+summed(one, "contact")
+# With hanging nodes on the slave surface.
+summed(run("hanging", prm / "hertz_sphere_adaptive.prm",
+           {STEPS: 1, "Discretisation/Refinement factor": 0.5}, vtu=1), "contact")
 
 # Prescribed at the tip, and in the mean over the side; no balance at t = 0.
 for name, x, y in (("probe_tip", 1.1, 1.2), ("probe_top_side", 0.7, 0.7)):

@@ -6,6 +6,7 @@
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/stencil.h>
 #include <touchstone/base/types.h>
+#include <touchstone/contact/rigid_motion.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -121,8 +122,8 @@ namespace Touchstone
     /** Of a row without a partner: the master surface is not closer, length; zero if that is not
      * known, as after a step. */
     double away = 0.;
-    /** Displacement of the obstacle since time 0, length; zero for a master body. */
-    dealii::Tensor<1, dim> shift;
+    /** Where the obstacle is; at rest for a master body. */
+    RigidMotion motion;
     /** @} */
 
     /** @brief The fields that a step begins with: the one list of what checkpoints hold of a
@@ -140,9 +141,20 @@ namespace Touchstone
       visit(row.share);
       visit(row.lever);
       visit(row.position);
-      visit(row.shift);
+      visit(row.motion.shift);
+      // Known from the pairing, whose update comes before a row is read; checkpoints of earlier
+      // versions have no rotation.
+      if (row.motion.turned)
+        visit(row.motion.turn);
     }
   };
+
+  /** @brief Where the master is touched, length. */
+  inline dealii::Point<dim>
+  contact_point(const ContactRow &row)
+  {
+    return row.position - row.gap_vector;
+  }
 
   /** @brief Whether a row with a derivative changes so fast that the derivative is not valid over
    * a Newton increment: the normal over a sharp edge at a very small gap, averages over a

@@ -142,9 +142,8 @@ namespace Touchstone
     /** Reference positions and pairs of this rank's rows that changed in the last residual(), as
      * (x, y, z, pair). */
     std::vector<std::array<double, dim + 1>> changed_rows;
-    /** Of the committed state: active rows and the obstacle's motion, by pair. */
-    std::vector<unsigned int>           committed_active;
-    std::vector<dealii::Tensor<1, dim>> committed_shift;
+    /** Active rows of the committed state, by pair. */
+    std::vector<unsigned int> committed_active;
     /** Scale of the forces that act, at present and the largest of all committed states; zero
      * where the forces are no more than round-off. */
     double force_scale = 0., largest_force_scale = 0.;
@@ -194,9 +193,6 @@ namespace Touchstone
     /** Over all ranks, by pair. */
     std::vector<unsigned int>
     active_rows() const;
-    /** Motion of the obstacle of each pair since time 0; zero without one. Collective. */
-    std::vector<dealii::Tensor<1, dim>>
-    obstacle_shifts() const;
     /** Commit the present state, which has these forces. */
     void
     keep(const StepForces &forces);

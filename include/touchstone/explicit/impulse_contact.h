@@ -209,6 +209,10 @@ namespace Touchstone
     std::vector<std::array<double, 2>> mobilities;
     /** By pair with an obstacle: the size of its smallest face, over all ranks, length. */
     std::vector<double> smallest_face;
+    /** Of these pairs, the middle of a box around the slave surface in the reference state, and
+     * the distance of its corners with as much again for motion, over all ranks, length. */
+    std::vector<dealii::Point<dim>> centre;
+    std::vector<double>             radius;
     /** First dofs of the nodes around each slave node of a pair of bodies, by row index. */
     std::vector<std::vector<Index>> patches;
 
@@ -236,9 +240,15 @@ namespace Touchstone
     find_patches();
     void
     find_smallest_faces();
-    /** How far the obstacle of a pair moves in a cycle. */
+    /** How far the point of an obstacle that is at @p x now moves in a cycle. */
     static dealii::Tensor<1, dim>
-    motion_of_obstacle(const ContactPair &pair, double time, double step);
+    motion_of_obstacle(const ContactPair        &pair,
+                       const dealii::Point<dim> &x,
+                       double                    time,
+                       double                    step);
+    /** An upper bound of that of all points that slave nodes of the pair may meet. */
+    double
+    largest_motion(unsigned int pair, double time, double step) const;
     void
     check_obstacles(double time, double step) const;
     /** Make the rows of the committed state if an interval begins. @return whether it does. */

@@ -12,6 +12,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace Touchstone
 {
@@ -31,15 +32,24 @@ namespace Touchstone
   private:
     std::string                                       file, volume, exact;
     std::map<std::string, dealii::types::boundary_id> extra_names;
+    std::vector<std::string>                          boundary_arrays;
 
     MeshFile
     read(const std::string &section, const std::string &folder) const;
-    /** Vertices and cells of the body, and the body's numbers of the file's
-     * vertices. */
+    /** Vertices and cells of the body, the body's numbers of the file's
+     * vertices, and the file's numbers of the cells. */
     BodyMesh
     select(const MeshFile                       &mesh_file,
            std::map<unsigned int, unsigned int> &vertex_numbers,
+           std::vector<unsigned int>            &cell_numbers,
            const std::string                    &section) const;
+    /** Give the cells the curved shape that mid nodes describe. */
+    void
+    curve(BodyMesh                                   &mesh,
+          const MeshFile                             &mesh_file,
+          const std::map<unsigned int, unsigned int> &vertex_numbers,
+          const std::vector<unsigned int>            &cell_numbers,
+          const std::string                          &section) const;
     void
     orient(BodyMesh &mesh, const std::string &section) const;
     void

@@ -59,7 +59,8 @@ namespace Touchstone
     std::vector<std::map<std::string, BoundaryIds>>                              names;
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
     unsigned int                                                                 level = 0;
-    bool has_weights                                                                   = false;
+    bool                     has_weights                                               = false;
+    std::vector<std::string> notices;
     /** Its class depends on the partitioner. */
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>> mesh;
 
@@ -96,6 +97,13 @@ namespace Touchstone
 
     unsigned int
     n_bodies() const;
+
+    /** @brief What the user should know of the meshes, as sentences. */
+    const std::vector<std::string> &
+    warnings() const
+    {
+      return notices;
+    }
 
     /**
      * @brief The boundary ids of the faces of a boundary, by its name or its number: more

@@ -36,6 +36,9 @@ namespace Touchstone
     std::map<dealii::types::manifold_id, std::shared_ptr<dealii::Manifold<3>>> manifolds;
     /** Exact shape of curved boundaries, for contact. */
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
+    /** How far nodes in the middle of edges and faces that a mesh file gives lie off the straight
+     * cells, length: what elements of degree 1 do not have. */
+    double bulge = 0.;
   };
 
   /**

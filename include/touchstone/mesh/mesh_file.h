@@ -34,17 +34,25 @@ namespace Touchstone
     std::vector<dealii::Point<3>> vertices;
     /** With vertices in deal.II's order. */
     std::vector<dealii::CellData<3>> cells;
-    /** Lines of the file where the cells stand, for messages. */
+    /** For each cell its 12 nodes in the middle of edges, in VTK's order, and behind them those in
+     * the middle of its faces and the one of the cell, in any order: 12 or 19, or none. */
+    std::vector<std::vector<unsigned int>> mid_nodes;
+    /** Places of the file where the cells stand, for messages. */
     std::vector<unsigned int> cell_lines;
+    /** What counts these places. */
+    std::string place = "line";
     /** Vertices of marked faces in any order. */
     std::vector<std::array<unsigned int, 4>> faces;
-    std::vector<Group>                       volumes, surfaces;
+    /** Places of the file where faces stand, of VTK files only. */
+    std::vector<unsigned int> face_lines;
+    std::vector<Group>        volumes, surfaces;
 
-    /** @brief Add a hexahedron with its vertices in the order of Gmsh, Abaqus
-     * and VTK: around the bottom, then around the top.
+    /** @brief Add a hexahedron of 8, 20 or 27 nodes in the order of Abaqus and VTK: around the
+     * bottom, around the top, then the middle of the edges at the bottom, at the top, and
+     * between, then of the faces and of the cell.
      * @param line Where the file has it. */
     void
-    add_cell(const std::vector<unsigned int> &vertices, unsigned int line);
+    add_cell(const std::vector<unsigned int> &nodes, unsigned int line);
 
     /** @brief The group with this number, or a new one. */
     static Group &
@@ -58,12 +66,12 @@ namespace Touchstone
     join_copies(bool one_for_each_volume);
   };
 
-  /** @brief Read Gmsh .msh, version 2.x or 4.1, ASCII.
+  /** @brief Read Gmsh .msh, version 2.x or 4.1 in ASCII, or 4.1 in binary.
    * @throws MeshFileError with a sentence that says what is wrong and where. */
   MeshFile
   read_gmsh(std::istream &in);
 
-  /** @brief Read an Abaqus .inp with C3D8 elements, ELSETs and SURFACEs.
+  /** @brief Read an Abaqus .inp with elements C3D8, C3D20 or C3D27, ELSETs and SURFACEs.
    * @throws MeshFileError */
   MeshFile
   read_abaqus(std::istream &in);
@@ -72,6 +80,24 @@ namespace Touchstone
    * @throws MeshFileError */
   MeshFile
   read_vtk(std::istream &in);
+
+  /** @brief Read an unstructured grid of VTK's XML format.
+   * @param boundary_arrays Names of arrays that are not zero in the faces of a boundary, which
+   *   gets that name: in quadrilateral cells, or in all corners of a face.
+   * @throws MeshFileError */
+  MeshFile
+  read_vtu(std::istream &in, const std::vector<std::string> &boundary_arrays);
+
+  /** @brief Add a hexahedron or a face of VTK's @p type with the number of its volume or boundary,
+   * or drop what has less dimensions.
+   * @param line Where the file has it.
+   * @throws MeshFileError for other solids. */
+  void
+  add_vtk_cell(MeshFile                        &mesh,
+               double                           type,
+               const std::vector<unsigned int> &nodes,
+               unsigned int                     number,
+               unsigned int                     line);
 } // namespace Touchstone
 
 #endif

@@ -63,6 +63,14 @@ namespace Touchstone
     unsigned int
     announced(const char *what);
 
+    /** @brief The same for a number that has been read. */
+    unsigned int
+    announced(const char *what, unsigned long n) const;
+
+    /** @brief The next @p n bytes of a binary part, which has no words and lines. */
+    void
+    bytes(void *to, std::size_t n, const char *what);
+
     /** @brief Whatever follows the last word on its line. */
     std::string
     rest_of_line();

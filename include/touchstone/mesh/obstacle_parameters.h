@@ -6,6 +6,7 @@
 #include <touchstone/base/choice.h>
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/tensor.h>
 
 #include <string>
 
@@ -21,6 +22,10 @@ namespace Touchstone
     Choice<Registry<ObstacleShape>> shape{"plane"};
     /** Rigid motion as expressions in t, length. */
     std::string motion_x = "0", motion_y = "0", motion_z = "0";
+    /** Rotation before this translation: an expression in t, degrees, about an axis through a
+     * point. */
+    std::string          rotate_angle = "0";
+    dealii::Tensor<1, 3> rotate_axis{{0., 0., 1.}}, rotate_point;
 
     /** @brief "Obstacle NAME". */
     std::string

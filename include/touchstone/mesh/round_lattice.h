@@ -29,12 +29,14 @@ namespace Touchstone
      * @param core       Cells of the core from the centre to its side.
      * @param rings      Cells from there to the surface.
      * @param layers     Cells in the third direction of a disk.
+     * @param grading    Thickness of the last ring, at the surface, over that of the first.
      */
     RoundLattice(unsigned int                    dimensions,
                  const std::vector<std::string> &keep,
                  unsigned int                    core,
                  unsigned int                    rings,
-                 unsigned int                    layers);
+                 unsigned int                    layers,
+                 double                          grading = 1.);
 
     /** Points within the unit disk or ball; the third coordinate of a disk runs
      * from 0 to 1. */

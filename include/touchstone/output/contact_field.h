@@ -40,6 +40,14 @@ namespace Touchstone
       return true;
     }
 
+    /** @brief Whether values of nodes add up to that of the surface, as forces do: a hanging node
+     * has none. */
+    virtual bool
+    summed() const
+    {
+      return false;
+    }
+
     /** @brief Fields are sorted by this number, then by their names. */
     virtual unsigned int
     order() const

@@ -14,6 +14,7 @@ namespace Touchstone
     bool help             = false;
     bool version          = false;
     bool validate         = false;
+    bool preview          = false;
     bool print_parameters = false;
     /** Print nothing but the results, which do not depend on the machine. */
     bool results_only = false;

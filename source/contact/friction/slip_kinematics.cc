@@ -34,14 +34,17 @@ namespace Touchstone
 
 
   // v of equation (18). With small sliding the stencil never changes, so the change of the gap
-  // vector is the same displacement; an obstacle moves by the shift, which is taken out.
+  // vector is the same displacement; the motion of an obstacle is taken out.
   Tensor<1, dim>
   displacement_since_anchor(const ContactRow      &row,
                             const FrictionHistory &history,
                             const NodePositions   &positions)
   {
-    Tensor<1, dim> result =
-      (row.friction->small ? row.gap_vector : row.position - row.shift) - history.anchor_offset;
+    // The anchor on an obstacle is a point of the obstacle.
+    Tensor<1, dim> result = row.friction->small ? row.gap_vector - history.anchor_offset
+                            : row.motion.turned
+                              ? row.position - row.motion.place(Point<dim>(history.anchor_offset))
+                              : row.position - row.motion.shift - history.anchor_offset;
     for (const StencilEntry &entry : history.anchor)
       result -= entry.weight * positions.at(entry.node);
     return result;
@@ -158,7 +161,7 @@ namespace Touchstone
     if (row.friction->small)
       history.anchor_offset = row.gap_vector;
     else if (row.stencil.empty())
-      history.anchor_offset = row.position - row.gap_vector - row.shift;
+      history.anchor_offset = row.motion.back(contact_point(row));
     else
       history.anchor = row.stencil;
     history.anchor_gap                = row.gap;

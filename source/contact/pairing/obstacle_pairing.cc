@@ -4,6 +4,7 @@
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/mesh/obstacle_shape.h>
+#include <touchstone/mesh/rotation.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -12,7 +13,7 @@
 
 // Contact with a rigid obstacle whose surface is given by a formula: projection, normal and their
 // derivatives come from AnalyticSurface, so that no search and no communication is needed. The
-// obstacle moves as a rigid body by a translation, a function of time.
+// obstacle moves as a rigid body by a rotation and a translation, functions of time.
 namespace Touchstone
 {
   using namespace dealii;
@@ -30,23 +31,28 @@ namespace Touchstone
         surface                         = o.shape.make()->surface();
         const std::string *motions[dim] = {&o.motion_x, &o.motion_y, &o.motion_z};
         for (unsigned int d = 0; d < dim; ++d)
-          motion[d] = formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
+          translation[d] =
+            formulas.add(o.section(), "Motion " + std::string(1, "xyz"[d]), *motions[d]);
+        turns = o.rotate_angle != "0";
+        axis  = o.rotate_axis / o.rotate_axis.norm();
+        fixed = Point<dim>(o.rotate_point);
+        if (turns)
+          angle = formulas.add(o.section(), "Rotate angle", o.rotate_angle);
       }
 
       void
       update(const Vector &u, const double time, std::vector<ContactRow> &rows) override
       {
-        const Tensor<1, dim>            shift = motion_at(time);
+        const RigidMotion               now   = motion(time);
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
-            // In the frame of the obstacle.
-            const Point<dim> x   = input.slave->position(nodes[k], u) - shift;
-            ContactRow      &row = rows[k];
+            const PointContact there = contact(input.slave->position(nodes[k], u), now);
+            ContactRow        &row   = rows[k];
             row.stencil.clear();
-            row.shift       = shift;
-            row.normal      = surface->normal(x);
-            row.gap_vector  = x - surface->project(x);
+            row.motion      = now;
+            row.normal      = there.normal;
+            row.gap_vector  = there.gap_vector;
             row.gap         = row.gap_vector * row.normal;
             row.has_partner = true;
           }
@@ -55,7 +61,7 @@ namespace Touchstone
       void
       differentiate(const Vector &u, const double time, std::vector<ContactRow> &rows) override
       {
-        const Tensor<1, dim>            shift = motion_at(time);
+        const RigidMotion               now = motion(time);
         const Tensor<2, dim>            identity(unit_symmetric_tensor<dim>());
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -65,7 +71,8 @@ namespace Touchstone
             // Open rows contribute neither force nor condition.
             if (!row.was_active)
               continue;
-            const Point<dim>     x = input.slave->position(nodes[k], u) - shift;
+            // In the frame of the obstacle.
+            const Point<dim>     x = now.back(input.slave->position(nodes[k], u));
             RowDerivativeBuilder builder(0);
             // The only node that the row depends on: the obstacle is rigid.
             builder.index(row.slave);
@@ -83,6 +90,10 @@ namespace Touchstone
                 for (unsigned int c = 0; c < dim; ++c)
                   builder.result->normal[0][c][d] = change[c];
               }
+            if (now.turned)
+              for (Tensor<2, dim> *of_obstacle :
+                   {builder.result->gap_vector.data(), builder.result->normal.data()})
+                *of_obstacle = now.turn * *of_obstacle * transpose(now.turn);
             row.derivative = builder.result;
           }
       }
@@ -91,38 +102,50 @@ namespace Touchstone
       distance(const Point<dim> &x, const double time) const override
       {
         // The signed distance; negative inside.
-        const Point<dim> y = x - motion_at(time);
-        return (y - surface->project(y)) * surface->normal(y);
+        const PointContact there = contact(x, motion(time));
+        return there.gap_vector * there.normal;
       }
 
       std::optional<PointContact>
       at(const Point<dim> &x, const double time) const override
       {
-        const Point<dim> y = x - motion_at(time);
-        return PointContact{surface->normal(y), y - surface->project(y)};
+        return contact(x, motion(time));
       }
 
-      Tensor<1, dim>
-      shift(const double time) const override
+      RigidMotion
+      motion(const double time) const override
       {
-        return motion_at(time);
+        RigidMotion result;
+        for (unsigned int d = 0; d < dim; ++d)
+          // Directions without a formula do not move.
+          result.shift[d] = translation[d] ? translation[d]->value(Point<dim>(), time) : 0.;
+        if (turns)
+          {
+            result.turned = true;
+            result.turn   = rotation(axis, angle ? angle->value(Point<dim>(), time) : 0.);
+            result.shift += fixed - result.turn * fixed;
+          }
+        formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
+        return result;
       }
 
     private:
-      Tensor<1, dim>
-      motion_at(const double time) const
+      /** Normal and gap vector of a point. */
+      PointContact
+      contact(const Point<dim> &x, const RigidMotion &now) const
       {
-        Tensor<1, dim> shift;
-        for (unsigned int d = 0; d < dim; ++d)
-          // Directions without a formula do not move.
-          shift[d] = motion[d] ? motion[d]->value(Point<dim>(), time) : 0.;
-        formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
-        return shift;
+        const Point<dim> y = now.back(x);
+        return {now.direction(surface->normal(y)), now.direction(y - surface->project(y))};
       }
 
       std::shared_ptr<const AnalyticSurface>          surface;
       Formulas                                        formulas;
-      std::array<std::shared_ptr<const Formula>, dim> motion;
+      std::array<std::shared_ptr<const Formula>, dim> translation;
+      bool                                            turns = false;
+      std::shared_ptr<const Formula>                  angle;
+      /** Of the rotation: a unit vector, and a point of it at time 0. */
+      Tensor<1, dim> axis;
+      Point<dim>     fixed;
     };
   } // namespace
 

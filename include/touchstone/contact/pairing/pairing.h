@@ -68,7 +68,7 @@ namespace Touchstone
 
     /**
      * @brief Read the deformed surfaces: set has_partner, stencil, normal, gap_vector and gap
-     * of all rows, and area, share, lever and shift where they change. What else the rows
+     * of all rows, and area, share, lever and motion where they change. What else the rows
      * hold is not changed.
      * @param u    Displacement with ghosts; the surfaces have been moved to it.
      * @param time For obstacles that move.
@@ -129,9 +129,9 @@ namespace Touchstone
       return {};
     }
 
-    /** @brief Displacement of the master since time 0, if it is rigid and driven, length. */
-    virtual dealii::Tensor<1, dim>
-    shift(double /*time*/) const
+    /** @brief Where the master is, if it is rigid and driven. */
+    virtual RigidMotion
+    motion(double /*time*/) const
     {
       return {};
     }

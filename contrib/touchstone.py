@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Reads what runs have written, with nothing but Python: summary, statistics, probes, and the VTU files
+of bodies and contact surfaces.
+
+    import sys; sys.path.insert(0, "contrib")
+    import touchstone
+    run = touchstone.Run("output/press_fit")
+    run.summary["converged"]
+    columns, units = run.statistics()
+    columns["time"], columns["fit.force_z"], units["fit.force_z"]
+    columns, units = run.probe("tip")
+    for node in run.contact():            # of the last time; contact(2.0): of the nearest to 2
+        node.position, node.pressure, node.gap
+    for piece in run.bodies():            # one for each rank
+        piece["position"], piece["displacement"], piece["von_mises"]
+
+Numbers are lists or tuples of floats; vectors and tensors of VTU files are flat, one after the other.
+numpy.array(...) takes them as they are.
+"""
+
+import csv
+import json
+import math
+import pathlib
+import re
+import sys
+import xml.etree.ElementTree as xml
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+
+# pylint: disable=wrong-import-position
+from fuzzing import vtu
+
+
+class Run:
+    """The output folder of a run."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        if not (self.folder / "summary.json").is_file():
+            raise FileNotFoundError(f"{folder} is not the folder of a run: it has no summary.json")
+
+    @property
+    def summary(self):
+        """What the run came to, as summary.json has it."""
+        return json.loads((self.folder / "summary.json").read_text(encoding="utf-8"))
+
+    def statistics(self):
+        """Columns of statistics.csv and their units, by name."""
+        return table(self.folder / "statistics.csv")
+
+    def probe(self, name):
+        """Columns of the history of a probe and their units, by name."""
+        return table(self.folder / f"probe_{name}.csv")
+
+    def newton(self):
+        """Residuals of each attempt at a step, by iteration."""
+        return newton(self.folder)
+
+    def times(self, series="contact"):
+        """Times of the files of a series, 'contact' or 'solution'."""
+        return [time for time, file in files(self.folder / f"{series}.pvd")]
+
+    def contact(self, time=None):
+        """Nodes of the slave surfaces, vtu.Node, at a time, or at the last."""
+        return surface(self.folder, time)
+
+    def bodies(self, time=None):
+        """Arrays of the bodies by name, of each rank; 'position' are the points. Points between cells
+        come once for each cell."""
+        return [arrays for file in files_at(self.folder, "solution", time)
+                for arrays in vtu.pieces(file)]
+
+
+def files(series):
+    """(time, file) of a .pvd file."""
+    if not series.is_file():
+        return []
+    return [(float(d.get("timestep")), d.get("file")) for d in xml.parse(series).iter("DataSet")]
+
+
+def files_at(folder, name, time=None):
+    """The files of all ranks of one time: the nearest to @p time, or the last."""
+    found = files(folder / f"{name}.pvd")
+    if not found:
+        return []
+    # Not the last file in the folder, which may have some of an earlier run.
+    file = found[-1][1] if time is None else min(found, key=lambda entry: abs(entry[0] - time))[1]
+    return sorted(folder.glob(f"{file.partition('.')[0]}.*vtu"))
+
+
+def table(path):
+    """Columns of a CSV file of the program, by their names, and their units; empty cells are no
+    numbers."""
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))
+    columns, units = {}, {}
+    for i, title in enumerate(rows[0]):
+        name, _, unit = title.partition("[")
+        columns[name] = [float(row[i]) if row[i] else math.nan for row in rows[1:]]
+        units[name] = unit.rstrip("]")
+    return columns, units
+
+
+def newton(folder):
+    """Residuals of each step by iteration, of a log; of a step that was cut each attempt."""
+    attempts, current = [], None
+    if not (folder / "log").is_file():
+        return attempts
+    for line in (folder / "log").read_text(encoding="utf-8", errors="replace").splitlines():
+        if line.startswith("Step "):
+            current = None
+        # iteration, residual, gap, active nodes, changes, linear iterations
+        words = line.split()
+        if len(words) >= 5 and re.fullmatch(r"\d+", words[0]) and re.fullmatch(
+                r"[\d.]+e[+-]\d+", words[1]):
+            if current is None or int(words[0]) <= len(current):
+                current = []
+                attempts.append(current)
+            current.append(float(words[1]))
+    return attempts
+
+
+def surface(folder, time=None):
+    """Nodes of the contact surface at a time, or the last, of all ranks."""
+    # Nodes between the parts of two ranks are in the files of both.
+    nodes = {(node.position, node.pair): node
+             for file in files_at(folder, "contact", time) for node in vtu.read(file)}
+    return list(nodes.values())

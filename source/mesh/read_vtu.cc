@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/mesh/mesh_file.h>
+#include <touchstone/mesh/mesh_text.h>
+#include <touchstone/mesh/vtu_arrays.h>
+
+#include <algorithm>
+#include <cmath>
+#include <istream>
+#include <limits>
+#include <map>
+#include <sstream>
+
+// Meshes from VTK's XML files (.vtu): hexahedra become cells and quadrilaterals faces, numbered by
+// a field of the cells as in legacy files. Boundaries may be named by arrays instead: of the faces,
+// or of the points of files that have hexahedra alone.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** One piece of the grid, the arrays of the file by section and name. */
+    class VtuReader
+    {
+    public:
+      VtuReader(std::istream &in, const std::vector<std::string> &boundary_arrays)
+        : arrays(in)
+        , boundary_arrays(boundary_arrays)
+      {
+      }
+
+      MeshFile
+      read();
+
+    private:
+      const VtuArrays                arrays;
+      const std::vector<std::string> boundary_arrays;
+      MeshFile                       mesh;
+
+      /** An array that must be there and have so many numbers. */
+      std::vector<double>
+      get(const std::string &section, const std::string &name, std::size_t n) const;
+      void
+      add_points();
+      void
+      add_cells();
+      void
+      add_named_boundaries();
+      void
+      add_boundary_of_points(const std::vector<double> &marks, MeshFile::Group &group);
+    };
+
+
+
+    std::vector<double>
+    VtuReader::get(const std::string &section, const std::string &name, const std::size_t n) const
+    {
+      const std::vector<double> *values = arrays.find(section, name);
+      if (values == nullptr)
+        throw MeshFileError("The file has no array '" + name + "' in " + section + ".");
+      if (values->size() != n)
+        throw MeshFileError("The array '" + name + "' of " + section + " has " +
+                            std::to_string(values->size()) + " numbers, not " + std::to_string(n) +
+                            ".");
+      return *values;
+    }
+
+
+
+    void
+    VtuReader::add_points()
+    {
+      const std::vector<double> x = get("Points", "", 3 * arrays.n_points());
+      for (std::size_t p = 0; p < arrays.n_points(); ++p)
+        {
+          mesh.vertices.emplace_back(x[3 * p], x[3 * p + 1], x[3 * p + 2]);
+          if (!std::isfinite(mesh.vertices.back().norm_square()))
+            throw MeshFileError("Point " + std::to_string(p) + " is not finite.");
+        }
+    }
+
+
+
+    void
+    VtuReader::add_cells()
+    {
+      const std::size_t         n       = arrays.n_cells();
+      const std::vector<double> types   = get("Cells", "types", n),
+                                offsets = get("Cells", "offsets", n);
+      const std::vector<double> points =
+        get("Cells", "connectivity", n == 0 ? 0 : std::lround(offsets.back()));
+      // Numbers of volumes and boundaries, as deal.II and Gmsh name them.
+      std::vector<double> number(n, 0.);
+      for (const char *name : {"CellEntityIds", "MaterialID"})
+        if (arrays.find("CellData", name) != nullptr)
+          number = get("CellData", name, n);
+
+      std::size_t begin = 0;
+      for (std::size_t c = 0; c < n; ++c)
+        {
+          const double end = offsets[c];
+          if (!(end >= begin && end <= points.size()))
+            throw MeshFileError("The array 'offsets' of Cells does not ascend at cell " +
+                                std::to_string(c) + ", counted from 0.");
+          std::vector<unsigned int> nodes;
+          for (; begin < end; ++begin)
+            {
+              if (!(points[begin] >= 0. && points[begin] < mesh.vertices.size()))
+                throw MeshFileError("Cell " + std::to_string(c) + " uses point " +
+                                    std::to_string(std::lround(points[begin])) + " of " +
+                                    std::to_string(mesh.vertices.size()) + ", counted from 0.");
+              nodes.push_back(points[begin]);
+            }
+          // Ids have no sign: negative numbers count as 0.
+          add_vtk_cell(mesh, types[c], nodes, std::max(0., number[c]), c);
+        }
+    }
+
+
+
+    /** The faces of cells all of whose corners are marked. */
+    void
+    VtuReader::add_boundary_of_points(const std::vector<double> &marks, MeshFile::Group &group)
+    {
+      static const unsigned int face_vertices[6][4] = {
+        {0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 4, 5}, {1, 3, 5, 7}, {2, 3, 6, 7}, {0, 2, 4, 6}};
+      for (const CellData<3> &cell : mesh.cells)
+        for (const auto &face : face_vertices)
+          {
+            bool marked = true;
+            for (const unsigned int v : face)
+              marked = marked && marks[cell.vertices[v]] != 0.;
+            if (marked)
+              {
+                group.members.push_back(mesh.faces.size());
+                mesh.faces.push_back({{cell.vertices[face[0]],
+                                       cell.vertices[face[1]],
+                                       cell.vertices[face[2]],
+                                       cell.vertices[face[3]]}});
+              }
+          }
+    }
+
+
+
+    void
+    VtuReader::add_named_boundaries()
+    {
+      // Behind the numbers that fields of the faces give.
+      unsigned int next = 1;
+      for (const MeshFile::Group &group : mesh.surfaces)
+        next = std::max(next, group.number + 1);
+      for (const std::string &name : boundary_arrays)
+        {
+          MeshFile::Group group{next++, name, {}};
+          if (arrays.find("PointData", name) != nullptr)
+            add_boundary_of_points(get("PointData", name, arrays.n_points()), group);
+          else if (arrays.find("CellData", name) != nullptr)
+            {
+              const std::vector<double> marks = get("CellData", name, arrays.n_cells());
+              for (unsigned int f = 0; f < mesh.face_lines.size(); ++f)
+                if (marks[mesh.face_lines[f]] != 0.)
+                  group.members.push_back(f);
+            }
+          else
+            throw MeshFileError("The file has no array '" + name +
+                                  "' of one component in PointData or CellData.",
+                                "name arrays of the file in 'Boundary arrays'; it has " +
+                                  arrays.names() + ".");
+          if (group.members.empty())
+            throw MeshFileError(
+              "The array '" + name + "' marks no face.",
+              "give it other values than 0 at all corners of faces, or in quadrilateral cells");
+          // A face that a named array marks leaves the numbers of the fields.
+          for (MeshFile::Group &other : mesh.surfaces)
+            if (other.name.empty())
+              other.members.erase(std::remove_if(other.members.begin(),
+                                                 other.members.end(),
+                                                 [&](const unsigned int f) {
+                                                   return std::binary_search(group.members.begin(),
+                                                                             group.members.end(),
+                                                                             f);
+                                                 }),
+                                  other.members.end());
+          mesh.surfaces.push_back(group);
+        }
+    }
+
+
+
+    MeshFile
+    VtuReader::read()
+    {
+      mesh.place = "cell";
+      add_points();
+      add_cells();
+      add_named_boundaries();
+      mesh.join_copies(false);
+      return std::move(mesh);
+    }
+  } // namespace
+
+
+
+  void
+  add_vtk_cell(MeshFile                        &mesh,
+               const double                     type,
+               const std::vector<unsigned int> &nodes,
+               const unsigned int               number,
+               const unsigned int               line)
+  {
+    // Codes of the VTK manual. Lower-dimensional cells are dropped, other solids are an error,
+    // for the body would have holes without them.
+    static const std::map<int, unsigned int> quads     = {{9, 4}, {23, 8}, {28, 9}},
+                                             hexahedra = {{12, 8}, {25, 20}, {29, 27}};
+    static const std::vector<int> lower = {1, 2, 3, 4, 5, 6, 7, 8, 9, 21, 22, 23, 28, 34, 35};
+
+    const int         code    = static_cast<int>(type);
+    const bool        is_quad = quads.count(code) > 0, is_hexahedron = hexahedra.count(code) > 0;
+    const std::string of_type = "VTK's type " + std::to_string(code);
+    const auto        fail    = [&](const std::string &problem) {
+      if (mesh.place == "line")
+        throw MeshFileError(line, problem);
+      throw MeshFileError("Cell " + std::to_string(line) + ", counted from 0: " + problem);
+    };
+    if (is_quad || is_hexahedron)
+      {
+        const unsigned int n = (is_quad ? quads : hexahedra).at(code);
+        if (nodes.size() != n)
+          fail("A cell of " + of_type + " has " + std::to_string(nodes.size()) + " points, not " +
+               std::to_string(n) + ".");
+      }
+    else if (std::find(lower.begin(), lower.end(), code) == lower.end())
+      fail("It has cells of " + of_type + ".");
+
+    if (is_hexahedron)
+      {
+        MeshFile::group(mesh.volumes, number).members.push_back(mesh.cells.size());
+        mesh.add_cell(nodes, line);
+      }
+    else if (is_quad)
+      {
+        MeshFile::group(mesh.surfaces, number).members.push_back(mesh.faces.size());
+        mesh.faces.push_back({{nodes[0], nodes[1], nodes[2], nodes[3]}});
+        mesh.face_lines.push_back(line);
+      }
+  }
+
+
+
+  MeshFile
+  read_vtu(std::istream &in, const std::vector<std::string> &boundary_arrays)
+  {
+    return VtuReader(in, boundary_arrays).read();
+  }
+} // namespace Touchstone
