@@ -111,14 +111,15 @@ namespace Touchstone
      * facets that bend without a sharp edge it is above 0.8. */
     constexpr double about_normal = 0.5;
 
-    /** Sine of the angle by which a point lies behind a face in the reference state: with less it
-     * is on the same plane, as where a sheet is folded. */
+    /** Sine of the angle by which a point lies in front of a face in the reference state: with less
+     * it is on the same plane. */
     constexpr double behind_face = 0.01;
 
-    /** A point that is behind a face of its own body in the reference state meets it if its depth
-     * is less than this part of their distance there. Walls are not pressed to a quarter of their
-     * thickness, and what meets comes from far beyond four times the depth. */
-    constexpr double come_closer = 0.25;
+    /** A point that is not in front of a face of its own body in the reference state meets it if
+     * its depth is less than the first part of their distance there: walls are not pressed to a
+     * quarter of their thickness, and what meets comes from beyond four times the depth. Deeper
+     * than the second, the material between them would have been pulled to twice its length. */
+    constexpr double come_closer = 0.25, through_material = 2.;
 
     // ---------------------------------------------------------------- partial cover
 

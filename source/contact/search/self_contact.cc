@@ -52,6 +52,13 @@ namespace Touchstone
       return corners[0].distance(corners[3]);
     }
 
+    /** Whether a point is in front of a face in the reference state. @param foot On the face. */
+    bool
+    in_front(const Point<dim> &x, const Point<dim> &foot, const Tensor<1, dim> &normal)
+    {
+      return (x - foot) * normal > Tolerances::behind_face * x.distance(foot);
+    }
+
     /** Whether a node was as deep behind a face when the step began: what it has entered since it
      * has not been behind. @param depth At present; length. */
     bool
@@ -145,8 +152,10 @@ namespace Touchstone
                             const double          depth)
   {
     const double distance = x.distance(foot);
-    return (foot - x) * normal > Tolerances::behind_face * distance &&
-           depth > Tolerances::come_closer * distance;
+    // On the same plane are the two sides of a crack, which are closer in the reference state, and
+    // the outer side of a sheet that is folded, which is farther apart there.
+    return !in_front(x, foot, normal) && depth > Tolerances::come_closer * distance &&
+           depth < Tolerances::through_material * distance;
   }
 
 
@@ -181,9 +190,8 @@ namespace Touchstone
       }
     Tensor<1, dim> normal = cross_product_3d(tangents[0], tangents[1]);
     normal /= normal.norm();
-    return along_normal >= 0. || !(through_body(point.reference, at_foot, normal, distance) ||
-                                   ((at_foot - point.reference) * normal >
-                                      Tolerances::behind_face * point.reference.distance(at_foot) &&
-                                    was_behind(point, face, geometry.exact_surface(), distance)));
+    return along_normal >= 0. || in_front(point.reference, at_foot, normal) ||
+           !(through_body(point.reference, at_foot, normal, distance) ||
+             was_behind(point, face, geometry.exact_surface(), distance));
   }
 } // namespace Touchstone
