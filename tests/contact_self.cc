@@ -2,8 +2,6 @@
 // Which nodes of a body find which of its own faces: none of a body that is left as it is or
 // only bent, however thin, and of a sheet that is folded those of one of the sides that meet.
 
-#include <touchstone/contact/search/self_contact.h>
-
 #include "contact_support.h"
 #include <algorithm>
 
@@ -145,16 +143,6 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
 
-  // Of two points one is the slave, whatever the line between them.
-  unsigned int both_or_none = 0;
-  for (int i = -3; i <= 3; ++i)
-    for (int j = -3; j <= 3; ++j)
-      for (int k = -3; k <= 3; ++k)
-        if (const Point<dim> a(i, j, k), b(0.3, -0.2, 0.1);
-            SelfContact::is_slave(a, b) == SelfContact::is_slave(b, a))
-          ++both_or_none;
-  print("pairs of points that are both or none the slave: " + std::to_string(both_or_none));
-
   check_whole("cube", "set Cells = 4, 4, 4");
   check_whole("thin plate", "set Upper corner = 10, 10, 0.05\nset Cells = 5, 5, 1");
   check_whole("tube",
@@ -162,4 +150,5 @@ main(int argc, char **argv)
               "set Start = 0\nset End = 1\nset Cells = 1, 16, 2");
   check_fold("sheet", "24, 1, 1");
   check_fold("fine sheet", "48, 2, 2");
+  return 0;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 // What tells contact of a body with itself from what is close because it is one body
 // (doc/theory.md 4.3).
@@ -15,41 +16,36 @@ namespace Touchstone
 
   namespace
   {
-    /** Three directions at right angles to each other, none of which is at a right angle to an axis
-     * or a plane of symmetry that a model may well have. */
-    std::array<Tensor<1, dim>, dim>
-    odd_directions()
+    /** A direction that decides who is the slave. It is 10 degrees or more away from right angles
+     * to the axes and to the diagonals of planes and boxes, along which models are likely to fold.
+     */
+    Tensor<1, dim>
+    odd_direction()
     {
-      std::array<Tensor<1, dim>, dim> result;
-      result[0] = Tensor<1, dim>({0.3137, 0.1931, 0.9293});
-      result[1] = Tensor<1, dim>({0.2417, 0.9271, -0.1129});
-      result[0] /= result[0].norm();
-      result[1] -= (result[1] * result[0]) * result[0];
-      result[1] /= result[1].norm();
-      result[2] = cross_product_3d(result[0], result[1]);
-      return result;
+      Tensor<1, dim> result({0.417, 0.173, 0.892});
+      return result / result.norm();
     }
 
-    /** A direction decides if it is this close (cosine) to the line between two points. One of the
-     * three always is: the largest cosine is 0.577 at least. */
-    constexpr double along = 0.4;
-
-    /** Corners of a face in the reference state, in lexicographic order. */
-    std::array<Point<dim>, 4>
-    reference_corners(const Face &face)
+    /** Position and unit normal of a point of a face in the reference state. */
+    std::pair<Point<dim>, Tensor<1, dim>>
+    in_reference(const Face &face, const FaceShapes &shapes)
     {
-      const unsigned int n = face.degree + 1;
-      return {{face.reference[0],
-               face.reference[n - 1],
-               face.reference[n * (n - 1)],
-               face.reference[n * n - 1]}};
+      Point<dim>                    x;
+      std::array<Tensor<1, dim>, 2> tangents;
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        {
+          x += shapes.value[m] * face.reference[m];
+          for (unsigned int a = 0; a < 2; ++a)
+            tangents[a] += shapes.gradient[m][a] * face.reference[m];
+        }
+      const Tensor<1, dim> normal = cross_product_3d(tangents[0], tangents[1]);
+      return {x, normal / normal.norm()};
     }
 
     double
     reference_diagonal(const Face &face)
     {
-      const auto corners = reference_corners(face);
-      return corners[0].distance(corners[3]);
+      return face.reference[0].distance(face.reference[face.n_nodes() - 1]);
     }
 
     /** Whether a point is in front of a face in the reference state. @param foot On the face. */
@@ -84,22 +80,8 @@ namespace Touchstone
   bool
   SelfContact::comes_first(const Point<dim> &one, const Point<dim> &other)
   {
-    static const Tensor<1, dim> direction = odd_directions()[0];
+    static const Tensor<1, dim> direction = odd_direction();
     return direction * (one - other) > 0.;
-  }
-
-
-
-  bool
-  SelfContact::is_slave(const Point<dim> &node, const Point<dim> &face)
-  {
-    static const auto    directions = odd_directions();
-    const Tensor<1, dim> between    = node - face;
-    const double         least      = along * between.norm();
-    for (const Tensor<1, dim> &direction : directions)
-      if (const double part = direction * between; std::abs(part) >= least)
-        return part > 0.;
-    return false;
   }
 
 
@@ -131,16 +113,19 @@ namespace Touchstone
   SelfContact::may_meet(const SlavePoint &point, const Face &face) const
   {
     const auto end = face.nodes.begin() + face.n_nodes();
-    if (std::find(face.nodes.begin(), end, point.node) != end)
-      return false;
+    return std::find(face.nodes.begin(), end, point.node) == end;
+  }
+
+
+
+  bool
+  SelfContact::is_slave(const SlavePoint            &point,
+                        const Face                  &face,
+                        const std::array<double, 2> &xi) const
+  {
     // Where only one of the two can be the slave nothing is to be decided.
-    if (!point.also_master || slave.count(face.boundary) == 0)
-      return true;
-    const auto corners = reference_corners(face);
-    Point<dim> centre;
-    for (const Point<dim> &corner : corners)
-      centre += 0.25 * corner;
-    return is_slave(point.reference, centre);
+    return !point.also_master || slave.count(face.boundary) == 0 ||
+           comes_first(point.reference, in_reference(face, FaceShapes(face.degree, xi)).first);
   }
 
 
@@ -165,7 +150,9 @@ namespace Touchstone
                      const FaceGeometry &geometry,
                      const Projection   &projection) const
   {
-    const Face          &face = geometry.face();
+    const Face &face = geometry.face();
+    if (!is_slave(point, face, projection.xi))
+      return false;
     const FaceShapes     shapes(face.degree, projection.xi);
     const FacePoint      foot     = geometry.evaluate(projection.xi);
     const Tensor<1, dim> gap      = point.x - foot.x;
@@ -180,16 +167,7 @@ namespace Touchstone
           edge * gap > 0.))
       return false;
 
-    Point<dim>                    at_foot;
-    std::array<Tensor<1, dim>, 2> tangents;
-    for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      {
-        at_foot += shapes.value[m] * face.reference[m];
-        for (unsigned int a = 0; a < 2; ++a)
-          tangents[a] += shapes.gradient[m][a] * face.reference[m];
-      }
-    Tensor<1, dim> normal = cross_product_3d(tangents[0], tangents[1]);
-    normal /= normal.norm();
+    const auto [at_foot, normal] = in_reference(face, shapes);
     return along_normal >= 0. || in_front(point.reference, at_foot, normal) ||
            !(through_body(point.reference, at_foot, normal, distance) ||
              was_behind(point, face, geometry.exact_surface(), distance));

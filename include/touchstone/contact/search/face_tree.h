@@ -109,6 +109,14 @@ namespace Touchstone
              point.self->meets(point, exchange.geometry(*candidate.face), candidate.projection);
     }
 
+    /** @brief Whether of a node and its closest point on a face the node can be the slave. */
+    bool
+    can_be_slave(const SlavePoint &point, const FaceProjection &candidate) const
+    {
+      return point.self == nullptr ||
+             point.self->is_slave(point, *candidate.face, candidate.projection.xi);
+    }
+
     /** @brief Project a node on a face. */
     FaceProjection
     project(const dealii::Point<dim> &x, const Face &face) const

@@ -7,6 +7,7 @@
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/search/slave_point.h>
 
+#include <array>
 #include <set>
 
 namespace Touchstone
@@ -36,14 +37,18 @@ namespace Touchstone
     bool
     is_master(const Surface &slave_surface, Index node) const;
 
-    /** @brief Whether a node can meet a face at all: it is no node of the face and, of the two, the
-     * slave. Depends on the reference state only. */
+    /** @brief Whether a node can meet a face at all: it is no node of the face. */
     bool
     may_meet(const SlavePoint &point, const Face &face) const;
 
-    /** @brief Whether a node meets a face at its closest point: the line between them is about
-     * normal to the face, or lies over a sharp edge, and does not run through the body. Elsewhere
-     * a face is the closest only since one that is closer is none that the node can meet. */
+    /** @brief Whether of a node and a point of a face, at @p xi, the node is the slave. */
+    bool
+    is_slave(const SlavePoint &point, const Face &face, const std::array<double, 2> &xi) const;
+
+    /** @brief Whether a node meets a face at its closest point: it is the slave, the line between
+     * them is about normal to the face, or lies over a sharp edge, and does not run through the
+     * body. Elsewhere a face is the closest only since one that is closer is none that the node can
+     * meet. */
     bool
     meets(const SlavePoint &point, const FaceGeometry &face, const Projection &projection) const;
 
@@ -64,12 +69,8 @@ namespace Touchstone
     static bool
     share_node(const Face &one, const Face &other);
 
-    /** @brief Whether a node at one reference position is the slave of a face around the other:
-     * of two positions always one is. */
-    static bool
-    is_slave(const dealii::Point<dim> &node, const dealii::Point<dim> &face);
-
-    /** @brief An order of reference positions, which does not depend on numbers. */
+    /** @brief An order of reference positions, which does not depend on numbers: of two points that
+     * meet the first is the slave. */
     static bool
     comes_first(const dealii::Point<dim> &one, const dealii::Point<dim> &other);
 
