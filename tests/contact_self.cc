@@ -111,6 +111,8 @@ namespace
       }
     print(name + ", bent: " + std::to_string(penetrate) + " penetrate");
     const double gap = 2. * (bent / numbers::PI - half);
+    for (const double part : {0.25, 0.5, 0.75, 0.9})
+      commit(pair, at(numbers::PI, part * gap));
     for (const double closed : {gap - 0.01, gap + 0.01, gap + 0.3})
       {
         pair.update(at(numbers::PI, closed));

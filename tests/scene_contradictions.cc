@@ -145,6 +145,9 @@ namespace
     try_override("averaged rows of one body", also("Pairing=averaged"));
     try_override("adjusted overlap of one body", also("Initial overlap=adjust"));
     try_override("tied to itself", also("Behaviour=tied"));
+    std::vector<std::string> refined = one_body;
+    refined.push_back("Refinement/Estimator=Kelly");
+    try_override("refined body that touches itself", refined);
     try_override("two boundaries of one body", also("Master boundaries=left"));
     try_override("tied", {"Contact pair between/Behaviour=tied"});
     try_override("tied and finite",

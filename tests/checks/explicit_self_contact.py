@@ -3,8 +3,8 @@
 pressed between two planes until its inner walls meet, and a C whose ends meet (doc/general_contact.md,
 section 7)."""
 
-from self_contact_scenes import BOTTOM, TOP, write
 from touchstone_test import below, check, contact_gives, finish, run
+from self_contact_scenes import BOTTOM, TOP, write
 
 def compare(name, whole, half, alone):
     """Forces of the upper plane of the whole body and its half; @p alone: without self-contact."""

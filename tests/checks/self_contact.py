@@ -4,9 +4,9 @@ between two planes until its inner walls meet and are pressed on (doc/theory.md,
 
 import shutil
 
-from self_contact_scenes import BOTTOM, TOP, write
 from touchstone_test import (AUGMENTED, CG, MULTIPLIERS, PENALTY, below, check, fail, finish, folder, launch, run,
                              same)
+from self_contact_scenes import BOTTOM, TOP, write
 
 ITSELF = "  set Slave boundaries = all\n  set Master body = ring\n  set Master boundaries = all\n  set Pairing = pointwise\n"
 COULOMB = "  set Behaviour = coulomb\n  subsection Friction\n    set Coefficient = 0.3\n  end\n"
@@ -14,9 +14,9 @@ STATIC, DYNAMIC = ("  set Scheme = static\n", "  set Scheme = generalized_alpha\
 CUTS, PAIR = "first cut, second cut, start, end", "Contact pair itself"
 
 
-def scenes(name, scheme, damping=0):
+def scenes(name, scheme, steps, damping=0):
     """The whole ring and its half."""
-    common = {"element": "F-bar", "scheme": scheme, "steps": 20}
+    common = {"element": "F-bar", "scheme": scheme, "steps": steps}
     return (write(name, 0, 180, "3, 24, 1", 8.2, 1, damping, CUTS, (TOP, BOTTOM), ITSELF, **common),
             write(f"{name}_half", 0, 90, "3, 12, 1", 8.2, 1, damping, CUTS, (TOP, ("middle", 0, 1, 0, "inner")), "",
                   **common))
@@ -38,7 +38,7 @@ def compare(one, other, bound):
     below(f"{one}, penetration", max(one.column("itself: max penetration")), 1e-6)
 
 
-whole, half = scenes("static", STATIC)
+whole, half = scenes("static", STATIC, 20)
 reference, expected = run("whole", whole), run("half", half)
 compare(reference, expected, 1e-3)
 # Only symmetric parts of the walls move against each other, so that friction makes no difference but where
@@ -59,20 +59,20 @@ compare(run("two_sides", whole, {f"{PAIR}/Slave boundaries": "inner", f"{PAIR}/M
 # A penalty leaves an overlap, and each side of the half has all of it.
 below("penalty", abs(run("penalty", whole, PENALTY).force("top")[2] / expected.force("top")[2] - 1), 0.03)
 
-whole, half = scenes("dynamic", DYNAMIC, 20)
+whole, half = scenes("dynamic", DYNAMIC, 40, 20)
 reference, expected = run("dynamic", whole), run("dynamic_half", half)
 compare(reference, expected, 1e-3)
 same(reference, run("dynamic_2", whole, ranks=2), 1e-8)
 
 # Resumed while the walls are pressed on each other: the same to the last digit.
-kept = run("kept", whole, {"Checkpoints/Steps between": 19})
+kept = run("kept", whole, {"Checkpoints/Steps between": 39})
 shutil.copytree("kept", "resumed", dirs_exist_ok=True)
 checkpoints = sorted(folder.glob("resumed/checkpoint_[0-9]*"))
 check(len(checkpoints) == 2, f"resumed: {len(checkpoints)} checkpoints instead of 2")
 for path in checkpoints[1:]:
     shutil.rmtree(path)
 (folder / "resumed/summary.json").unlink()
-done = launch("--results-only", "--output", "resumed", "--resume", "--set", "Checkpoints/Steps between=19", "--set",
+done = launch("--results-only", "--output", "resumed", "--resume", "--set", "Checkpoints/Steps between=39", "--set",
               "Output/VTU interval=0", whole)
 check(done.returncode == 0, f"resumed: {done.stdout}")
 if (folder / "resumed/statistics").read_text() != (folder / "kept/statistics").read_text():

@@ -352,7 +352,7 @@ namespace Touchstone
     // A crossed face counts only if the node is now clearly away from it or has no other partner:
     // a node that is just at a surface, inside or outside, has not passed through it.
     const auto other = swept().passed(point, penetrates);
-    if (other && on_surface(*other) && tree().can_be_slave(point, *other) &&
+    if (other && on_surface(*other) && tree().can_have_entered(point, *other) &&
         !(result && std::sqrt(other->projection.distance_squared) <
                       Tolerances::touching * diagonal(*other->face)))
       result = partner(point, *other);

@@ -42,6 +42,10 @@ namespace Touchstone
       return {x, normal / normal.norm()};
     }
 
+    /** Cosine between the line from a point within a body to the closest point of its surface and
+     * the normal there (37 degrees): more than facets that meet without a sharp edge stray. */
+    constexpr double normal_within = 0.8;
+
     double
     reference_diagonal(const Face &face)
     {
@@ -131,6 +135,21 @@ namespace Touchstone
 
 
   bool
+  SelfContact::can_have_entered(const SlavePoint &point,
+                                const Face       &face,
+                                const Projection &projection) const
+  {
+    // Twice, as the node may have entered through a neighbour that has moved farther.
+    double moved = 0.;
+    for (unsigned int m = 0; m < face.n_nodes(); ++m)
+      moved = std::max(moved,
+                       (point.x - point.start - (face.displacement[m] - face.committed[m])).norm());
+    return projection.distance_squared < 4. * moved * moved && is_slave(point, face, projection.xi);
+  }
+
+
+
+  bool
   SelfContact::through_body(const Point<dim>     &x,
                             const Point<dim>     &foot,
                             const Tensor<1, dim> &normal,
@@ -153,21 +172,29 @@ namespace Touchstone
     const Face &face = geometry.face();
     if (!is_slave(point, face, projection.xi))
       return false;
-    const FaceShapes     shapes(face.degree, projection.xi);
     const FacePoint      foot     = geometry.evaluate(projection.xi);
     const Tensor<1, dim> gap      = point.x - foot.x;
     const double         distance = gap.norm();
     // Where both are at the same place there is no line between them.
     if (distance < Tolerances::touching * reference_diagonal(face))
       return true;
-    const double   along_normal = geometry.normal(shapes, foot) * gap;
+    const double   along_normal = foot.normal() * gap;
     Tensor<1, dim> edge;
-    if (std::abs(along_normal) < Tolerances::about_normal * distance &&
-        !(projection.beyond_inner > Tolerances::in_wedge && geometry.sharp(projection.xi, edge) &&
-          edge * gap > 0.))
+    const bool     over_edge =
+      projection.beyond_inner > Tolerances::in_wedge && geometry.sharp(projection.xi, edge);
+    if (along_normal < 0.)
+      {
+        // The closest point of what is within a body is no edge that stands out, and the line to it
+        // is normal to its face but for the angle between facets.
+        if (-along_normal < normal_within * distance ||
+            (over_edge && edge * gap < 0. &&
+             distance > Tolerances::near_edge * reference_diagonal(face)))
+          return false;
+      }
+    else if (along_normal < Tolerances::about_normal * distance && !(over_edge && edge * gap > 0.))
       return false;
 
-    const auto [at_foot, normal] = in_reference(face, shapes);
+    const auto [at_foot, normal] = in_reference(face, FaceShapes(face.degree, projection.xi));
     return along_normal >= 0. || in_front(point.reference, at_foot, normal) ||
            !(through_body(point.reference, at_foot, normal, distance) ||
              was_behind(point, face, geometry.exact_surface(), distance));

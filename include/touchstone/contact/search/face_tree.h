@@ -109,12 +109,13 @@ namespace Touchstone
              point.self->meets(point, exchange.geometry(*candidate.face), candidate.projection);
     }
 
-    /** @brief Whether of a node and its closest point on a face the node can be the slave. */
+    /** @brief Whether a node can have passed through a face since the step began, if both are of
+     * one body. */
     bool
-    can_be_slave(const SlavePoint &point, const FaceProjection &candidate) const
+    can_have_entered(const SlavePoint &point, const FaceProjection &candidate) const
     {
       return point.self == nullptr ||
-             point.self->is_slave(point, *candidate.face, candidate.projection.xi);
+             point.self->can_have_entered(point, *candidate.face, candidate.projection);
     }
 
     /** @brief Project a node on a face. */

@@ -45,6 +45,11 @@ namespace Touchstone
     bool
     is_slave(const SlavePoint &point, const Face &face, const std::array<double, 2> &xi) const;
 
+    /** @brief Whether a node can have passed through a face since the step began: it is the slave,
+     * and not deeper than they have moved. */
+    bool
+    can_have_entered(const SlavePoint &point, const Face &face, const Projection &projection) const;
+
     /** @brief Whether a node meets a face at its closest point: it is the slave, the line between
      * them is about normal to the face, or lies over a sharp edge, and does not run through the
      * body. Elsewhere a face is the closest only since one that is closer is none that the node can
