@@ -4,7 +4,8 @@ pressed between two planes until its inner walls meet, and a C whose ends meet (
 section 7)."""
 
 from touchstone_test import below, check, contact_gives, finish, run
-from self_contact_scenes import BOTTOM, TOP, write
+from self_contact_scenes import BOTTOM, TOP, write  # of tests/, which touchstone_test finds
+
 
 def compare(name, whole, half, alone):
     """Forces of the upper plane of the whole body and its half; @p alone: without self-contact."""

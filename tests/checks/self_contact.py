@@ -6,9 +6,10 @@ import shutil
 
 from touchstone_test import (AUGMENTED, CG, MULTIPLIERS, PENALTY, below, check, fail, finish, folder, launch, run,
                              same)
-from self_contact_scenes import BOTTOM, TOP, write
+from self_contact_scenes import BOTTOM, TOP, write  # of tests/, which touchstone_test finds
 
-ITSELF = "  set Slave boundaries = all\n  set Master body = ring\n  set Master boundaries = all\n  set Pairing = pointwise\n"
+ITSELF = ("  set Slave boundaries = all\n  set Master body = ring\n  set Master boundaries = all\n"
+          "  set Pairing = pointwise\n")
 COULOMB = "  set Behaviour = coulomb\n  subsection Friction\n    set Coefficient = 0.3\n  end\n"
 STATIC, DYNAMIC = ("  set Scheme = static\n", "  set Scheme = generalized_alpha\n")
 CUTS, PAIR = "first cut, second cut, start, end", "Contact pair itself"
@@ -63,6 +64,9 @@ whole, half = scenes("dynamic", DYNAMIC, 40, 20)
 reference, expected = run("dynamic", whole), run("dynamic_half", half)
 compare(reference, expected, 1e-3)
 same(reference, run("dynamic_2", whole, ranks=2), 1e-8)
+
+refused = run("adaptive", whole, {"Refinement/Estimator": "Kelly"}, fails=True)
+check("touches itself" in refused.text, f"{refused}: {refused.text}")
 
 # Resumed while the walls are pressed on each other: the same to the last digit.
 kept = run("kept", whole, {"Checkpoints/Steps between": 39})
