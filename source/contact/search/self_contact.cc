@@ -182,16 +182,13 @@ namespace Touchstone
     Tensor<1, dim> edge;
     const bool     over_edge =
       projection.beyond_inner > Tolerances::in_wedge && geometry.sharp(projection.xi, edge);
-    if (along_normal < 0.)
-      {
-        // The closest point of what is within a body is no edge that stands out, and the line to it
-        // is normal to its face but for the angle between facets.
-        if (-along_normal < normal_within * distance ||
-            (over_edge && edge * gap < 0. &&
-             distance > Tolerances::near_edge * reference_diagonal(face)))
-          return false;
-      }
-    else if (along_normal < Tolerances::about_normal * distance && !(over_edge && edge * gap > 0.))
+    // The closest point of what is within a body is no edge that stands out.
+    if (over_edge && edge * gap < 0. && distance > Tolerances::near_edge * reference_diagonal(face))
+      return false;
+    // Within a body the line to the closest point is normal to its face but for the angle between
+    // facets.
+    if (along_normal < 0. ? -along_normal < normal_within * distance
+                          : along_normal < Tolerances::about_normal * distance && !over_edge)
       return false;
 
     const auto [at_foot, normal] = in_reference(face, FaceShapes(face.degree, projection.xi));
