@@ -49,6 +49,22 @@ namespace
                                       "set Cells        = 3, 4, 1",
                                       slave_and_master("upper", "bottom", "lower", "surface"));
 
+  // A ring with a slit: its ends meet, with slaves on one side alone.
+  const std::string slit =
+    "set Bodies = ring\nset Contact pairs = pair\n" +
+    body_section("ring",
+                 "set Type         = tube\n"
+                 "set Inner radius = 1\n"
+                 "set Outer radius = 2\n"
+                 "set Start        = 0\n"
+                 "set End          = 1\n"
+                 "set First angle  = 4\n"
+                 "set Angle        = 352\n"
+                 "set Cells        = 3, 8, 2") +
+    "subsection Contact pair pair\n" +
+    slave_and_master("ring", "first cut, second cut", "ring", "first cut, second cut") +
+    "\nset Pairing = pointwise\nend\n";
+
   const std::string obstacle = R"(
 set Bodies        = upper
 set Obstacles     = rigid
@@ -278,6 +294,8 @@ main(int argc, char **argv)
         tubes,
         {set("Master normal", "smoothed"), set("Pairing", "pointwise"), faceted},
         0.03);
+  for (const std::string kind : {"face", "averaged", "smoothed"})
+    check("slit, " + kind, slit, {set("Master normal", kind)}, 0.);
   // Each shape has keys of its own.
   const std::string direction = "Obstacle rigid/Direction=0.2,1,0.3",
                     radius    = "Obstacle rigid/Radius=2";

@@ -133,12 +133,22 @@ namespace
     try_override("no master", {"Contact pair below/Obstacle="});
     try_override("two masters", {"Contact pair between/Obstacle=floor"});
     try_override("boundaries of an obstacle", {"Contact pair below/Master boundaries=top"});
-    try_override("slave is master",
-                 {"Contact pair between/Master body=lower",
-                  "Contact pair between/Master boundaries=left, top"});
-    try_override("two boundaries of one body",
-                 {"Contact pair between/Master body=lower",
-                  "Contact pair between/Master boundaries=left"});
+    const std::vector<std::string> one_body = {"Contact pair between/Master body=lower",
+                                               "Contact pair between/Master boundaries=left, top",
+                                               "Contact pair between/Pairing=pointwise"};
+    try_override("slave is master", one_body);
+    const auto also = [&](const std::string &more) {
+      std::vector<std::string> result(one_body);
+      result.push_back("Contact pair between/" + more);
+      return result;
+    };
+    try_override("averaged rows of one body", also("Pairing=averaged"));
+    try_override("adjusted overlap of one body", also("Initial overlap=adjust"));
+    try_override("tied to itself", also("Behaviour=tied"));
+    std::vector<std::string> refined = one_body;
+    refined.push_back("Refinement/Estimator=Kelly");
+    try_override("refined body that touches itself", refined);
+    try_override("two boundaries of one body", also("Master boundaries=left"));
     try_override("tied", {"Contact pair between/Behaviour=tied"});
     try_override("tied and finite",
                  {"Contact pair between/Behaviour=tied", "Contact pair between/Sliding=finite"});

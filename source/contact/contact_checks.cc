@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/overlapping_bodies.h>
 #include <touchstone/contact/tolerances.h>
 #include <touchstone/contact/unresolved_contact.h>
 
@@ -10,6 +12,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <map>
+#include <set>
 
 // Reports and checks that read the state of contact and change nothing: the gaps with which the run
 // starts, and after each converged step the search for contact that no row can describe
@@ -73,9 +77,10 @@ namespace Touchstone
       // An initial overlap that is adjusted or grows with time is no sign of unresolved contact:
       // overlaps are looked for only where they count from the start. Obstacles have no edges that
       // could cross those of a body. With small sliding the surfaces are not moved, so that their
-      // overlap means nothing. MissedContact looks at all of these for points within slave faces.
+      // overlap means nothing. Edges and nodes of a body that meets itself are beside each other
+      // without touching. MissedContact looks at all of these for points within slave faces.
       if (pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference ||
-          !pair.master() || pair.small_sliding())
+          !pair.master() || pair.small_sliding() || pair.parameters().of_one_body())
         return "";
       return check_of(pair, contact, forces).overlap();
     }
@@ -139,11 +144,43 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Bodies that meet themselves must not overlap with themselves in the mesh: what lies within
+     * the body there is taken for the other side of a wall, and would not be kept apart.
+     * @throws InputError. Collective. */
+    void
+    check_own_overlaps(const Contact &contact)
+    {
+      const Solid                         &solid = contact.solid_model();
+      std::map<unsigned int, unsigned int> pairs;
+      std::set<unsigned int>               bodies;
+      for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+        if (contact.pair(p).parameters().of_one_body() &&
+            bodies.insert(contact.pair(p).slave_body()).second)
+          pairs.emplace(contact.pair(p).slave_body(), p);
+      if (bodies.empty())
+        return;
+      const Vector zero = contact.with_ghosts(Vector(solid.owned, solid.communicator));
+      for (const BodyOverlap &overlap :
+           overlapping_bodies(contact, zero, bodies, Tolerances::deep_edge))
+        if (overlap.body == overlap.other)
+          throw InputError(contact.pair(pairs.at(overlap.body)).parameters().section(),
+                           "Master body",
+                           solid.bodies[overlap.body].name,
+                           overlap.place(solid) + " in the mesh",
+                           "make a mesh in which the surfaces that meet do not overlap");
+    }
+  } // namespace
+
+
+
   std::vector<std::string>
   start_report(const Contact &contact)
   {
     const MPI_Comm           communicator = contact.communicator();
     std::vector<std::string> lines;
+    check_own_overlaps(contact);
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair   = contact.pair(p);

@@ -24,16 +24,12 @@ namespace Touchstone
       {
         master_surface =
           make_surface(input.master_body, input.parameters.master_boundaries, "Master boundaries");
-        // Surfaces of one body can meet, but a node that is master and slave of the same pair would
-        // be constrained to itself.
+        // Names and numbers, or 'all', may mean the same boundary. Ids are unique over all bodies.
         for (const types::boundary_id id : master_surface->boundaries())
           if (slave_surface->boundaries().count(id) > 0)
-            throw InputError(input.parameters.section(),
-                             "Master boundaries",
-                             input.forest.boundary_name(id),
-                             "this boundary of '" + input.parameters.master_body +
-                               "' is slave and master at the same time",
-                             "let different boundaries be slave and master");
+            input.parameters.check_shared_boundary(input.parameters.section(),
+                                                   input.forest.boundary_name(id),
+                                                   input.in_cycles);
       }
     edges_meet     = find_edges();
     pairing_method = make_pairing(input.parameters.search_distance);

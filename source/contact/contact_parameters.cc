@@ -36,13 +36,15 @@ namespace Touchstone
                       /*has_to_be_set=*/true);
     prm.add_parameter("Slave boundaries",
                       slave_boundaries,
-                      "Its boundaries, by name or number. Required.",
+                      "Its boundaries, by name or number; 'all' are those that are no planes of "
+                      "symmetry. Required.",
                       Patterns::List(Patterns::Anything()),
                       /*has_to_be_set=*/true);
     prm.add_parameter("Master body",
                       master_body,
                       "The body that must not be penetrated; empty if it is an "
-                      "obstacle.",
+                      "obstacle. It may be the slave body, with 'Pairing = pointwise': "
+                      "the body then meets itself, also with the same boundaries.",
                       Patterns::Anything());
     prm.add_parameter("Master boundaries", master_boundaries, "Its boundaries, by name or number.");
     prm.add_parameter("Obstacle",
@@ -195,18 +197,62 @@ namespace Touchstone
                                               : "this boundary is listed twice",
                              "name each boundary once, with commas between them");
       }
-    // By name only; two names of the same boundary are found by ContactPair, which knows their
+    // By name only; other names of the same boundary are found by ContactPair, which knows their
     // numbers.
-    if (slave_body == master_body)
-      for (const std::string &slave : slave_boundaries)
-        for (const std::string &master : master_boundaries)
-          if (slave == master)
-            throw InputError(section,
-                             "Master boundaries",
-                             master,
-                             "this boundary of '" + master_body +
-                               "' is slave and master at the same time",
-                             "let different boundaries be slave and master");
+    if (of_one_body())
+      check_one_body(section);
+    for (const std::string &slave : slave_boundaries)
+      for (const std::string &master : master_boundaries)
+        if (slave == master && slave_body == master_body)
+          check_shared_boundary(section, master, false);
+  }
+
+
+
+  void
+  ContactPairParameters::check_one_body(const std::string &section) const
+  {
+    // Averages over faces know nothing of which faces of its own body a face can meet.
+    if (pairing.name != "pointwise")
+      throw InputError(section,
+                       "Pairing",
+                       pairing.name,
+                       "is for surfaces of different bodies, and '" + slave_body +
+                         "' is slave and master",
+                       "set it to 'pointwise'; parts that do not hang together can also be bodies "
+                       "of their own");
+    // What lies within itself in the reference state cannot be told from the inside of the body.
+    if (initial_overlap != Overlap::interference)
+      throw InputError(section,
+                       "Initial overlap",
+                       initial_overlap.word(),
+                       "needs two bodies that can overlap, and '" + slave_body +
+                         "' is slave and master",
+                       "remove the key, and let the surfaces not overlap in the mesh");
+  }
+
+
+
+  void
+  ContactPairParameters::check_shared_boundary(const std::string &section,
+                                               const std::string &boundary,
+                                               const bool         in_cycles) const
+  {
+    if (tied())
+      throw InputError(section,
+                       "Master boundaries",
+                       boundary,
+                       "this boundary of '" + master_body + "' would be tied to itself",
+                       "let different boundaries be slave and master");
+    if (in_cycles)
+      throw InputError(section,
+                       "Master boundaries",
+                       boundary,
+                       "this boundary of '" + master_body +
+                         "' is slave and master at the same time, which is the matter of general "
+                         "contact in explicit dynamics",
+                       "remove 'Master body' and 'Master boundaries': a pair without them is "
+                       "general contact");
   }
 
 

@@ -38,7 +38,7 @@ namespace Touchstone
              "' reaches " + of + " into '" + pair.slave_body + "' at " + at +
              ", between slave nodes that touch nothing. Rows of slave nodes cannot describe this "
              "contact: refine the slave surface" +
-             (obstacle ? "" : ", or exchange slave and master");
+             (obstacle || pair.of_one_body() ? "" : ", or exchange slave and master");
     }
 
 
@@ -102,8 +102,7 @@ namespace Touchstone
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       {
         const ContactPair &pair = contact.pair(p);
-        // Points of a body always lie within itself.
-        if (pair.tied() || pair.slave_body() == pair.master_body())
+        if (pair.tied())
           continue;
         const Vector                                forces = normal_forces(contact, pair);
         const MissedContact                         missed(contact, pair, forces);

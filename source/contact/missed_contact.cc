@@ -6,6 +6,7 @@
 #include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/measured_face.h>
 #include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/search/self_contact.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
@@ -124,6 +125,9 @@ namespace Touchstone
     std::map<unsigned int, std::vector<Face>> messages;
     for (const Face &face : pair.master()->owned_faces())
       {
+        // Of one body a face that carries may be slave and master: its rows resist as well.
+        if (pair.parameters().of_one_body() && !carries_nothing(face))
+          continue;
         const Face now = present(face);
         const Box  box = MeasuredFace::box_around(now, 0.);
         for (unsigned int rank = 0; rank < boxes.size(); ++rank)
@@ -159,6 +163,16 @@ namespace Touchstone
           // within each other.
           if (!depth || *depth > size)
             continue;
+          if (pair.parameters().of_one_body())
+            {
+              const FacePoint there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
+              if (SelfContact::through_body(
+                    evaluate(MeasuredFace::in_reference(of.face), of.exact, xi).x,
+                    there.x,
+                    there.normal(),
+                    *depth))
+                continue;
+            }
           double counts = *depth;
           if (const double part = part_adjusted(); part > 0.)
             {
@@ -201,7 +215,9 @@ namespace Touchstone
         namespace query  = boost::geometry::index;
         for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
           {
-            const Face        &other = masters[entry.second];
+            const Face &other = masters[entry.second];
+            if (pair.parameters().of_one_body() && SelfContact::share_node(face, other))
+              continue;
             const MeasuredFace master(other, pair.master()->exact_surface(other));
             // Both ways: a ridge between master nodes has none of them within.
             add_points(master, slave, face, worst);

@@ -122,7 +122,7 @@ namespace Touchstone
     /** How far a point lies behind the surface of the body in a cell, or behind the nearest face if
      * the cell has no part of the surface; zero for points outside, or not deep inside. */
     double
-    depth_in(const BodyCell &cell, const Point<dim> &x)
+    depth_in(const BodyCell &cell, const Point<dim> &x, const double at_least)
     {
       double least = std::numeric_limits<double>::max(), least_outer = least;
       for (unsigned int f = 0; f < n_faces; ++f)
@@ -138,8 +138,7 @@ namespace Touchstone
           for (const Point<dim> &corner : cell.corners)
             thickness = std::max(thickness, (centre - corner) * normal);
           const double depth = (centre - x) * normal;
-          if (!(depth >
-                (cell.outer[f] ? Tolerances::deep_in_body : Tolerances::within_cell) * thickness))
+          if (!(depth > (cell.outer[f] ? at_least : Tolerances::within_cell) * thickness))
             return 0.;
           least = std::min(least, depth);
           if (cell.outer[f])
@@ -174,7 +173,8 @@ namespace Touchstone
                  const Vector                                          &u,
                  const std::set<unsigned int>                          &bodies,
                  const std::vector<SurfacePoint>                       &points,
-                 const std::set<std::pair<unsigned int, unsigned int>> &left_out)
+                 const std::set<std::pair<unsigned int, unsigned int>> &left_out,
+                 const double                                           least)
     {
       std::vector<std::pair<Point<dim>, std::size_t>> places;
       for (std::size_t k = 0; k < points.size(); ++k)
@@ -189,7 +189,7 @@ namespace Touchstone
             if (std::find(cell.nodes.begin(), cell.nodes.end(), point.node) != cell.nodes.end() ||
                 left_out.count(std::minmax(point.body, cell.body)) > 0)
               continue;
-            if (const double depth = depth_in(cell, point.x); depth > 0.)
+            if (const double depth = depth_in(cell, point.x, least); depth > 0.)
               result.push_back({point.body, cell.body, depth, point.x});
           }
       });
@@ -220,13 +220,16 @@ namespace Touchstone
   BodyOverlap::text(const Solid &solid) const
   {
     return place(solid) + ": no contact pair keeps these surfaces apart" +
-           (body == other ? "" : ", or its rows did not see them");
+           ", or its rows did not see them";
   }
 
 
 
   std::vector<BodyOverlap>
-  overlapping_bodies(const Contact &contact, const Vector &u, const std::set<unsigned int> &bodies)
+  overlapping_bodies(const Contact                &contact,
+                     const Vector                 &u,
+                     const std::set<unsigned int> &bodies,
+                     const double                  least)
   {
     const Solid                                    &solid = contact.solid_model();
     std::set<std::pair<unsigned int, unsigned int>> left_out;
@@ -242,8 +245,8 @@ namespace Touchstone
 
     // Of each two bodies, in an order that does not depend on the partition.
     std::vector<BodyOverlap> all;
-    for (const auto &part :
-         gather_records(own_overlaps(solid, u, bodies, points, left_out), solid.communicator))
+    for (const auto &part : gather_records(own_overlaps(solid, u, bodies, points, left_out, least),
+                                           solid.communicator))
       all.insert(all.end(), part.begin(), part.end());
     double deepest = 0.;
     for (const BodyOverlap &overlap : all)

@@ -220,6 +220,9 @@ namespace Touchstone
   void
   StartCheck::check_facing() const
   {
+    // Which parts of a body will meet is not known before they do.
+    if (parameters.of_one_body())
+      return;
     bool looks = false;
     if (master == nullptr)
       {

@@ -61,7 +61,7 @@ namespace Touchstone
     damped = damping_mass.linfty_norm() > 0. || damping_stiffness.linfty_norm() > 0.;
     // The stiffness of nonlinear bodies changes with the displacement, but K0 in C is that of the
     // undeformed body, which is the present one here.
-    if (!solid.linear() && damping_stiffness.linfty_norm() > 0.)
+    if (!solid.linear() && damped)
       initial_stiffness.copy_from(solid.stiffness());
   }
 

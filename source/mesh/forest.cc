@@ -185,6 +185,14 @@ namespace Touchstone
         for (const auto &[own, surface] : mesh.surfaces)
           if (ids.count(own) > 0)
             surfaces[ids.at(own)] = surface;
+        all_ids.emplace_back();
+        for (const auto &[own, id] : ids)
+          all_ids.back().insert(id);
+        // Names that do not exist are refused where the planes are made.
+        for (const std::string &name : input.bodies[body].symmetry)
+          if (const auto found = names.back().find(name); found != names.back().end())
+            for (const types::boundary_id id : found->second)
+              all_ids.back().erase(id);
       }
     check_refined(all.cells.size(), level, input.discretisation);
 
@@ -328,6 +336,8 @@ namespace Touchstone
                        const std::string              &section,
                        const std::string              &key) const
   {
+    if (names == std::vector<std::string>{"all"} && this->names[body].count("all") == 0)
+      return all_ids[body];
     BoundaryIds result;
     for (const BoundaryIds &ids : boundaries(body, names, section, key))
       result.insert(ids.begin(), ids.end());

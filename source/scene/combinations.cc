@@ -285,6 +285,13 @@ namespace Touchstone
                pair.sliding.word(),
                "a tied pair cannot slide",
                "remove 'Sliding' or set it to 'small'"},
+              {pair.of_one_body() && scene.refinement.active(),
+               "Refinement",
+               "Estimator",
+               scene.refinement.estimator.word(),
+               "does not go with contact pair '" + pair.name + "', in which '" + pair.slave_body +
+                 "' touches itself: forces on refined meshes are off",
+               "set it to 'none', and take a finer mesh"},
               {pair.master_normal == MasterNormal::smoothed && scene.discretisation.degree != 1,
                section,
                "Master normal",

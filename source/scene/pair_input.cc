@@ -21,7 +21,8 @@ namespace Touchstone
     input.modulus  = scene.bodies[input.slave_body].material.young_modulus;
     input.end_time = parameters.ramp_end > 0. ? parameters.ramp_end : scene.load_stepping.end_time;
     // Explicit steps know of edges by their own search, see GeneralContact.
-    input.edges = !scene.time_integration.runs_in_cycles();
+    input.in_cycles = scene.time_integration.runs_in_cycles();
+    input.edges     = !input.in_cycles;
     for (const ObstacleParameters &obstacle : scene.obstacles)
       if (obstacle.name == parameters.obstacle)
         input.obstacle = &obstacle;

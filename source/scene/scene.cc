@@ -346,7 +346,8 @@ namespace Touchstone
     // Relative cost of a cell for the partitioning: nonlinear laws are evaluated in each iteration,
     // linear stiffness is assembled once per run.
     for (const BodyParameters &body : bodies)
-      input.bodies.push_back({body.name, body.geometry, body.material.linear() ? 1U : 3U});
+      input.bodies.push_back(
+        {body.name, body.geometry, body.material.linear() ? 1U : 3U, body.symmetry});
     for (const ContactPairParameters &pair : pairs)
       // Pairs tell the forest which boundaries meet, for the partitioning.
       input.pairs.push_back({pair.section(),

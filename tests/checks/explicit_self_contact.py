@@ -3,62 +3,8 @@
 pressed between two planes until its inner walls meet, and a C whose ends meet (doc/general_contact.md,
 section 7)."""
 
-from touchstone_test import below, check, contact_gives, finish, folder, run
-
-PLANE = """subsection Obstacle {name}
-  set Shape     = plane
-  set Point     = 0, 0, {height}
-  set Direction = 0, 0, {direction}
-  set Motion z  = {travel} * min(1, t/{end})^2 * (3 - 2*min(1, t/{end}))
-end
-"""
-PAIR = """subsection Contact pair {name}
-  set Slave body       = ring
-  set Slave boundaries = {boundaries}
-  set Obstacle         = {name}
-end
-"""
-
-
-def write(name, first, angle, cells, travel, end, damping, symmetry, planes, self_contact):
-    """Write a scene: a part of a ring of the radii 8 and 10 about the axis y.
-
-    @param planes: (name, height, direction, travel relative to @p travel, boundaries)
-    """
-    pairs = [plane[0] for plane in planes] + (["itself"] if self_contact else [])
-    text = f"""set Bodies        = ring
-set Obstacles     = {', '.join(plane[0] for plane in planes)}
-set Contact pairs = {', '.join(pairs)}
-subsection Body ring
-  set Element  = one point
-  set Symmetry = {symmetry}
-  subsection Geometry
-    set Type         = tube
-    set Axis         = y
-    set Inner radius = 8
-    set Outer radius = 10
-    set First angle  = {first}
-    set Angle        = {angle}
-    set Cells        = {cells}
-  end
-  subsection Material
-    set Law           = neo-Hookean
-    set Young modulus = 100
-    set Poisson ratio = 0.3
-    set Density       = 1e-3
-    set Rayleigh mass = {damping}
-  end
-end
-"""
-    for plane, height, direction, part, boundaries in planes:
-        text += PLANE.format(name=plane, height=height, direction=direction, travel=part * travel, end=end)
-        text += PAIR.format(name=plane, boundaries=boundaries)
-    if self_contact:
-        text += "subsection Contact pair itself\n  set Slave body = ring\nend\n"
-    text += ("subsection Time integration\n  set Scheme = central_differences\nend\n"
-             f"subsection Load stepping\n  set End time = {end}\n  set Steps = 50\nend\n")
-    (folder / f"{name}.prm").write_text(text, encoding="utf-8")
-    return folder / f"{name}.prm"
+from touchstone_test import below, check, contact_gives, finish, run
+from self_contact_scenes import BOTTOM, TOP, write  # of tests/, which touchstone_test finds
 
 
 def compare(name, whole, half, alone):
@@ -78,14 +24,15 @@ def compare(name, whole, half, alone):
           f"{name}: without self-contact the force is the same")
 
 
-TOP, BOTTOM = ("top", 10, -1, -1, "outer"), ("bottom", -10, 1, 1, "outer")
+# A pair of nothing but a slave body is general contact.
+GENERAL = "  set Slave boundaries = all\n"
 RING = "3, 24, 1", 8.2, 1, 0, "first cut, second cut, start, end", (TOP, BOTTOM)
-compare("ring", write("ring", 0, 180, *RING, True),
+compare("ring", write("ring", 0, 180, *RING, GENERAL),
         write("half_ring", 0, 90, "3, 12, 1", 8.2, 1, 0, "first cut, second cut, start, end",
-              (TOP, ("middle", 0, 1, 0, "inner")), False), write("ring_alone", 0, 180, *RING, False))
+              (TOP, ("middle", 0, 1, 0, "inner")), ""), write("ring_alone", 0, 180, *RING, ""))
 # Damped, as the ends would bounce off each other.
 BENT = "2, 40, 1", 6.2, 4, 20, "start, end", (TOP, BOTTOM)
-compare("c", write("c", 120, 300, *BENT, True),
+compare("c", write("c", 120, 300, *BENT, GENERAL),
         write("half_c", 270, 150, "2, 20, 1", 6.2, 4, 20, "first cut, start, end",
-              (TOP, ("middle", 0, 1, 0, "inner, outer, second cut")), False), write("c_alone", 120, 300, *BENT, False))
+              (TOP, ("middle", 0, 1, 0, "inner, outer, second cut")), ""), write("c_alone", 120, 300, *BENT, ""))
 finish()

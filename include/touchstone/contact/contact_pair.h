@@ -37,6 +37,8 @@ namespace Touchstone
     double end_time = 1.;
     /** Edges and vertices that touch between nodes get rows of their own. */
     bool edges = true;
+    /** In explicit dynamics. */
+    bool in_cycles = false;
   };
 
   /**

@@ -103,15 +103,33 @@ namespace Touchstone
       return behaviour.name == "tied";
     }
 
+    /** @brief Whether a body meets itself: slave and master are parts of one body, and are not
+     * joined. */
+    bool
+    of_one_body() const
+    {
+      return !tied() && obstacle.empty() && slave_body == master_body;
+    }
+
     /** @param values Of this section: pairing and behaviour decide on other keys. */
     void
     declare(dealii::ParameterHandler &prm, const EarlyValues &values);
     void
     check(const std::string &section) const;
 
+    /** @brief Check what a pair needs of which a boundary is slave and master.
+     * @throws InputError */
+    void
+    check_shared_boundary(const std::string &section,
+                          const std::string &boundary,
+                          bool               in_cycles) const;
+
   private:
     void
     check_pretension(const std::string &section) const;
+    /** What only pairs of different bodies can have. */
+    void
+    check_one_body(const std::string &section) const;
     /** Which surfaces meet. */
     void
     declare_surfaces(dealii::ParameterHandler &prm);

@@ -4,6 +4,7 @@
 #define touchstone_contact_overlapping_bodies_h
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <set>
 #include <string>
@@ -42,10 +43,14 @@ namespace Touchstone
    *
    * @param u Displacement, with ghosts.
    * @param bodies Those that are looked at.
+   * @param least The depth from which on points count, by the thickness of the cell.
    * @return the same on all ranks and any number of them. Collective.
    */
   std::vector<BodyOverlap>
-  overlapping_bodies(const Contact &contact, const Vector &u, const std::set<unsigned int> &bodies);
+  overlapping_bodies(const Contact                &contact,
+                     const Vector                 &u,
+                     const std::set<unsigned int> &bodies,
+                     double                        least = Tolerances::deep_in_body);
 
   /** @brief The same of all bodies, in words. Collective. */
   std::vector<std::string>

@@ -103,6 +103,24 @@ namespace Touchstone
      * open node arrives (hysteresis): with equal distances it would alternate for ever. */
     constexpr double edge_hysteresis = 5.;
 
+    // ---------------------------------------------------------------- contact of a body with
+    // itself
+
+    /** Cosine between the line from a node to a face of its own body and the normal there (60
+     * degrees): with less the closest point is at the end of what the node can meet. Between
+     * facets that bend without a sharp edge it is above 0.8. */
+    constexpr double about_normal = 0.5;
+
+    /** Sine of the angle by which a point lies in front of a face in the reference state: with less
+     * it is on the same plane. */
+    constexpr double behind_face = 0.01;
+
+    /** A point that is not in front of a face of its own body in the reference state meets it if
+     * its depth is less than the first part of their distance there: walls are not pressed to a
+     * quarter of their thickness, and what meets comes from beyond four times the depth. Deeper
+     * than the second, the material between them would have been pulled to twice its length. */
+    constexpr double come_closer = 0.25, through_material = 2.;
+
     // ---------------------------------------------------------------- partial cover
 
     /** By the mean cover of a face, limits of the step S in doc/theory.md 3.1: below the first the

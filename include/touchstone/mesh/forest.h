@@ -26,6 +26,8 @@ namespace Touchstone
       std::shared_ptr<Geometry> geometry;
       /** Of a cell, relative to those of other bodies, for partitions. */
       unsigned int work = 1;
+      /** Names of boundaries that are planes of symmetry, which 'all' leaves out. */
+      std::vector<std::string> symmetry;
     };
     /** Boundaries that meet, for partitions. */
     struct Pair
@@ -56,7 +58,9 @@ namespace Touchstone
   {
     // In this order: the mesh is made with the names, and the reference below is to it.
     /** Boundary names of each body, with ids that are unique in the forest. */
-    std::vector<std::map<std::string, BoundaryIds>>                              names;
+    std::vector<std::map<std::string, BoundaryIds>> names;
+    /** Those of each body that are no planes of symmetry. */
+    std::vector<BoundaryIds>                                                     all_ids;
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
     unsigned int                                                                 level = 0;
     bool                     has_weights                                               = false;
@@ -128,7 +132,8 @@ namespace Touchstone
                const std::string              &section,
                const std::string              &key) const;
 
-    /** @brief The boundary ids of all of them together. */
+    /** @brief The boundary ids of all of them together. Where no boundary has the name, 'all' are
+     * those that are no planes of symmetry. */
     BoundaryIds
     boundary_ids(unsigned int                    body,
                  const std::vector<std::string> &names,

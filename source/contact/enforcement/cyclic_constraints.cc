@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/cyclic_constraints.h>
 #include <touchstone/contact/enforcement/row_terms.h>
+#include <touchstone/contact/search/self_contact.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -30,6 +33,8 @@ namespace Touchstone
     {
       Index              slave;
       std::vector<Index> dofs, on;
+      /** Reference position of the slave node. */
+      Point<dim> reference;
     };
 
     /** The dofs of a node with coefficients above the threshold. */
@@ -45,14 +50,16 @@ namespace Touchstone
     }
 
     /** @param free The part of the normal that the slave node can move along.
+     * @param own_body The stencil is of the body of the slave node.
      * @param threshold Smaller coefficients do not count. */
     Dependence
     dependence(const ContactRow     &row,
                const RowState       &state,
                const Tensor<1, dim> &free,
-               const double          threshold)
+               const double          threshold,
+               const bool            own_body)
     {
-      Dependence           result{row.slave, {}, {}};
+      Dependence           result{row.slave, {}, {}, row.reference};
       const Tensor<1, dim> all({1., 1., 1.});
       // A row that sticks or is tied determines all components of its node by all components of the
       // stencil. Otherwise the direction that counts is that part of the normal which supports
@@ -60,7 +67,12 @@ namespace Touchstone
       const bool fully = state.fully_constrained();
       add_components(row.slave, fully ? all : free / free.norm(), threshold, result.dofs);
       for (const StencilEntry &entry : row.stencil)
-        add_components(entry.node, fully ? all : row.normal, threshold, result.on);
+        if (std::abs(entry.weight) > Tolerances::negligible_weight)
+          add_components(entry.node, fully ? all : row.normal, threshold, result.on);
+      // Of its own body the stencil alone counts: what else the condition depends on is handled by
+      // the enforcement, see Elimination::adjust().
+      if (own_body)
+        return result;
       // With consistent linearisation the gap depends on further nodes, over averaged normals.
       if (row.derivative)
         for (const auto &[node, coefficients] : gap_gradient(row))
@@ -134,7 +146,7 @@ namespace Touchstone
           // Both surfaces are distributed: each rank compares its own faces and nodes, and one
           // match on any rank connects the pairs.
           int shared = 0;
-          if (p != q && pairs[p]->master())
+          if ((p != q || pairs[p]->parameters().of_one_body()) && pairs[p]->master())
             {
               std::set<Index> slaves;
               for (const SurfaceNode &node : pairs[q]->slave().owned_nodes())
@@ -149,7 +161,7 @@ namespace Touchstone
     const std::vector<bool> found = on_cycles(pairs.size(), edges);
     cyclic.clear();
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      if (found[p])
+      if (found[p] || std::count(edges.begin(), edges.end(), std::make_pair(p, p)) > 0)
         cyclic.push_back(p);
   }
 
@@ -161,8 +173,9 @@ namespace Touchstone
     std::vector<Dependence>
     gather(const std::vector<Dependence> &mine, const MPI_Comm communicator)
     {
-      // One array of integers per rank, so that a single collective call suffices.
-      std::vector<Index> packed; // slave, numbers of dofs and of others, both lists
+      // One array of integers and one of positions per rank.
+      std::vector<Index>      packed; // slave, numbers of dofs and of others, both lists
+      std::vector<Point<dim>> places;
       for (const Dependence &d : mine)
         {
           packed.push_back(d.slave);
@@ -170,11 +183,46 @@ namespace Touchstone
           packed.push_back(d.on.size());
           packed.insert(packed.end(), d.dofs.begin(), d.dofs.end());
           packed.insert(packed.end(), d.on.begin(), d.on.end());
+          places.push_back(d.reference);
         }
       std::vector<Dependence> result;
-      for (const auto &list : Utilities::MPI::all_gather(communicator, packed))
-        for (auto i = list.begin(); i != list.end(); i += 3 + i[1] + i[2])
-          result.push_back({i[0], {i + 3, i + 3 + i[1]}, {i + 3 + i[1], i + 3 + i[1] + i[2]}});
+      const auto              lists  = Utilities::MPI::all_gather(communicator, packed);
+      const auto              points = gather_records(places, communicator);
+      for (std::size_t rank = 0; rank < lists.size(); ++rank)
+        {
+          auto place = points[rank].begin();
+          for (auto i = lists[rank].begin(); i != lists[rank].end(); i += 3 + i[1] + i[2])
+            result.push_back(
+              {i[0], {i + 3, i + 3 + i[1]}, {i + 3 + i[1], i + 3 + i[1] + i[2]}, *place++});
+        }
+      return result;
+    }
+
+    /** Of rows of one pair and one body that are on cycles, the slave nodes of those that would
+     * close one. Rows are kept one by one, in an order of reference positions: dropping all of
+     * them, as of a later pair, would leave nothing that keeps the surfaces apart. */
+    std::set<Index>
+    closing_cycles(const std::vector<Dependence> &kept, const std::vector<Dependence> &of_pair)
+    {
+      std::vector<Dependence> all(kept);
+      all.insert(all.end(), of_pair.begin(), of_pair.end());
+      const std::set<Index>   on_cycle = in_cycles(all);
+      std::vector<Dependence> sure(kept), doubtful;
+      for (const Dependence &d : of_pair)
+        (on_cycle.count(d.slave) > 0 ? doubtful : sure).push_back(d);
+      std::sort(doubtful.begin(), doubtful.end(), [](const Dependence &a, const Dependence &b) {
+        return SelfContact::comes_first(a.reference, b.reference);
+      });
+      std::set<Index> result;
+      for (const Dependence &d : doubtful)
+        {
+          sure.push_back(d);
+          if (!in_cycles(sure).empty())
+            {
+              sure.pop_back();
+              result.insert(d.slave);
+            }
+        }
       return result;
     }
   } // namespace
@@ -194,6 +242,7 @@ namespace Touchstone
     for (const unsigned int p : cyclic)
       {
         std::vector<Dependence> mine;
+        const bool              own_body = contact.pair(p).parameters().of_one_body();
         for (const ContactRow &row : contact.pair(p).rows())
           {
             const RowState      &state = contact.state(row);
@@ -201,7 +250,7 @@ namespace Touchstone
             // A normal that supports determine is refused by the graph in any case (bound 1e-3,
             // doc/theory.md 6).
             if (state.active() && !(free.norm() < 1e-3))
-              mine.push_back(dependence(row, state, free, threshold));
+              mine.push_back(dependence(row, state, free, threshold, own_body));
           }
         std::vector<Dependence> of_pair = gather(mine, contact.communicator());
         std::set<Index>         slaves;
@@ -210,13 +259,14 @@ namespace Touchstone
         // Dependencies between slave nodes of the same pair, which averaged normals and weights
         // make, are handled by the enforcement, see Elimination::adjust().
         for (Dependence &d : of_pair)
-          d.on.erase(std::remove_if(d.on.begin(),
-                                    d.on.end(),
-                                    [&](const Index dof) { return slaves.count(dof / dim) > 0; }),
-                     d.on.end());
+          if (!own_body)
+            d.on.erase(std::remove_if(d.on.begin(),
+                                      d.on.end(),
+                                      [&](const Index dof) { return slaves.count(dof / dim) > 0; }),
+                       d.on.end());
         std::vector<Dependence> all(kept);
         all.insert(all.end(), of_pair.begin(), of_pair.end());
-        const std::set<Index> cycle = in_cycles(all);
+        const std::set<Index> cycle = own_body ? closing_cycles(kept, of_pair) : in_cycles(all);
         for (const Dependence &d : of_pair)
           if (cycle.count(d.slave) == 0)
             kept.push_back(d);

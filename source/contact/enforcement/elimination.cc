@@ -5,9 +5,11 @@
 #include <touchstone/contact/enforcement/exact_enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/contact/friction/friction_response.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <boost/serialization/utility.hpp>
 #include <map>
 #include <set>
@@ -87,7 +89,7 @@ namespace Touchstone
         // the sum over all nodes stays what it was and a common translation violates nothing.
         Tensor<1, dim> lagged;
         for (auto &[node, coefficients] : condition.gradient)
-          if (node != row.slave && eliminated.count({row.pair, node}) > 0)
+          if (is_lagged(row, node))
             {
               lagged += coefficients;
               coefficients = Tensor<1, dim>();
@@ -154,6 +156,19 @@ namespace Touchstone
             "MUMPS', or 'Contact/Enforcement' to 'augmented lagrange' or 'penalty'");
       }
 
+      /** Whether a node that the condition of a row refers to is one of the eliminated slave nodes
+       * of the same pair that adjust() takes to move with the node of the row. Not what that node
+       * touches, where a body touches itself: such chains end, see CyclicConstraints, and are
+       * eliminated one after the other. */
+      bool
+      is_lagged(const ContactRow &row, const Index node) const
+      {
+        return node != row.slave && eliminated.count({row.pair, node}) > 0 &&
+               std::none_of(row.stencil.begin(), row.stencil.end(), [node](const auto &entry) {
+                 return entry.node == node && entry.weight > Tolerances::negligible_weight;
+               });
+      }
+
       /**
        * Whether the assumption of adjust() would neglect too large a part of a condition of the
        * row. The error returns in each iteration, so that Newton's method converges linearly, with
@@ -170,7 +185,7 @@ namespace Touchstone
           {
             double others = 0.;
             for (const auto &[node, coefficients] : condition.gradient)
-              if (node != row.slave && eliminated.count({row.pair, node}) > 0)
+              if (is_lagged(row, node))
                 others += coefficients.norm();
             if (others > much)
               return true;

@@ -39,6 +39,12 @@ namespace Touchstone
           start.push_back(node.reference);
         present_faces.resize(start.size());
         indices.resize(start.size());
+        if (input.parameters->of_one_body())
+          {
+            self.emplace(input.slave->boundaries(), input.master->boundaries());
+            for (const SurfaceNode &node : input.slave->owned_nodes())
+              also_master.push_back(self->is_master(*input.slave, node.node));
+          }
       }
 
       void
@@ -84,6 +90,12 @@ namespace Touchstone
       std::vector<std::size_t> indices;
       /** Positions of the slave nodes at the start of the step. */
       std::vector<Point<dim>> start;
+      /** Where slave and master are the same body, and then whether nodes are master nodes, too. */
+      std::optional<SelfContact> self;
+      std::vector<bool>          also_master;
+
+      SlavePoint
+      slave_point(const std::size_t k, const Point<dim> &x, const ContactRow &row) const;
     };
 
     const PairingRegistry::Entry<PointwisePairing>
@@ -146,6 +158,25 @@ namespace Touchstone
 
 
 
+    SlavePoint
+    PointwisePairing::slave_point(const std::size_t k,
+                                  const Point<dim> &x,
+                                  const ContactRow &row) const
+    {
+      SlavePoint point{
+        x, start[k], input.slave->normal(row.slave), row.was_active, present_faces[k], indices[k]};
+      if (self)
+        {
+          point.self        = &*self;
+          point.node        = row.slave;
+          point.reference   = row.reference;
+          point.also_master = also_master[k];
+        }
+      return point;
+    }
+
+
+
     void
     PointwisePairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
     {
@@ -161,14 +192,8 @@ namespace Touchstone
       partners.resize(nodes.size());
       for (std::size_t k = 0; k < nodes.size(); ++k)
         {
-          ContactRow      &row = rows[k];
-          const SlavePoint point{positions[k],
-                                 start[k],
-                                 input.slave->normal(nodes[k].node),
-                                 row.was_active,
-                                 present_faces[k],
-                                 indices[k]};
-          const auto      &partner = partners[k] = search.find(point);
+          ContactRow &row     = rows[k];
+          const auto &partner = partners[k] = search.find(slave_point(k, positions[k], row));
           // The face of this update is preferred in the next one, also in the next step and after a
           // restart (memory()).
           present_faces[k] =
@@ -180,7 +205,8 @@ namespace Touchstone
             {
               row.has_partner = false;
               row.gap         = 0.;
-              row.away        = search.distance();
+              // A face of the own body that is closer may come to count as it turns.
+              row.away = self ? 0. : search.distance();
               continue;
             }
           row.has_partner = true;

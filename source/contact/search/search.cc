@@ -215,8 +215,11 @@ namespace Touchstone
             if (closest.excludes(square))
               break;
             // Back faces belong to the far side of a thin body.
-            if (!tree().is_back_face(i, point.normal))
-              closest.offer(tree().project(point.x, received.faces()[i]));
+            if (!tree().may_meet(i, point))
+              continue;
+            if (const FaceProjection candidate = tree().project(point.x, received.faces()[i]);
+                tree().meets(point, candidate))
+              closest.offer(candidate);
           }
         // The nearest boxes were enough: no further box can have a closer point. Otherwise four
         // times as many are tried.
@@ -236,10 +239,12 @@ namespace Touchstone
     if (!point.present_face)
       return {};
     const Face *const guess = received.face(*point.present_face, point.index_before);
-    if (guess == nullptr || tree().is_back_face(received.index(*guess), point.normal))
+    if (guess == nullptr || !tree().may_meet(received.index(*guess), point))
       return {};
     const FaceProjection projected = tree().project(point.x, *guess);
-    const double         distance  = std::sqrt(projected.projection.distance_squared);
+    if (!tree().meets(point, projected))
+      return {};
+    const double distance = std::sqrt(projected.projection.distance_squared);
     // Beyond what the rules of ties and of the present face can ask for.
     const double radius = distance + 3. * Tolerances::keeps_face * tree().largest_diagonal();
     if (radius >= reach)
@@ -255,8 +260,12 @@ namespace Touchstone
         if (&face == guess)
           closest.offer(projected);
         else if (!closest.is_beyond(face, tree().least_distance(point.x, i)) &&
-                 !tree().is_back_face(i, point.normal))
-          closest.offer(tree().project(point.x, face));
+                 tree().may_meet(i, point))
+          {
+            if (const FaceProjection candidate = tree().project(point.x, face);
+                tree().meets(point, candidate))
+              closest.offer(candidate);
+          }
       }
     return closest.result(received);
   }
@@ -343,7 +352,7 @@ namespace Touchstone
     // A crossed face counts only if the node is now clearly away from it or has no other partner:
     // a node that is just at a surface, inside or outside, has not passed through it.
     const auto other = swept().passed(point, penetrates);
-    if (other && on_surface(*other) &&
+    if (other && on_surface(*other) && tree().can_have_entered(point, *other) &&
         !(result && std::sqrt(other->projection.distance_squared) <
                       Tolerances::touching * diagonal(*other->face)))
       result = partner(point, *other);

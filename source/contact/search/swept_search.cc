@@ -85,7 +85,7 @@ namespace Touchstone
                                                       end,
                                                       face.nodes.begin(),
                                                       face.nodes.begin() + face.n_nodes()) != end;
-            if (!neighbour || tree.is_back_face(i, point.normal))
+            if (!neighbour || !tree.may_meet(i, point))
               continue;
             const FaceProjection candidate = tree.project(point.x, other);
             // Round-off must not make the walk alternate between neighbours.
@@ -114,7 +114,7 @@ namespace Touchstone
     for (const std::size_t i : tree.meeting_in_step(path))
       {
         const Face &face = faces[i];
-        if (tree.is_back_face(i, point.normal) || !may_cross(point, face))
+        if (!tree.may_meet(i, point) || !may_cross(point, face))
           continue;
         tree.count_candidate();
         if (const auto found =

@@ -4,6 +4,7 @@
 #define touchstone_contact_search_face_tree_h
 
 #include <touchstone/contact/search/face_exchange.h>
+#include <touchstone/contact/search/self_contact.h>
 #include <touchstone/contact/tolerances.h>
 
 #include <deal.II/numerics/rtree.h>
@@ -89,6 +90,32 @@ namespace Touchstone
     is_back_face(const std::size_t index, const dealii::Tensor<1, dim> &slave_normal) const
     {
       return outlines[index].normal * slave_normal > Tolerances::back_face_cosine;
+    }
+
+    /** @brief Whether a node may meet a face, wherever on it: no back face, and of its own body
+     * only those that SelfContact allows. */
+    bool
+    may_meet(const std::size_t index, const SlavePoint &point) const
+    {
+      return !is_back_face(index, point.normal) &&
+             (point.self == nullptr || point.self->may_meet(point, exchange.faces()[index]));
+    }
+
+    /** @brief Whether a node that may meet a face does so at the closest point. */
+    bool
+    meets(const SlavePoint &point, const FaceProjection &candidate) const
+    {
+      return point.self == nullptr ||
+             point.self->meets(point, exchange.geometry(*candidate.face), candidate.projection);
+    }
+
+    /** @brief Whether a node can have passed through a face since the step began, if both are of
+     * one body. */
+    bool
+    can_have_entered(const SlavePoint &point, const FaceProjection &candidate) const
+    {
+      return point.self == nullptr ||
+             point.self->can_have_entered(point, *candidate.face, candidate.projection);
     }
 
     /** @brief Project a node on a face. */

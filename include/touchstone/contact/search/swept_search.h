@@ -4,30 +4,12 @@
 #define touchstone_contact_search_swept_search_h
 
 #include <touchstone/contact/search/face_tree.h>
+#include <touchstone/contact/search/slave_point.h>
 
-#include <limits>
 #include <optional>
 
 namespace Touchstone
 {
-  /** @brief A slave node for which a partner is searched. */
-  struct SlavePoint
-  {
-    /** Present position, and at the start of the step. */
-    dealii::Point<dim> x, start;
-    /** Outward normal of the slave surface there: faces whose normals are about the same
-     * are on the far side of a body. */
-    dealii::Tensor<1, dim> normal;
-    /** The node carried a contact force before: it leaves the end of the surface only at a multiple
-     * of the distance beyond it up to which other nodes find a partner (hysteresis). */
-    bool in_contact = false;
-    /** Key of the face that the node had last: one in contact may keep it, and the search begins
-     * there. */
-    std::optional<std::uint64_t> present_face;
-    /** The index that this face had in FaceExchange::faces() then; any other only costs time. */
-    std::size_t index_before = std::numeric_limits<std::size_t>::max();
-  };
-
   /**
    * @brief Finds where nodes have passed through faces since the start of the step (doc/theory.md
    * 4, "Passing through").

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_search_slave_point_h
+#define touchstone_contact_search_slave_point_h
+
+#include <touchstone/base/types.h>
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace Touchstone
+{
+  class SelfContact;
+
+  /** @brief A slave node for which a partner is searched. */
+  struct SlavePoint
+  {
+    /** Present position, and at the start of the step. */
+    dealii::Point<dim> x, start;
+    /** Outward normal of the slave surface there: faces whose normals are about the same
+     * are on the far side of a body. */
+    dealii::Tensor<1, dim> normal;
+    /** The node carried a contact force before: it leaves the end of the surface only at a multiple
+     * of the distance beyond it up to which other nodes find a partner (hysteresis). */
+    bool in_contact = false;
+    /** Key of the face that the node had last: one in contact may keep it, and the search begins
+     * there. */
+    std::optional<std::uint64_t> present_face;
+    /** The index that this face had in FaceExchange::faces() then; any other only costs time. */
+    std::size_t index_before = std::numeric_limits<std::size_t>::max();
+
+    /** @name Where slave and master are the same body; null elsewhere */
+    /** @{ */
+    const SelfContact *self = nullptr;
+    /** The node, in its reference position, and whether it is a master node, too. */
+    Index              node = invalid_index;
+    dealii::Point<dim> reference{};
+    bool               also_master = false;
+    /** @} */
+  };
+} // namespace Touchstone
+
+#endif

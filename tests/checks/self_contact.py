@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Self-contact of implicit runs against half of the body and a plane in the middle: a ring that is pressed
+between two planes until its inner walls meet and are pressed on (doc/theory.md, section 4.4)."""
+
+import shutil
+
+from touchstone_test import (AUGMENTED, CG, MULTIPLIERS, PENALTY, below, check, fail, finish, folder, launch, run,
+                             same)
+from self_contact_scenes import BOTTOM, TOP, write  # of tests/, which touchstone_test finds
+
+ITSELF = ("  set Slave boundaries = all\n  set Master body = ring\n  set Master boundaries = all\n"
+          "  set Pairing = pointwise\n")
+COULOMB = "  set Behaviour = coulomb\n  subsection Friction\n    set Coefficient = 0.3\n  end\n"
+STATIC, DYNAMIC = ("  set Scheme = static\n", "  set Scheme = generalized_alpha\n")
+CUTS, PAIR = "first cut, second cut, start, end", "Contact pair itself"
+
+
+def scenes(name, scheme, steps, damping=0):
+    """The whole ring and its half."""
+    common = {"element": "F-bar", "scheme": scheme, "steps": steps}
+    return (write(name, 0, 180, "3, 24, 1", 8.2, 1, damping, CUTS, (TOP, BOTTOM), ITSELF, **common),
+            write(f"{name}_half", 0, 90, "3, 12, 1", 8.2, 1, damping, CUTS, (TOP, ("middle", 0, 1, 0, "inner")), "",
+                  **common))
+
+
+def history(result):
+    """The force of the upper plane by time; steps may have been cut."""
+    return {round(row["time"], 9): row["top: force z"] for row in result.rows()}
+
+
+def compare(one, other, bound):
+    """The forces of the whole body against those of the half, at all times that both have."""
+    forces, expected = history(one), history(other)
+    times = set(forces) & set(expected)
+    check(len(times) >= 20, f"{one}: only {len(times)} times to compare")
+    below(f"{one}, force against that of {other}", max((abs(forces[t] - expected[t]) for t in times), default=1) /
+          max(map(abs, expected.values())), bound)
+    check(one.column("itself: active nodes")[-1] >= 20, f"{one}: the ring does not touch itself")
+    below(f"{one}, penetration", max(one.column("itself: max penetration")), 1e-6)
+
+
+whole, half = scenes("static", STATIC, 20)
+reference, expected = run("whole", whole), run("half", half)
+compare(reference, expected, 1e-3)
+# Only symmetric parts of the walls move against each other, so that friction makes no difference but where
+# normals of facets are oblique.
+text = whole.read_text(encoding="utf-8")
+friction = folder / "friction.prm"
+friction.write_text(text.replace(ITSELF, ITSELF + COULOMB), encoding="utf-8")
+compare(run("friction", friction), expected, 1e-3)
+
+same(reference, run("multipliers", whole, MULTIPLIERS), 1e-7)
+same(reference, run("augmented", whole, AUGMENTED), 1e-6)
+same(reference, run("cg", whole, CG), 1e-6)
+same(reference, run("consistent", whole, {"Contact/Linearisation": "consistent"}), 1e-7)
+two = run("whole_2", whole, ranks=2)
+same(reference, two, 1e-8)
+compare(run("two_sides", whole, {f"{PAIR}/Slave boundaries": "inner", f"{PAIR}/Master boundaries": "inner, outer"}),
+        expected, 1e-3)
+# A penalty leaves an overlap, and each side of the half has all of it.
+below("penalty", abs(run("penalty", whole, PENALTY).force("top")[2] / expected.force("top")[2] - 1), 0.03)
+
+whole, half = scenes("dynamic", DYNAMIC, 40, 20)
+reference, expected = run("dynamic", whole), run("dynamic_half", half)
+compare(reference, expected, 1e-3)
+same(reference, run("dynamic_2", whole, ranks=2), 1e-8)
+
+refused = run("adaptive", whole, {"Refinement/Estimator": "Kelly"}, fails=True)
+check("touches itself" in refused.text, f"{refused}: {refused.text}")
+
+# Resumed while the walls are pressed on each other: the same to the last digit.
+kept = run("kept", whole, {"Checkpoints/Steps between": 39})
+shutil.copytree("kept", "resumed", dirs_exist_ok=True)
+checkpoints = sorted(folder.glob("resumed/checkpoint_[0-9]*"))
+check(len(checkpoints) == 2, f"resumed: {len(checkpoints)} checkpoints instead of 2")
+for path in checkpoints[1:]:
+    shutil.rmtree(path)
+(folder / "resumed/summary.json").unlink()
+done = launch("--results-only", "--output", "resumed", "--resume", "--set", "Checkpoints/Steps between=39", "--set",
+              "Output/VTU interval=0", whole)
+check(done.returncode == 0, f"resumed: {done.stdout}")
+if (folder / "resumed/statistics").read_text() != (folder / "kept/statistics").read_text():
+    fail("resumed: other figures than without a restart")
+
+# What pairs cannot see must not end with exit code 0: the inner walls pass through each other.
+blind = run("blind", folder / "static.prm",
+            {f"{PAIR}/Slave boundaries": "outer", f"{PAIR}/Master boundaries": "outer"}, fails=True)
+check("reaches into itself" in blind.text, f"{blind}: nothing is said of the overlap")
+finish()
