@@ -29,15 +29,6 @@ namespace Touchstone
      * files round their numbers. */
     constexpr double straight = 1e-6;
 
-    /** Lexicographic position of a node with the coordinates 0, 1, 2. */
-    unsigned int
-    position(const std::array<unsigned int, 3> &at)
-    {
-      return at[0] + 3 * at[1] + 9 * at[2];
-    }
-
-
-
     /** For each of the 27 nodes, the vertices whose mean it is in a cube. */
     std::array<std::vector<unsigned int>, 27>
     vertices_around_nodes()
