@@ -84,7 +84,7 @@ namespace
           "set Pressure = 4\nend",
           "set Young modulus = 100",
           "12, 12, 3") +
-      "subsection Obstacle ring\nset Shape = torus\nset Centre = 0, 0, -0.25\nend\n"
+      "subsection Obstacle ring\nset Shape = my torus\nset Centre = 0, 0, -0.25\nend\n"
       "subsection Contact pair sole\nset Slave body = block\nset Slave boundaries = bottom\n"
       "set Obstacle = ring\nend\n";
     const RunSummary run = run_on(text, "torus", {"Output/VTU interval=0"});
@@ -101,7 +101,7 @@ namespace
       }
     try
       {
-        run_on(text, "torus", {"Obstacle ring/Shape=thorus"});
+        run_on(text, "torus", {"Obstacle ring/Shape=my thorus"});
       }
     catch (const InputError &error)
       {

@@ -113,6 +113,6 @@ namespace Touchstone
     };
 
     // TODO: the name that scenes use, and a sentence for the reference of keys.
-    const ObstacleShapeRegistry::Entry<Torus> torus("torus", "A torus about the z direction.");
+    const ObstacleShapeRegistry::Entry<Torus> torus("my torus", "A torus about the z direction.");
   } // namespace
 } // namespace Touchstone

@@ -5,6 +5,8 @@
 
 #include <touchstone/base/plugin_parameters.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <map>
 #include <memory>
@@ -113,12 +115,19 @@ namespace Touchstone
       return record.make(parameters ? parameters : record.make_parameters(), arguments...);
     }
 
-    /** @brief An object of this type at namespace scope registers Derived. */
+    /** @brief An object of this type at namespace scope registers Derived. The program ends at its
+     * start if the name is taken: one class would silently stand for the other. */
     template <class Derived>
     struct Entry
     {
       Entry(const std::string &name, const std::string &documentation)
       {
+        if (knows(name))
+          {
+            // Before main(), where nobody could catch an exception.
+            std::fprintf(stderr, "Two classes of one kind are registered as '%s'.\n", name.c_str());
+            std::exit(1);
+          }
         Record &record       = records()[name];
         record.documentation = documentation;
         if constexpr (std::is_base_of_v<PluginParameters, Derived>)
