@@ -219,8 +219,8 @@ namespace Touchstone
   std::string
   BodyOverlap::text(const Solid &solid) const
   {
-    return place(solid) + ": no contact pair keeps these surfaces apart" +
-           ", or its rows did not see them";
+    return place(solid) +
+           ": no contact pair keeps these surfaces apart, or its rows did not see them";
   }
 
 

@@ -139,6 +139,67 @@ namespace Touchstone
 
 
 
+  Tensor<1, dim>
+  NodalLoads::normal(const PressurePoint &point) const
+  {
+    Tensor<1, dim> tangents[2];
+    for (unsigned int k = 0; k < 4; ++k)
+      for (unsigned int i = 0; i < 2; ++i)
+        tangents[i] += point.derivatives[i][k] * map.positions()[point.nodes[k]];
+    return point.sign * cross_product_3d(tangents[0], tangents[1]);
+  }
+
+
+
+  void
+  NodalLoads::add_tractions(const BoundaryConditions::Load   &load,
+                            const std::vector<PressurePoint> &points)
+  {
+    // A function with the direction of its traction for each point, from place and normal.
+    const auto add_with = [&](const Function &function, const auto &direction) {
+      if (!function)
+        return;
+      std::vector<LoadPoint> all;
+      for (const PressurePoint &point : points)
+        {
+          LoadPoint one;
+          one.position = point.position;
+          one.n_nodes  = 4;
+          std::copy(point.nodes.begin(), point.nodes.end(), one.nodes.begin());
+          std::copy(point.shapes.begin(), point.shapes.end(), one.shapes.begin());
+          one.direction = direction(point.position, normal(point));
+          all.push_back(one);
+        }
+      add(function, std::move(all));
+    };
+    for (unsigned int d = 0; d < dim; ++d)
+      add_with(load.traction[d], [d](const Point<dim> &, const Tensor<1, dim> &n) {
+        return n.norm() * Point<dim>::unit_vector(d);
+      });
+    add_with(load.pressure, [](const Point<dim> &, const Tensor<1, dim> &n) { return -n; });
+    for (unsigned int k = 0; load.resultant && k < 2 * dim; ++k)
+      add_with(load.resultant->functions()[k], [&](const Point<dim> &x, const Tensor<1, dim> &n) {
+        return n.norm() * load.resultant->traction_of_unit(k, x);
+      });
+  }
+
+
+
+  void
+  NodalLoads::add_springs(const GroundSprings::Spring      &spring,
+                          const std::vector<PressurePoint> &points)
+  {
+    for (const PressurePoint &point : points)
+      {
+        const Tensor<1, dim> n    = normal(point);
+        const double         area = n.norm();
+        springs.push_back(
+          {point.nodes, point.shapes, n / area, area * spring.normal, area * spring.tangential});
+      }
+  }
+
+
+
   void
   NodalLoads::add_surface_loads(const BoundaryConditions &conditions, const Solid &solid)
   {
@@ -146,7 +207,8 @@ namespace Touchstone
       return;
     const auto            faces = boundary_faces(solid, map);
     const QGauss<dim - 1> quadrature(3);
-    const auto            for_each_point = [&](const BoundaryIds &boundary, const auto &use) {
+    const auto            points_of = [&](const BoundaryIds &boundary) {
+      std::vector<PressurePoint> points;
       for (const LoadedFace &face : faces)
         if (boundary.count(face.boundary) > 0)
           for (unsigned int q = 0; q < quadrature.size(); ++q)
@@ -163,79 +225,17 @@ namespace Touchstone
                   point.derivatives[1][k] = (j == 0 ? -1. : 1.) * edge_shape(i, x[0]);
                   point.position += point.shapes[k] * map.positions()[face.nodes[k]];
                 }
-              use(point);
+              points.push_back(point);
             }
-    };
-    // Normal times weight on the undeformed surface.
-    const auto normal = [&](const PressurePoint &point) {
-      Tensor<1, dim> tangents[2];
-      for (unsigned int k = 0; k < 4; ++k)
-        for (unsigned int i = 0; i < 2; ++i)
-          tangents[i] += point.derivatives[i][k] * map.positions()[point.nodes[k]];
-      return Tensor<1, dim>(point.sign * cross_product_3d(tangents[0], tangents[1]));
-    };
-    const auto load_point = [](const PressurePoint &point) {
-      LoadPoint one;
-      one.position = point.position;
-      one.n_nodes  = 4;
-      for (unsigned int k = 0; k < 4; ++k)
-        {
-          one.nodes[k]  = point.nodes[k];
-          one.shapes[k] = point.shapes[k];
-        }
-      return one;
+      return points;
     };
     for (const auto &load : conditions.surface_loads())
-      for (unsigned int component = 0; component <= dim; ++component)
-        {
-          const Function &function = component < dim ? load.traction[component] : load.pressure;
-          if (!function)
-            continue;
-          std::vector<LoadPoint> points;
-          for_each_point(load.boundary, [&](const PressurePoint &point) {
-            const Tensor<1, dim> n   = normal(point);
-            LoadPoint            one = load_point(point);
-            if (component < dim)
-              one.direction[component] = n.norm();
-            else
-              one.direction = -n;
-            points.push_back(one);
-          });
-          add(function, std::move(points));
-        }
-    for (const auto &load : conditions.surface_loads())
-      for (unsigned int k = 0; load.resultant && k < 2 * dim; ++k)
-        if (const Function &function = load.resultant->functions()[k])
-          {
-            std::vector<LoadPoint> points;
-            for_each_point(load.boundary, [&](const PressurePoint &point) {
-              LoadPoint one = load_point(point);
-              one.direction =
-                normal(point).norm() * load.resultant->traction_of_unit(k, point.position);
-              points.push_back(one);
-            });
-            add(function, std::move(points));
-          }
+      add_tractions(load, points_of(load.boundary));
     for (const auto &spring : conditions.ground_springs().all_springs())
-      for_each_point(spring.boundary, [&](const PressurePoint &point) {
-        const Tensor<1, dim> n    = normal(point);
-        const double         area = n.norm();
-        Spring               one;
-        one.nodes  = point.nodes;
-        one.shapes = point.shapes;
-        one.normal = n / area;
-        one.across = area * spring.normal;
-        one.along  = area * spring.tangential;
-        springs.push_back(one);
-      });
+      add_springs(spring, points_of(spring.boundary));
     for (const auto &load : conditions.follower_pressure().all_loads())
-      {
-        Pressure pressure{load.pressure, {}};
-        for_each_point(load.boundary,
-                       [&](const PressurePoint &point) { pressure.points.push_back(point); });
-        if (!pressure.points.empty())
-          pressures.push_back(std::move(pressure));
-      }
+      if (std::vector<PressurePoint> points = points_of(load.boundary); !points.empty())
+        pressures.push_back({load.pressure, std::move(points)});
   }
 
 

@@ -139,6 +139,41 @@ namespace Touchstone
 
 
 
+  void
+  Forest::add_boundaries(const BodyMesh                                         &mesh,
+                         const std::map<types::boundary_id, types::boundary_id> &ids,
+                         const std::vector<std::string>                         &symmetry)
+  {
+    names.emplace_back();
+    // A face of a mesh file can belong to several boundaries; such faces have an id of their
+    // own, which each of those boundaries includes. So a boundary is a set of ids.
+    std::map<types::boundary_id, BoundaryIds> ids_of;
+    for (const auto &[own, id] : ids)
+      if (const auto shared = mesh.shared.find(own); shared != mesh.shared.end())
+        for (const types::boundary_id of : shared->second)
+          ids_of[of].insert(id);
+      else
+        ids_of[own].insert(id);
+    for (const auto &[own, list] : ids_of)
+      names.back()[std::to_string(own)] = list;
+    for (const auto &[name, own] : mesh.boundary_names)
+      if (ids_of.count(own) > 0)
+        names.back()[name] = ids_of.at(own);
+    for (const auto &[own, surface] : mesh.surfaces)
+      if (ids.count(own) > 0)
+        surfaces[ids.at(own)] = surface;
+    all_ids.emplace_back();
+    for (const auto &[own, id] : ids)
+      all_ids.back().insert(id);
+    // Names that do not exist are refused where the planes are made.
+    for (const std::string &name : symmetry)
+      if (const auto found = names.back().find(name); found != names.back().end())
+        for (const types::boundary_id id : found->second)
+          all_ids.back().erase(id);
+  }
+
+
+
   std::unique_ptr<parallel::TriangulationBase<dim>>
   Forest::make(const ForestInput &input,
                const std::string &scene_folder,
@@ -167,32 +202,7 @@ namespace Touchstone
             "'Refinement factor' of 2, whose new nodes they are.");
         const auto ids = append(mesh, body, all);
 
-        names.emplace_back();
-        // A face of a mesh file can belong to several boundaries; such faces have an id of their
-        // own, which each of those boundaries includes. So a boundary is a set of ids.
-        std::map<types::boundary_id, BoundaryIds> ids_of;
-        for (const auto &[own, id] : ids)
-          if (const auto shared = mesh.shared.find(own); shared != mesh.shared.end())
-            for (const types::boundary_id of : shared->second)
-              ids_of[of].insert(id);
-          else
-            ids_of[own].insert(id);
-        for (const auto &[own, list] : ids_of)
-          names.back()[std::to_string(own)] = list;
-        for (const auto &[name, own] : mesh.boundary_names)
-          if (ids_of.count(own) > 0)
-            names.back()[name] = ids_of.at(own);
-        for (const auto &[own, surface] : mesh.surfaces)
-          if (ids.count(own) > 0)
-            surfaces[ids.at(own)] = surface;
-        all_ids.emplace_back();
-        for (const auto &[own, id] : ids)
-          all_ids.back().insert(id);
-        // Names that do not exist are refused where the planes are made.
-        for (const std::string &name : input.bodies[body].symmetry)
-          if (const auto found = names.back().find(name); found != names.back().end())
-            for (const types::boundary_id id : found->second)
-              all_ids.back().erase(id);
+        add_boundaries(mesh, ids, input.bodies[body].symmetry);
       }
     check_refined(all.cells.size(), level, input.discretisation);
 

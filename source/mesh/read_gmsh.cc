@@ -48,6 +48,9 @@ namespace Touchstone
       /** Names of physical surfaces and volumes. */
       std::map<unsigned int, std::string> names[4];
 
+      template <class T>
+      T
+      binary_value(const char *what);
       /** Numbers of sections that are binary in binary files. @{ */
       unsigned long
       size(const char *what);
@@ -170,14 +173,21 @@ namespace Touchstone
 
 
 
+    template <class T>
+    T
+    GmshReader::binary_value(const char *what)
+    {
+      T value = 0;
+      text.bytes(&value, sizeof(value), what);
+      return value;
+    }
+
+
+
     unsigned long
     GmshReader::size(const char *what)
     {
-      if (!binary)
-        return text.number(what);
-      std::uint64_t value = 0;
-      text.bytes(&value, sizeof(value), what);
-      return value;
+      return binary ? binary_value<std::uint64_t>(what) : text.number(what);
     }
 
 
@@ -185,11 +195,7 @@ namespace Touchstone
     long
     GmshReader::integer(const char *what)
     {
-      if (!binary)
-        return text.signed_number(what);
-      std::int32_t value = 0;
-      text.bytes(&value, sizeof(value), what);
-      return value;
+      return binary ? binary_value<std::int32_t>(what) : text.signed_number(what);
     }
 
 
@@ -197,10 +203,7 @@ namespace Touchstone
     double
     GmshReader::real(const char *what)
     {
-      if (!binary)
-        return text.real(what);
-      double value = 0.;
-      text.bytes(&value, sizeof(value), what);
+      const double value = binary ? binary_value<double>(what) : text.real(what);
       if (!std::isfinite(value))
         text.fail(std::string("A number in ") + what + " is not finite.");
       return value;

@@ -5,6 +5,7 @@
 #include <touchstone/mesh/vtu_arrays.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <istream>
 #include <limits>
@@ -123,21 +124,20 @@ namespace Touchstone
     void
     VtuReader::add_boundary_of_points(const std::vector<double> &marks, MeshFile::Group &group)
     {
-      static const unsigned int face_vertices[6][4] = {
-        {0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 4, 5}, {1, 3, 5, 7}, {2, 3, 6, 7}, {0, 2, 4, 6}};
       for (const CellData<3> &cell : mesh.cells)
-        for (const auto &face : face_vertices)
+        for (const unsigned int f : GeometryInfo<3>::face_indices())
           {
-            bool marked = true;
-            for (const unsigned int v : face)
-              marked = marked && marks[cell.vertices[v]] != 0.;
+            std::array<unsigned int, 4> face;
+            bool                        marked = true;
+            for (unsigned int v = 0; v < 4; ++v)
+              {
+                face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+                marked  = marked && marks[face[v]] != 0.;
+              }
             if (marked)
               {
                 group.members.push_back(mesh.faces.size());
-                mesh.faces.push_back({{cell.vertices[face[0]],
-                                       cell.vertices[face[1]],
-                                       cell.vertices[face[2]],
-                                       cell.vertices[face[3]]}});
+                mesh.faces.push_back(face);
               }
           }
     }

@@ -13,7 +13,8 @@ namespace Touchstone
 
   namespace
   {
-    /** The closest point is that of the circle of the tube in the half plane through x. */
+    /** In the half plane from the axis through x the section is a circle of the minor radius, whose
+     * centre is at the major radius: x is projected to that circle. */
     class Torus : public AnalyticSurface
     {
     public:
@@ -65,7 +66,7 @@ namespace Touchstone
     private:
       const Point<3>     centre;
       const Tensor<1, 3> axis;
-      /** Of the circle of centres, and of the tube. */
+      /** Major and minor radius. */
       const double radius, tube, sign;
       /** Radial direction that is taken for points on the axis. */
       Tensor<1, 3> elsewhere;
@@ -75,7 +76,7 @@ namespace Touchstone
         /** Away from the axis, and the distance from it. */
         Tensor<1, 3> e;
         double       r_of_x;
-        /** Unit vector from the circle of centres to x, and its length. */
+        /** Unit vector from the centre of the section to x, and their distance. */
         Tensor<1, 3> from_circle;
         double       distance;
       };
@@ -89,7 +90,7 @@ namespace Touchstone
         const Tensor<1, 3> e      = r > tiny ? Tensor<1, 3>(radial / r) : elsewhere;
         const Tensor<1, 3> from   = d - radius * e;
         const double       length = from.norm();
-        // No point of the tube is closer than the others to the circle of centres.
+        // At the centre of the section all points of its circle are equally close.
         return {e,
                 std::max(r, tiny),
                 length > tiny ? Tensor<1, 3>(from / length) : axis,

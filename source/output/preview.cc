@@ -247,7 +247,7 @@ namespace Touchstone
                                    blocks + "</vtkMultiBlockDataSet>\n</VTKFile>\n");
     std::vector<std::string> result = {folder.path("preview.vtm") +
                                        ": bodies, boundaries and obstacles at t = 0"};
-    // A picture of so many faces is one of their edges alone.
+    // With so many faces the drawing would show nothing but their edges.
     constexpr std::size_t most = 100000;
     if (faces <= most)
       {

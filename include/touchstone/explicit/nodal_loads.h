@@ -100,6 +100,14 @@ namespace Touchstone
     add_body_forces(const BoundaryConditions &conditions);
     void
     add_surface_loads(const BoundaryConditions &conditions, const Solid &solid);
+    /** Tractions, a pressure that keeps its direction, and a resultant. */
+    void
+    add_tractions(const BoundaryConditions::Load &load, const std::vector<PressurePoint> &points);
+    void
+    add_springs(const GroundSprings::Spring &spring, const std::vector<PressurePoint> &points);
+    /** Outward normal times weight on the undeformed surface, area. */
+    dealii::Tensor<1, dim>
+    normal(const PressurePoint &point) const;
   };
 } // namespace Touchstone
 

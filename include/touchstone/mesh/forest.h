@@ -155,6 +155,13 @@ namespace Touchstone
   private:
     std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
     make(const ForestInput &input, const std::string &scene_folder, MPI_Comm communicator);
+
+    /** Add the names and exact surfaces of the next body. @param ids In the forest, by those of
+     * @p mesh. @param symmetry Names of its planes of symmetry. */
+    void
+    add_boundaries(const BodyMesh                                                         &mesh,
+                   const std::map<dealii::types::boundary_id, dealii::types::boundary_id> &ids,
+                   const std::vector<std::string> &symmetry);
   };
 } // namespace Touchstone
 
