@@ -130,7 +130,7 @@ def mesh(rng, scene, data):
     """A fault in the mesh file of a scene."""
     lines = data.split(b"\n")
     # Of these formats each line of numbers counts.
-    counted = data.startswith((b"$MeshFormat", b"# vtk"))
+    counted = data.startswith((b"$MeshFormat", b"# vtk", b"<?xml"))
     wrong = False
 
     def of_numbers(line):

@@ -251,6 +251,14 @@ namespace Touchstone
                        "set it to 0 or to more than the overlap, or name the boundaries that meet");
     if (!nothing)
       return;
+    // Tied is what faces each other now; nothing would ever be.
+    if (parameters.tied())
+      throw InputError(parameters.section(),
+                       "Behaviour",
+                       parameters.behaviour.name,
+                       "no slave node finds a master face, so nothing would be tied",
+                       "name the boundaries that touch; 'Search distance' says across which gap "
+                       "they may be tied");
     // No node is within reach, as with bodies that are brought together later. At least one slave
     // node must face the master node closest to it.
     const std::vector<Place> masters = all_places(*master, u, solid.communicator);

@@ -3,6 +3,7 @@
 #include <touchstone/base/interruption.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/explicit_step.h>
+#include <touchstone/solid/thermal_strain.h>
 
 #include <chrono>
 #include <cmath>
@@ -168,6 +169,7 @@ namespace Touchstone
       throw Interruption(event);
     // Mistakes of the input come first.
     boundary_conditions.all_formulas().check(solid.communicator);
+    check_temperatures(solid, now.time);
     char time[60];
     std::snprintf(time, sizeof(time), " at time %.6g: ", now.time);
     const CellPlace first = cells.first(failed);

@@ -6,6 +6,7 @@
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/scene/pair_input.h>
+#include <touchstone/solid/conflicting_supports.h>
 
 #include <algorithm>
 #include <chrono>
@@ -139,6 +140,7 @@ namespace Touchstone
   ExplicitStep::start()
   {
     set_initial_values();
+    check_supports(boundary_conditions, scene.load_stepping.step_ends(), solid.communicator);
     std::vector<std::string> lines;
     if (parameters.mass_scaling_step > 0.)
       {

@@ -4,6 +4,8 @@
 #include <touchstone/base/parameter_checks.h>
 #include <touchstone/drive/load_stepping_parameters.h>
 
+#include <cmath>
+
 namespace Touchstone
 {
   using dealii::ParameterHandler;
@@ -67,6 +69,37 @@ namespace Touchstone
         before = phase.end_time;
       }
     check_positive(section, "End time", end_time, "1 is as good as any other");
+    check_steps(section);
+  }
+
+
+
+  void
+  LoadSteppingParameters::check_steps(const std::string &section) const
+  {
+    // Their ends are numbers that are kept, and differ: by more than round-off, so that a step can
+    // be cut as well.
+    constexpr unsigned int most     = 10000000;
+    constexpr double       smallest = 1e-12;
+    double                 before   = 0.;
+    for (const LoadPhase &phase : all_phases())
+      {
+        const std::string where = phases.empty() ? section : section + "/Phase " + phase.name;
+        if (phase.steps > most)
+          throw InputError(where,
+                           "Steps",
+                           std::to_string(phase.steps),
+                           "are more steps than a run can have",
+                           "ask for " + std::to_string(most) + " at most");
+        if (!std::isnormal(1e-3 * (phase.end_time - before) / phase.steps) ||
+            (phase.end_time - before) / phase.steps < smallest * phase.end_time)
+          throw InputError(where,
+                           "End time",
+                           Patterns::Tools::to_string(phase.end_time),
+                           "leaves steps that cannot be told from nothing",
+                           "take other units of time, or fewer steps");
+        before = phase.end_time;
+      }
   }
 
 

@@ -5,6 +5,7 @@
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
 #include <touchstone/solid/bodies.h>
+#include <touchstone/solid/conflicting_supports.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -82,6 +83,7 @@ namespace Touchstone
     // Formulas without a finite value at time 0 are input errors and reported before the run.
     boundary_conditions.external_force(0., u, external);
     boundary_conditions.displacements(0.);
+    check_supports(boundary_conditions, scene.load_stepping.step_ends(), solid.communicator);
     {
       TimerOutput::Scope scope(timer, "search");
       // Contact starts in the initial displacement and is committed at once: the first step may

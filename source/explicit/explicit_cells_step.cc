@@ -50,23 +50,23 @@ namespace Touchstone
   ExplicitCells::stable_step(const NodeField &u, const NodeField &v)
   {
     update_periods(u);
-    StableStep result;
+    // Of cells that are equal but for round-off the first is named, whatever the processor.
+    constexpr double                 same = 1. + 1e-9;
+    StableStep                       result;
+    std::vector<std::vector<double>> steps(bodies.size());
     result.length = std::numeric_limits<double>::max();
     for (unsigned int b = 0; b < bodies.size(); ++b)
       for (unsigned int c = 0; c < periods[b].size(); ++c)
         {
-          const double step = step_of(b, c, u, v);
-          if (step < result.length || (step == result.length && place(b, c).key < result.cell.key))
-            {
-              result.length = step;
-              result.cell   = place(b, c);
-            }
+          steps[b].push_back(step_of(b, c, u, v));
+          result.length = std::min(result.length, steps[b].back());
         }
-    for (const auto &others : gather_records(std::vector<StableStep>{result}, map.communicator()))
-      for (const StableStep &other : others)
-        if (other.length < result.length ||
-            (other.length == result.length && other.cell.key < result.cell.key))
-          result = other;
+    result.length = Utilities::MPI::min(result.length, map.communicator());
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int c = 0; c < steps[b].size(); ++c)
+        if (steps[b][c] <= same * result.length && place(b, c).key < result.cell.key)
+          result.cell = place(b, c);
+    result.cell  = first(result.cell);
     result.holds = time_to_shorten(result.length, u, v);
     return result;
   }

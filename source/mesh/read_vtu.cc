@@ -21,6 +21,24 @@ namespace Touchstone
 
   namespace
   {
+    /** Refuse an array of numbers that are no whole ones, which would be cut to some. */
+    void
+    check_whole(const std::vector<double> &values, const std::string &name)
+    {
+      // Beyond this there are no nodes, cells or boundaries.
+      constexpr double most = 4294967295.;
+      for (std::size_t k = 0; k < values.size(); ++k)
+        if (!(std::abs(values[k]) <= most && values[k] == std::floor(values[k])))
+          {
+            std::ostringstream value;
+            value << values[k];
+            throw MeshFileError("Number " + std::to_string(k) + " of the array '" + name +
+                                "', counted from 0, is " + value.str() + ": no whole number.");
+          }
+    }
+
+
+
     /** One piece of the grid, the arrays of the file by section and name. */
     class VtuReader
     {
@@ -89,13 +107,19 @@ namespace Touchstone
       const std::size_t         n       = arrays.n_cells();
       const std::vector<double> types   = get("Cells", "types", n),
                                 offsets = get("Cells", "offsets", n);
+      check_whole(types, "types");
+      check_whole(offsets, "offsets");
       const std::vector<double> points =
         get("Cells", "connectivity", n == 0 ? 0 : std::lround(offsets.back()));
+      check_whole(points, "connectivity");
       // Numbers of volumes and boundaries, as deal.II and Gmsh name them.
       std::vector<double> number(n, 0.);
       for (const char *name : {"CellEntityIds", "MaterialID"})
         if (arrays.find("CellData", name) != nullptr)
-          number = get("CellData", name, n);
+          {
+            number = get("CellData", name, n);
+            check_whole(number, name);
+          }
 
       std::size_t begin = 0;
       for (std::size_t c = 0; c < n; ++c)

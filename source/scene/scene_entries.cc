@@ -219,39 +219,72 @@ namespace Touchstone
 
 
     /**
-     * A remedy in words, from deal.II's description of the pattern that @p value does not match.
-     * Bounds at the limits of the type are no bounds to the user.
+     * In words what deal.II's description of a pattern asks for, of a number or of several. Bounds
+     * at the limits of the type are no bounds to the user; empty for other patterns.
+     */
+    std::string
+    numbers_in_words(const std::string &pattern, const bool several)
+    {
+      std::smatch found;
+      if (!std::regex_match(pattern,
+                            found,
+                            std::regex(R"(\[(Integer range|Double) (.*)\.\.\.(.*) \(incl.*)")))
+        return "";
+      const std::string low = found[2], high = found[3];
+      const bool        from = low.find("MAX_") == std::string::npos && low != "-2147483648",
+                 to          = high.find("MAX_") == std::string::npos && high != "2147483647";
+      return std::string(several ? "" : "a ") + (found[1] == "Double" ? "" : "whole ") + "number" +
+             (several ? "s" : "") +
+             (from && to ? " from " + low + " to " + high
+              : from     ? " of at least " + low
+              : to       ? " of at most " + high
+                         : "");
+    }
+
+
+
+    /** The same of lists, and of lists of points. */
+    std::string
+    list_in_words(const std::string &pattern)
+    {
+      std::smatch found;
+      if (!std::regex_match(pattern,
+                            found,
+                            std::regex(
+                              R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\)(.*))")))
+        return "";
+      const std::string inner = found[1], least = found[2], most = found[3];
+      const std::string items =
+        inner.compare(0, 5, "[List") == 0       ? "points, each of " + list_in_words(inner) + ","
+        : numbers_in_words(inner, true).empty() ? "words"
+                                                : numbers_in_words(inner, true);
+      return (least == most       ? least
+              : most.size() >= 10 ? "at least " + least
+              : least == "0"      ? "up to " + most
+                                  : least + " to " + most) +
+             " " + items + " with " +
+             (found[4].str().find(';') == std::string::npos ? "commas" : "semicolons") +
+             " between them";
+    }
+
+
+
+    /** A remedy in words, from deal.II's description of the pattern that @p value does not match.
      */
     std::string
     remedy(const std::string &pattern, const std::string &value)
     {
-      std::smatch found;
-      const auto  range = [&found](const std::string &what) {
-        const std::string low = found[1], high = found[2];
-        const bool        from = low.find("MAX_") == std::string::npos,
-                   to          = high.find("MAX_") == std::string::npos && high != "2147483647";
-        return "give " + what +
-               (from && to ? " from " + low + " to " + high
-                 : from     ? " of at least " + low
-                 : to       ? " of at most " + high
-                            : "");
-      };
-      if (std::regex_match(pattern,
-                           found,
-                           std::regex(R"(\[Integer range (.*)\.\.\.(.*) \(incl.*)")))
-        return range("a whole number");
-      if (std::regex_match(pattern, found, std::regex(R"(\[Double (.*)\.\.\.(.*) \(incl.*)")))
-        return range("a number");
+      if (const std::string number = numbers_in_words(pattern, false); !number.empty())
+        return "give " + number;
+      if (const std::string list = list_in_words(pattern); !list.empty())
+        return "give " + list;
       // For a choice of words the nearest word is suggested.
+      std::smatch found;
       if (std::regex_match(pattern, found, std::regex(R"(\[Selection (.*?) ?\])")))
         {
           const auto names = split_string_list(found[1], '|');
           return "give one of " + quoted_list(names) + did_you_mean(value, names);
         }
-      if (std::regex_match(pattern,
-                           found,
-                           std::regex(R"(\[List of <.*> of length (\d+)\.\.\.\1 .*)")))
-        return "give " + found[1].str() + " numbers with commas between them";
       // Descriptions without a translation are shown as deal.II has them.
       if (pattern.compare(0, 5, "[Bool") == 0)
         return "give 'true' or 'false'";

@@ -3,6 +3,7 @@
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/solid/linear_cells.h>
 #include <touchstone/solid/solid.h>
+#include <touchstone/solid/thermal_strain.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -169,9 +170,11 @@ namespace Touchstone
   void
   Solid::check_solved(const bool solved) const
   {
-    if (nonlinear->can_fail() && Utilities::MPI::min(solved ? 1 : 0, communicator) == 0)
-      throw MaterialFailure(plastic() ? "the plastic strain of some point could not be found"
-                                      : "a material law has no answer at some point");
+    if (!nonlinear->can_fail() || Utilities::MPI::min(solved ? 1 : 0, communicator) == 1)
+      return;
+    check_temperatures(*this, time);
+    throw MaterialFailure(plastic() ? "the plastic strain of some point could not be found"
+                                    : "a material law has no answer at some point");
   }
 
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/formula.h>
-#include <touchstone/solid/material_parameters.h>
+#include <touchstone/solid/body_parameters.h>
+#include <touchstone/solid/solid.h>
 #include <touchstone/solid/thermal_strain.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
 #include <cmath>
@@ -181,5 +186,34 @@ namespace Touchstone
                       const std::shared_ptr<const MaterialLaw> &law)
   {
     return material.thermal() ? std::make_shared<ThermalStrain>(material, law) : law;
+  }
+
+
+
+  void
+  check_temperatures(const Solid &solid, const double t)
+  {
+    Formulas                                    all;
+    std::vector<std::shared_ptr<const Formula>> of_body;
+    for (const BodyParameters &body : solid.bodies)
+      of_body.push_back(body.material.thermal()
+                          ? all.add(body.section() + "/Material/Thermal expansion",
+                                    "Temperature",
+                                    body.material.temperature)
+                          : nullptr);
+    // Nothing but positions is asked for: any element does.
+    const FE_Q<dim> scalar_fe(1);
+    FEValues<dim>   values(solid.mapping,
+                         scalar_fe,
+                         QGauss<dim>(solid.fe.degree + 1),
+                         update_quadrature_points);
+    for (const auto &cell : solid.dof_handler.get_triangulation().active_cell_iterators())
+      if (cell->is_locally_owned() && of_body[cell->material_id()])
+        {
+          values.reinit(cell);
+          for (const Point<dim> &x : values.get_quadrature_points())
+            of_body[cell->material_id()]->value(x, t);
+        }
+    all.check(solid.communicator);
   }
 } // namespace Touchstone

@@ -42,6 +42,13 @@ namespace Touchstone
       return of_time;
     }
 
+    /** @brief Section, key and text of the entry, for messages. */
+    std::vector<std::string>
+    entry() const
+    {
+      return {section, key, text};
+    }
+
   private:
     friend class Formulas;
 

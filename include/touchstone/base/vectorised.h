@@ -6,8 +6,11 @@
 /** The compiler makes versions of the function for newer processors, of which the dynamic
  * linker chooses one when the program starts: distributions build for baseline x86-64. The
  * names of levels stand for all processors that have them; "arch=haswell" would stand for
- * this one alone. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12
+ * this one alone. Where all of the program is compiled for a newer processor (TOUCHSTONE_NATIVE)
+ * there is nothing to choose from, and GCC 12 fails with an internal error at versions for lesser
+ * ones. */
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 12 && \
+  !defined(__AVX2__)
 #  define TOUCHSTONE_VECTORISED \
     __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else

@@ -59,6 +59,11 @@ namespace Touchstone
     std::vector<double>
     step_ends() const;
     /** @} */
+
+  private:
+    /** @throws InputError for more steps than can be numbered, or steps of no length. */
+    void
+    check_steps(const std::string &section) const;
   };
 } // namespace Touchstone
 

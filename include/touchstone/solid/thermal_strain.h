@@ -10,11 +10,18 @@
 namespace Touchstone
 {
   struct MaterialParameters;
+  class Solid;
 
   /** @brief @p law with the thermal strain that the material has; the same law if it has none. */
   std::shared_ptr<const MaterialLaw>
   with_thermal_strain(const MaterialParameters                 &material,
                       const std::shared_ptr<const MaterialLaw> &law);
+
+  /** @brief Tell, after a material law has failed, whether a temperature is to blame: laws know
+   * numbers only. Collective.
+   * @throws InputError on all ranks if a temperature is not finite at time @p t. */
+  void
+  check_temperatures(const Solid &solid, double t);
 } // namespace Touchstone
 
 #endif
