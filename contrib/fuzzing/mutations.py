@@ -69,7 +69,8 @@ def change_number(rng, text):
     new = rng.choice(WEIRD)
     wrong = value[:match.start()] + new + value[match.end():]
     lines[i] = head + name + equals + wrong
-    certain = new in ("nan", "inf", "-inf", "1e400", "abc", "1 mm", "--1", "1e", "sqrt(-1)", "1/0")
+    # A condition such as 'if(t < 1/0, ...)' may well be infinite.
+    certain = "(" not in value and new in ("nan", "inf", "-inf", "1e400", "abc", "1 mm", "--1", "1e", "sqrt(-1)", "1/0")
     return Mutation(f"'{name}' = '{wrong}' instead of '{value}'", _joined(lines), wrong=certain)
 
 

@@ -21,6 +21,7 @@ class Node:
     traction: tuple
     slip: tuple
     displacement: tuple
+    force: tuple = ()
 
     def normal_traction(self):
         return sum(t * n for t, n in zip(self.traction, self.normal))
@@ -75,6 +76,7 @@ def read(path):
 
             node = Node(vector("position"), int(arrays["pair"][i]), round(arrays["status"][i]),
                         arrays["gap"][i], arrays["pressure"][i], vector("normal"),
-                        vector("traction"), vector("slip"), vector("displacement"))
+                        vector("traction"), vector("slip"), vector("displacement"),
+                        vector("force") if "force" in arrays else ())
             nodes.setdefault((node.position, node.pair), node)
     return list(nodes.values())

@@ -251,15 +251,16 @@ namespace Touchstone
     double deepest = 0.;
     for (const BodyOverlap &overlap : all)
       deepest = std::max(deepest, overlap.depth);
-    // Rounded: of points that are equally deep the first, whatever round-off makes of them.
-    const double unit = 1e-4 * deepest;
-    const auto   key  = [unit](const BodyOverlap &o) {
-      return std::make_tuple(o.body,
-                             o.other,
-                             -std::round(o.depth / unit),
-                             std::round(o.x[0] / unit),
-                             std::round(o.x[1] / unit),
-                             std::round(o.x[2] / unit));
+    // Rounded: of points that are equally deep the first, whatever round-off makes of them. Scenes
+    // have round coordinates: the shift keeps them off the limits between two numbers.
+    const double unit    = 1e-4 * deepest;
+    const auto   rounded = [unit](const double value) {
+      constexpr double shift = 0.3183;
+      return std::floor(value / unit + shift);
+    };
+    const auto key = [&rounded](const BodyOverlap &o) {
+      return std::make_tuple(
+        o.body, o.other, -rounded(o.depth), rounded(o.x[0]), rounded(o.x[1]), rounded(o.x[2]));
     };
     std::sort(all.begin(), all.end(), [&](const BodyOverlap &a, const BodyOverlap &b) {
       return key(a) < key(b);

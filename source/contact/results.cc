@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 // Results of contact as plain data for output: per slave node, per slave face and per pair. Rows
 // whose stencil contains other slave nodes (doc/theory.md 3.1) stand for the forces on all of them;
@@ -62,10 +64,21 @@ namespace Touchstone
   std::vector<ContactPoint>
   contact_points(const Contact &contact, const Vector &u)
   {
-    std::vector<ContactPoint> result;
+    std::vector<ContactPoint>                                result;
+    std::map<std::pair<unsigned int, Index>, Tensor<1, dim>> between;
     for (const ContactRow &row : contact.rows())
-      if (!row.between_nodes)
-        result.push_back(contact_point(contact, row, u));
+      {
+        const ContactPoint point = contact_point(contact, row, u);
+        if (!row.between_nodes)
+          result.push_back(point);
+        else if (point.status >= ContactStatus::slip)
+          between[{point.pair, point.node}] += point.force;
+      }
+    // What touches between nodes counts as a force on the slave node of the row, which has a row of
+    // its own: so the forces of the nodes add up to that of the pair.
+    for (ContactPoint &point : result)
+      if (const auto found = between.find({point.pair, point.node}); found != between.end())
+        point.force += found->second;
     return result;
   }
 

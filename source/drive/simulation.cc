@@ -83,6 +83,7 @@ namespace Touchstone
     , checkpoints(folder, origin.checkpoint)
     , repeated_failure(scene.newton)
   {
+    reference->check_mesh(solid);
     // The complete scene with all defaults, so that a result can be reproduced with a version whose
     // defaults differ.
     folder.write_file_atomically("parameters.prm", complete_parameters(scene));
@@ -300,9 +301,10 @@ namespace Touchstone
   std::vector<std::string>
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
-    make_reference(scene);
+    const auto   reference = make_reference(scene);
     const Forest forest(scene.forest_input(), folder_of_scene, communicator);
     Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
+    reference->check_mesh(solid);
     const Probes probes(scene.probes, forest, solid);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
     // The first linear system is set up but not solved: this evaluates meshes, boundaries, initial

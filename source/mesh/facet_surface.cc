@@ -209,18 +209,25 @@ namespace Touchstone
         const Tensor<1, 3> ab = b - a, ac = c - a, ap = x - a, bp = x - b, cp = x - c;
         const double       d1 = ab * ap, d2 = ac * ap, d3 = ab * bp, d4 = ac * bp, d5 = ab * cp,
                      d6 = ac * cp;
-        if (d1 <= 0. && d2 <= 0.)
+        // What lies on an edge or corner but for round-off lies there, on any processor: the normal
+        // is another one within the facet.
+        constexpr double near  = 1e-13;
+        const double     of_ab = near * (d1 - d3), of_ac = near * (d2 - d6),
+                     of_bc = near * (d4 - d3 + d5 - d6);
+        if (d1 <= of_ab && d2 <= of_ac)
           return {a, number, 2, {{f[0], f[0]}}};
-        if (d3 >= 0. && d4 <= d3)
+        if (d3 >= -of_ab && d4 - d3 <= of_bc)
           return {b, number, 2, {{f[1], f[1]}}};
-        if (d6 >= 0. && d5 <= d6)
+        if (d6 >= -of_ac && d5 - d6 <= of_bc)
           return {c, number, 2, {{f[2], f[2]}}};
         const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-        if (vc <= 0. && d1 >= 0. && d3 <= 0.)
+        // These are barycentric coordinates but for a common factor.
+        const double least = near * (std::abs(va) + std::abs(vb) + std::abs(vc));
+        if (vc <= least && d1 >= 0. && d3 <= 0.)
           return {Point<3>(a + d1 / (d1 - d3) * ab), number, 1, {{f[0], f[1]}}};
-        if (vb <= 0. && d2 >= 0. && d6 <= 0.)
+        if (vb <= least && d2 >= 0. && d6 <= 0.)
           return {Point<3>(a + d2 / (d2 - d6) * ac), number, 1, {{f[0], f[2]}}};
-        if (va <= 0. && d4 - d3 >= 0. && d5 - d6 >= 0.)
+        if (va <= least && d4 - d3 >= 0. && d5 - d6 >= 0.)
           return {Point<3>(b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b)),
                   number,
                   1,

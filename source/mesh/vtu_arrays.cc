@@ -201,6 +201,8 @@ namespace Touchstone
     std::string  section;
     unsigned int pieces = 0;
     bool         is_vtu = false;
+    // Elements that have begun and not ended: a file that lacks one of these is damaged.
+    std::vector<std::string> open;
     for (std::size_t at = text.find('<'); at < stop;)
       {
         const Element element = element_at(text, at);
@@ -230,8 +232,18 @@ namespace Touchstone
           section.clear();
         else if (element.name == "DataArray" && !section.empty())
           read_array(section, element.attributes, element.end);
+        if (element.name[0] == '/')
+          {
+            if (open.empty() || open.back() != element.name.substr(1))
+              damaged("<" + element.name + ">");
+            open.pop_back();
+          }
+        else if (!element.closed && element.name[0] != '?' && element.name[0] != '!')
+          open.push_back(element.name);
         at = text.find('<', element.end);
       }
+    if (!open.empty() && stop == text.size())
+      damaged("<" + open.back() + ">, which does not end");
     if (!is_vtu || pieces == 0)
       throw MeshFileError("The file has no UnstructuredGrid with a Piece.",
                           "save the mesh again as an UnstructuredGrid (.vtu)");

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/input_error.h>
 #include <touchstone/verification/point_displacement.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace Touchstone
@@ -21,21 +23,41 @@ namespace Touchstone
 
 
   PointDisplacement::PointDisplacement(const Scene &scene)
+    : values(scene.reference.values)
   {
-    ReferenceValues   values(scene.reference.values);
+    ReferenceValues   numbers(values);
     const char *const components[dim] = {"x", "y", "z"};
     for (unsigned int d = 0; d < dim; ++d)
       {
         const std::string name = std::string("displacement ") + components[d];
-        point[d]               = values.number(std::string("point ") + components[d]);
-        given[d]               = values.has(name);
-        exact[d]               = values.number(name, 0.);
+        point[d]               = numbers.number(std::string("point ") + components[d]);
+        given[d]               = numbers.has(name);
+        exact[d]               = numbers.number(name, 0.);
       }
-    values.finish();
+    numbers.finish();
     // The error is relative to the magnitude of the given displacement.
     if (exact.norm() == 0.)
-      values.fail("No displacement is given, or it is zero.",
-                  "Give at least one component, e.g. \"displacement z: -0.1\".");
+      numbers.fail("No displacement is given, or it is zero.",
+                   "Give at least one component, e.g. \"displacement z: -0.1\".");
+  }
+
+
+
+  void
+  PointDisplacement::check_mesh(const Solid &solid) const
+  {
+    // Beside the body, which has no node there, by more than the size of a cell.
+    double beside = std::numeric_limits<double>::max();
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (const unsigned int v : cell->vertex_indices())
+          beside = std::min(beside, point.distance(cell->vertex(v)) - cell->diameter());
+    if (dealii::Utilities::MPI::min(beside, solid.communicator) > 0.)
+      throw InputError("Reference solution",
+                       "Values",
+                       values,
+                       "the point lies beside all bodies",
+                       "give a point of a body before deformation");
   }
 
 

@@ -53,7 +53,8 @@ namespace Touchstone
         // An item without a number stays NaN and is refused below, with the same message as one
         // that cannot be read.
         double value = std::nan("");
-        if (colon != std::string::npos)
+        // Numbers of C in base 16 are no numbers of scenes.
+        if (colon != std::string::npos && item.find_first_of("xX", colon) == std::string::npos)
           try
             {
               value = dealii::Utilities::string_to_double(item.substr(colon + 1));

@@ -33,6 +33,15 @@ same(crossed, run("steps", scene, {STEPS: 5}), 1e-6)
 same(vertex, run("vertex_augmented", tests / "vertex_in_slave_face.prm",
                  {**AUGMENTED, **CONSISTENT}), 1e-6)
 
+# The forces of the nodes in contact.vtu are all of the contact.
+for name, file in (("across", "edge_across_edge.prm"), ("vertex", "vertex_in_slave_face.prm")):
+    drawn = run(f"drawn_{name}", tests / file, vtu=None)
+    (pair_name, result), = drawn.summary["results"]["contact"].items()
+    found = [sum(node.force[d] for node in drawn.contact_nodes()) for d in range(3)]
+    below(f"{pair_name}, forces of nodes and of the pair",
+          max(abs(a - b) for a, b in zip(found, result["force"])) /
+          max(map(abs, result["force"])), 1e-6)
+
 # Newton's method converges quadratically.
 quadratic = run("quadratic", scene, {**CONSISTENT, STEPS: 1})
 check(quadratic.iterations() <= 7, f"{quadratic}: {quadratic.iterations()} iterations")

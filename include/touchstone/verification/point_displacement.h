@@ -6,6 +6,7 @@
 #include <touchstone/verification/reference_solution.h>
 
 #include <array>
+#include <string>
 
 namespace Touchstone
 {
@@ -16,10 +17,14 @@ namespace Touchstone
   public:
     explicit PointDisplacement(const Scene &scene);
 
+    void
+    check_mesh(const Solid &solid) const override;
+
     ReferenceComparison
     compare(const ReferenceInput &input) const override;
 
   private:
+    const std::string      values;
     dealii::Point<dim>     point;
     dealii::Tensor<1, dim> exact;
     std::array<bool, dim>  given;

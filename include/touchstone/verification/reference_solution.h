@@ -57,6 +57,13 @@ namespace Touchstone
   public:
     virtual ~ReferenceSolution() = default;
 
+    /** @brief Before the run: whether the mesh has what is compared. Collective.
+     * @throws InputError on all ranks */
+    virtual void
+    check_mesh(const Solid &) const
+    {
+    }
+
     /** @brief Compare the result of the last step. Collective. */
     virtual ReferenceComparison
     compare(const ReferenceInput &input) const = 0;
