@@ -266,6 +266,7 @@ namespace Touchstone
     std::vector<double> numbers;
     if (format == "ascii")
       {
+        convert(type, "", numbers); // refuses types that there are not
         const std::size_t  end = text.find('<', begin);
         std::istringstream in(text.substr(begin, end - begin));
         for (std::string word; in >> word;)
