@@ -254,23 +254,28 @@ namespace Touchstone
                               R"(\[List of <(.*)> of length (\d+)\.\.\.(\d+) \(inclusive\)(.*))")))
         return "";
       const std::string inner = found[1], least = found[2], most = found[3];
-      const std::string items =
-        inner.compare(0, 5, "[List") == 0       ? "points, each of " + list_in_words(inner) + ","
-        : numbers_in_words(inner, true).empty() ? "words"
-                                                : numbers_in_words(inner, true);
-      return (least == most       ? least
-              : most.size() >= 10 ? "at least " + least
-              : least == "0"      ? "up to " + most
-                                  : least + " to " + most) +
-             " " + items + " with " +
+      if (inner.compare(0, 6, "[Tuple") == 0)
+        return "pairs of numbers, with a colon in each and commas between them";
+      std::string items = numbers_in_words(inner, true);
+      if (inner.compare(0, 5, "[List") == 0)
+        items = "points, each of " + list_in_words(inner) + ",";
+      else if (items.empty())
+        items = "words";
+      // The limit of the type is none to the user.
+      const bool        any   = most.size() >= 10;
+      const std::string count = least == most         ? least + " "
+                                : any && least == "0" ? ""
+                                : any                 ? "at least " + least + " "
+                                : least == "0"        ? "up to " + most + " "
+                                                      : least + " to " + most + " ";
+      return count + items + " with " +
              (found[4].str().find(';') == std::string::npos ? "commas" : "semicolons") +
              " between them";
     }
 
 
 
-    /** A remedy in words, from deal.II's description of the pattern that @p value does not match.
-     */
+    /** A remedy in words, from deal.II's description of a pattern that @p value does not match. */
     std::string
     remedy(const std::string &pattern, const std::string &value)
     {
