@@ -87,6 +87,8 @@ namespace Touchstone
                          (square(outer_radius) + square(bore_radius)) /
                          (square(outer_radius) - square(bore_radius)) +
                        outer_nu * (1. + outer_nu) / outer_young;
+    if (!std::isfinite(inner_compliance + outer_compliance))
+      values.fail("The exact solution of these values is not finite.", "Correct the numbers.");
   }
 
 
