@@ -2,7 +2,8 @@
 """Hertz contact on meshes that follow the edge of the contact: the error of the pressure field falls
 with the mesh, and the estimated error of the contact force is that of the force."""
 
-from touchstone_test import FACTOR, below, check, finish, prm, run, same
+from touchstone_test import (FACTOR, MULTIPLIERS, PENALTY, below, check, finish, prm, relative, run,
+                             same, tests)
 
 SCENE = prm / "benchmarks/hertz_rings.prm"
 
@@ -29,4 +30,19 @@ for factor in 0.5, 1:
     estimate = estimated.contact("contact", "estimated_force_error")
     effectivity = estimate / (force / EXACT - 1)
     check(0.5 < effectivity < 2, f"factor {factor}: the estimate is {effectivity:.2f} times the error")
+
+# All enforcements and ranks estimate alike, and the estimate ends refinement.
+FORCE = {"Refinement/Estimator": "contact force", "Refinement/Cycles": 0}
+estimates = [run(name, tests / "hertz_sphere.prm", {**FORCE, **settings}, ranks)
+             .contact("contact", "estimated_force_error")
+             for name, settings, ranks in (("elimination", {}, 1), ("two_ranks", {}, 2),
+                                           ("multipliers", MULTIPLIERS, 1), ("penalty", PENALTY, 1))]
+for estimate in estimates[1:]:
+    below("estimates apart", relative(estimate, estimates[0]), 1e-3)
+adaptive = run("adaptive", prm / "hertz_sphere_adaptive.prm",
+               {**FORCE, "Refinement/Cycles": 6, "Refinement/Contact fraction": 0.3,
+                "Refinement/Tolerance": 0.02})
+errors = [mesh["estimated_error"] for mesh in adaptive.summary["meshes"]]
+check(len(errors) > 1 and min(errors[:-1]) >= 0.02 > errors[-1],
+      f"refinement did not end with the estimate: {errors}")
 finish()
