@@ -2,6 +2,7 @@
 
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/boundary_faces.h>
+#include <touchstone/drive/force_estimate.h>
 #include <touchstone/drive/refinement.h>
 #include <touchstone/solid/error_estimator.h>
 #include <touchstone/solid/state_transfer.h>
@@ -96,7 +97,7 @@ namespace Touchstone
 
 
   double
-  Refinement::estimate(const Step &problem)
+  Refinement::estimate(Step &problem)
   {
     using Estimator = RefinementParameters::Estimator;
     const Vector u  = problem.state().ghosted_displacement();
@@ -105,8 +106,10 @@ namespace Touchstone
     // The region needs no error estimate, and gives none.
     if (parameters.estimator == Estimator::region)
       return 0.;
-    errors =
-      parameters.estimator == Estimator::kelly ? jump_errors(solid, u) : recovery_errors(solid, u);
+    if (parameters.estimator == Estimator::kelly)
+      errors = jump_errors(solid, u);
+    else if (parameters.estimator == Estimator::recovered_stress)
+      errors = recovery_errors(solid, u);
     variation           = pressure_variation(problem.state().contact.fields(false),
                                    pair_boundaries(problem.state().contact));
     const double energy = problem.state().strain_energy();
@@ -117,6 +120,13 @@ namespace Touchstone
       {
         errors = 0.;
         return 0.;
+      }
+    if (parameters.estimator == Estimator::contact_force)
+      {
+        const ForceEstimate estimate(problem);
+        errors = estimate.cells;
+        forces = estimate.relative;
+        return estimate.largest();
       }
     const double squared = Utilities::MPI::sum(errors.l1_norm(), solid.communicator);
     // Relative error in the energy norm, (Sum eta_K^2 / 2E)^(1/2), doc/theory.md 11, "Estimators".

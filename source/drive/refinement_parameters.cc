@@ -16,7 +16,9 @@ namespace Touchstone
                       "Estimator",
                       "Where the mesh is refined: 'none' leaves it as it is; 'Kelly' looks at the "
                       "jumps of stress between cells, 'recovered stress' at the distance from "
-                      "stress to averaged stress (Zienkiewicz-Zhu), both also at the contact; "
+                      "stress to averaged stress (Zienkiewicz-Zhu), 'contact force' at the same "
+                      "weighted by its influence on the contact forces, whose errors it estimates "
+                      "(with 'Cycles = 0' that alone), all three also at the contact; "
                       "'region' takes what 'Region' says alone.");
     prm.add_parameter("Cycles",
                       cycles,
@@ -52,11 +54,14 @@ namespace Touchstone
                       maximum_cells,
                       "With more cells than about this the mesh is refined no further.",
                       Patterns::Integer(1));
-    prm.add_parameter("Tolerance",
-                      tolerance,
-                      "Refinement ends when the estimated error of the stress, relative in the "
-                      "energy norm, falls below this; 0 goes through all cycles. [no unit]",
-                      Patterns::Double(0., 1.));
+    prm.add_parameter(
+      "Tolerance",
+      tolerance,
+      "Refinement ends when the estimated error falls below this: that of the "
+      "stress, relative in the energy norm, or with 'Estimator = contact force' the "
+      "largest relative one of a contact force; 0 goes through all cycles. [no "
+      "unit]",
+      Patterns::Double(0., 1.));
     prm.add_parameter("Region",
                       region,
                       "Formula of x, y, z and t: cells at whose centre it is positive are refined "

@@ -226,6 +226,8 @@ namespace Touchstone
         if (results[p].active > 0)
           had_contact[pair] = time;
       }
+    for (std::size_t p = 0; p < refinement.force_errors().size(); ++p)
+      record.force_errors[scene.pairs[p].name] = refinement.force_errors()[p];
     record.pretension = problem->state().pretension;
     summary.reactions.clear();
     for (const Reaction &reaction : problem->state().reactions())

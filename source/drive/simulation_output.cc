@@ -94,6 +94,7 @@ namespace Touchstone
         input.displacement = &u;
         input.points       = contact_points(problem->state().contact, u);
         input.pair_results = pair_results(problem->state().contact, u);
+        input.boundaries   = pair_boundaries(problem->state().contact);
         input.motion       = summary.motion ? &*summary.motion : nullptr;
         input.communicator = communicator;
         // Only a converged run is compared: the exact solution is that of the end time.

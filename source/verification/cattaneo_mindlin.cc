@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/verification/cattaneo_mindlin.h>
+#include <touchstone/verification/contact_field.h>
 #include <touchstone/verification/edge_fit.h>
 
 #include <deal.II/base/mpi.h>
@@ -223,6 +224,25 @@ namespace Touchstone
                c);
     result.add("pressure_l2", "pressure profile", relative(p_error, p_size));
     result.add("shear_traction_l2", "shear traction profile", relative(q_error, q_size));
+    if (ContactField::available(input))
+      {
+        const ContactField field(input, pair);
+        result.add("pressure_field_l2",
+                   "pressure field",
+                   field.relative_error([](const auto &, const auto &t) { return std::abs(t[2]); },
+                                        [&](const dealii::Point<dim> &x) {
+                                          return p0 * half_ellipse(x[0] - centre, a);
+                                        }));
+        result.add("shear_traction_field_l2",
+                   "shear traction field",
+                   field.relative_error([](const auto &, const auto &t) { return -t[0]; },
+                                        [&](const dealii::Point<dim> &x) {
+                                          return shear_traction(x[0] - centre,
+                                                                normal,
+                                                                tangential,
+                                                                peak);
+                                        }));
+      }
     if (!std::isnan(prescribed))
       {
         // A force that has come back to zero is compared with its peak.

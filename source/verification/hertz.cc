@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/verification/contact_field.h>
 #include <touchstone/verification/edge_fit.h>
 #include <touchstone/verification/hertz.h>
 
@@ -85,9 +86,9 @@ namespace Touchstone
 
 
   double
-  Hertz::distance(const ContactPoint &point, const unsigned int axis) const
+  Hertz::distance(const dealii::Point<dim> &x, const unsigned int axis) const
   {
-    dealii::Tensor<1, dim> r = dealii::Tensor<1, dim>(point.reference_position) - centre;
+    dealii::Tensor<1, dim> r = dealii::Tensor<1, dim>(x) - centre;
     // Distance from the axis of the load.
     r[axis] = 0.;
     return r.norm();
@@ -125,7 +126,7 @@ namespace Touchstone
     double  error2 = 0., exact2 = 0., active_area = 0.;
     for (const ContactPoint &point : points)
       {
-        const double r     = distance(point, axis);
+        const double r     = distance(point.reference_position, axis);
         const double p     = point.pressure;
         const double exact = r < a ? peak * std::sqrt(1. - (r / a) * (r / a)) : 0.;
         // All nodes count, those outside the exact contact with zero pressure: contact that spreads
@@ -155,6 +156,16 @@ namespace Touchstone
     result.add("pressure_l2",
                "pressure profile",
                exact2 > 0. ? std::sqrt(error2 / exact2) : std::nan(""));
+    if (ContactField::available(input))
+      result.add("pressure_field_l2",
+                 "pressure field",
+                 ContactField(input, pair)
+                   .relative_error([axis](const auto &,
+                                          const auto &t) { return std::abs(t[axis]); },
+                                   [&](const dealii::Point<dim> &x) {
+                                     const double r = distance(x, axis);
+                                     return r < a ? peak * std::sqrt(1. - (r / a) * (r / a)) : 0.;
+                                   }));
     return result;
   }
 } // namespace Touchstone

@@ -33,11 +33,19 @@ namespace Touchstone
 
     /**
      * @brief Estimate the errors of the present state of @p problem.
-     * @return that of the stress, relative in the energy norm; no unit; 0 without an
-     * estimator. Collective.
+     * @return that of the stress, relative in the energy norm, or the largest of a contact force
+     * (ForceEstimate); no unit; 0 without an estimator. Collective.
      */
     double
-    estimate(const Step &problem);
+    estimate(Step &problem);
+
+    /** @brief Of the last estimate(): the relative errors of the contact forces by pairs; empty if
+     * it was not about these. */
+    const std::vector<double> &
+    force_errors() const
+    {
+      return forces;
+    }
 
     /**
      * @brief Mark cells by what estimate() found in the same state.
@@ -64,7 +72,8 @@ namespace Touchstone
     std::shared_ptr<const Formula> region;
     /** Of the last estimate(), by cells: squared error, and the squared variation of
      * the pressure over their slave faces. */
-    Values errors, variation;
+    Values              errors, variation;
+    std::vector<double> forces;
 
     /** Change the mesh, and take fields along. */
     std::vector<Vector>

@@ -23,13 +23,16 @@ namespace Touchstone
       /** Jumps of stress between cells. */
       kelly,
       /** Distance of stress from averaged stress. */
-      recovered_stress
+      recovered_stress,
+      /** The same, weighted by what it means for the contact forces (ForceEstimate). */
+      contact_force
     };
     Keyword<Estimator> estimator{Estimator::none,
                                  {{"none", Estimator::none},
                                   {"region", Estimator::region},
                                   {"Kelly", Estimator::kelly},
-                                  {"recovered stress", Estimator::recovered_stress}}};
+                                  {"recovered stress", Estimator::recovered_stress},
+                                  {"contact force", Estimator::contact_force}}};
     /** Of solving and refining in the first step, and in each later one. */
     unsigned int cycles = 3, cycles_per_step = 1;
     /** Share of the estimated squared error in the cells that are refined, and in

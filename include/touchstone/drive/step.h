@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -178,6 +179,16 @@ namespace Touchstone
 
     virtual StepState
     state() const = 0;
+
+    /** @brief The displacement by which all bodies respond to a unit motion of the supports of one
+     * @p body along @p direction, contact as it is in the present state; no unit. The error of a
+     * contact force is weighted with it (ForceEstimate). Nothing for steps that are not solved by
+     * iterations, and for bodies that are not linear. Collective. */
+    virtual std::optional<Vector>
+    support_response(unsigned int /*body*/, const dealii::Tensor<1, dim> & /*direction*/)
+    {
+      return std::nullopt;
+    }
 
     /** @brief The rigid motions that supports leave free, so that contact alone resists them, as a
      * sentence; empty if there are none, or if inertia resists them. Known after start(). */

@@ -49,6 +49,8 @@ namespace Touchstone
     }
     StepState
     state() const override;
+    std::optional<Vector>
+    support_response(unsigned int body, const dealii::Tensor<1, dim> &direction) override;
     StepTransfer
     transfer() const override;
     void

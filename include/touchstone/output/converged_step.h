@@ -34,6 +34,9 @@ namespace Touchstone
     unsigned int phase = 0;
     /** By name of the contact pair, summed over all ranks. */
     std::map<std::string, PairResult> pairs;
+    /** Estimated relative errors of their forces, NaN where there is no estimate; empty if none
+     * were asked for. */
+    std::map<std::string, double> force_errors;
     /** Shortening and tension of pairs with pretension: length, force. */
     std::map<std::string, std::pair<double, double>> pretension;
     /** Reaction forces, by "BODY/BOUNDARY". */

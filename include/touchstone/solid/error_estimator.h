@@ -30,6 +30,15 @@ namespace Touchstone
    */
   dealii::Vector<double>
   recovery_errors(const Solid &solid, const Vector &u);
+
+  /**
+   * @brief Estimate of the products of the errors of two displacements in the bilinear form of
+   * elasticity, a(e_u, e_z), by cells: the same distances of stress multiplied with each other.
+   * Force times length, or force if @p z has no unit.
+   * @param u, z With ghosts.
+   */
+  dealii::Vector<double>
+  recovery_products(const Solid &solid, const Vector &u, const Vector &z);
 } // namespace Touchstone
 
 #endif

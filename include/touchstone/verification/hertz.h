@@ -45,7 +45,7 @@ namespace Touchstone
 
     /** @brief Distance from the axis of the contact, length. */
     double
-    distance(const ContactPoint &point, unsigned int axis) const;
+    distance(const dealii::Point<dim> &x, unsigned int axis) const;
   };
 } // namespace Touchstone
 

@@ -26,6 +26,8 @@ namespace Touchstone
     std::vector<ContactPoint> points;
     /** In the order of the scene's pairs. */
     std::vector<PairResult> pair_results;
+    /** In the order of the scene's pairs; empty where traction fields are not asked for. */
+    std::vector<PairBoundaries> boundaries;
     /** Null without inertia. */
     const Motion *motion       = nullptr;
     MPI_Comm      communicator = MPI_COMM_SELF;

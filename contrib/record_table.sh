@@ -1,0 +1,42 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# record_table.sh [PROGRAM]: Hertz contact of a ball on a block on meshes that follow the edge of
+# the contact (prm/benchmarks/hertz_rings.prm), as a Markdown table: unknowns, CPU seconds and
+# relative L2 errors of the contact pressure. The first run is made on a coarse mesh around the
+# edge of half spaces; the others follow the edge that it finds, and their CPU seconds
+# include those of the first.
+set -eu
+root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
+program=${1:-$root/build/touchstone}
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# number KEY: the first of that name in the summary.
+number() {
+  awk -v key="\"$1\":" '$1 == key { sub(",", "", $2); print $2; exit }' "$folder/run/summary.json"
+}
+
+# row EDGE CONSTANTS: run, and print a line.
+row() {
+  rm -rf "$folder/run"
+  /usr/bin/time -f %U -o "$folder/time" "$program" --output "$folder/run" \
+    --set "Output/VTU interval=0" --set "Constants=e = $1, $2" \
+    "$root/prm/benchmarks/hertz_rings.prm" >"$folder/text" 2>&1 ||
+    { cat "$folder/text" >&2; exit 1; }
+  cpu=$(echo "$(tail -n 1 "$folder/time") ${first:-0}" | awk '{ printf "%.2f", $1 + $2 }')
+  printf '| %s | %s | %s | %s | %.2e | %.2e |\n' "$(echo "$2" | tr -d ' ')" "$(number unknowns)" \
+    "$(number newton)" "$cpu" "$(number pressure_field_l2)" "$(number pressure_l2)"
+}
+
+echo "| mesh | unknowns | Newton | CPU s | pressure, L2 of the field | L2 of nodal values |"
+echo "|---|---|---|---|---|---|"
+row 0.1 "n = 4, h = 0.002, s = 0.015, c = 0.03"
+first=$cpu
+# a = (3 P R / 4 E*)^(1/3) at the force of the whole model.
+edge=$(sed -n 's/^force of the whole model: //p' "$folder/text" | tail -n 1 |
+  awk '{ printf "%.5f", exp(log(3 * $1 * 100 / (4 * 210000 / (2 * (1 - 0.09)))) / 3) }')
+row "$edge" "n = 6, h = 0.001, s = 0.008, c = 0.03"
+row "$edge" "n = 8, h = 0.0003, s = 0.005, c = 0.02"
+row "$edge" "n = 12, h = 0.0003, s = 0.005, c = 0.03"
+row "$edge" "n = 12, h = 0.0002, s = 0.004, c = 0.025, k = 1.35"

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/drive/step_problem.h>
+
+#include <algorithm>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  // The linear system of a Newton iteration answers what the bodies do if supports move: in the
+  // converged state its right-hand side vanishes but for that motion. All enforcements can give it.
+  std::optional<Vector>
+  StepProblem::support_response(const unsigned int body, const Tensor<1, dim> &direction)
+  {
+    if (!solid.linear())
+      return std::nullopt;
+    // About as far as the bodies have moved, so that what is left of the residual is small beside
+    // it.
+    const double       distance = std::max(u.linfty_norm(), 1e-12 * extent);
+    Vector             behind(u);
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->material_id() == body)
+        {
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (solid.owned.is_element(dofs[i]))
+              behind(dofs[i]) =
+                u(dofs[i]) - distance * direction[solid.fe.system_to_component_index(i).first];
+        }
+    behind.compress(VectorOperation::insert);
+    // The supports find the body that far behind, and take it along.
+    system->prescribe(time, behind);
+    system->assemble({time, u, applied, unbalanced, 1e-4, forcing_term.slow()});
+    Vector response(solid.owned, solid.communicator);
+    system->solve(response);
+    // As residual() has left them.
+    system->prescribe(time, u);
+    response *= 1. / distance;
+    return response;
+  }
+} // namespace Touchstone
