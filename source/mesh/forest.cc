@@ -149,7 +149,7 @@ namespace Touchstone
     for (const auto &[name, members] : mesh.node_sets)
       for (const unsigned int v : members)
         node_sets.back()[name].insert(
-          {{mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}});
+          std::array<double, dim>{{mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}});
     // A face of a mesh file can belong to several boundaries; such faces have an id of their
     // own, which each of those boundaries includes. So a boundary is a set of ids.
     std::map<types::boundary_id, BoundaryIds> ids_of;

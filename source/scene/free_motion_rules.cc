@@ -64,7 +64,7 @@ namespace Touchstone
                              scene.time_integration.impact.word(),
                              "takes the motion of obstacles as given, but '" + obstacle.name +
                                "' is moved by forces",
-                             "set it to 'elastic'");
+                             "set it to 'elastic', or 'Scheme' to 'contact_stabilized'");
           for (const ContactPairParameters &pair : scene.pairs)
             if (!pair.pretension_force.empty())
               throw InputError(section,
