@@ -212,17 +212,23 @@ namespace Touchstone
     present_time += length;
     for (RigidTool &tool : tools)
       {
-        const RigidTool::State from  = tool.present;
-        const Tensor<1, dim>   shift = spatial(from, from.velocity, false),
-                             turn = spatial(from, from.velocity, true), momentum = spin(tool);
-        RigidTool::Components way{};
-        for (unsigned int d = 0; d < dim; ++d)
+        // The angular velocity that belongs to the momentum changes as the obstacle turns: that in
+        // the middle of the cycle makes the turn exact to second order.
+        const RigidTool::State from     = tool.present;
+        const Tensor<1, dim>   momentum = spin(tool);
+        for (const double part : {0.5, 1.})
           {
-            way[d]       = length * shift[d];
-            way[dim + d] = length * turn[d];
+            const Tensor<1, dim> shift = spatial(from, from.velocity, false),
+                                 turn  = spatial(tool.present, tool.present.velocity, true);
+            RigidTool::Components way{};
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                way[d]       = part * length * shift[d];
+                way[dim + d] = part * length * turn[d];
+              }
+            RigidTool::move(tool.present, from, way);
+            set_spin(tool, momentum);
           }
-        RigidTool::move(tool.present, from, way);
-        set_spin(tool, momentum);
         tool.place(tool.present);
       }
   }
