@@ -64,7 +64,7 @@ end
     const Solid         solid(scene.bodies, 1, forest, comm);
     Contact             contact(pair_inputs(scene, forest, solid), scene.contact, solid);
     const NodeMap       map(solid);
-    ImpulseContact      impulses(contact, scene.contact, map, scene.bodies);
+    ImpulseContact      impulses(contact, scene.contact, map, scene.bodies, scene.obstacles);
     const unsigned int  n = map.n_owned();
     std::vector<double> mass(n);
     NodeField           u(map.n_local()), v(map.n_local()), before;

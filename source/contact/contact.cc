@@ -153,13 +153,22 @@ namespace Touchstone
   // An obstacle is rigid and driven from outside: the work that it does on the slave body enters
   // the energy balance of dynamics, whereas contact of two bodies does no work from outside.
   double
-  Contact::work_of_obstacles(const ForcePart part) const
+  Contact::work_of_obstacles(const ForcePart part, const double weight) const
   {
     double work = 0.;
     for (const ContactRow &row : all_rows)
-      if (state(row).active())
-        work += part_of_force(row, state(row), part) *
-                row.motion.since(committed(row).motion, contact_point(row));
+      {
+        const ObstacleParameters *const obstacle = pair(row).obstacle();
+        const double   now = obstacle != nullptr && obstacle->free.any() ? weight : 1.;
+        Tensor<1, dim> force;
+        if (state(row).active())
+          force += now * part_of_force(row, state(row), part);
+        if (const RowState &before = method->states().of_committed(row);
+            now != 1. && before.active())
+          force += (1. - now) * part_of_force(committed(row), before, part);
+        if (force.norm_square() > 0.)
+          work += force * row.motion.since(committed(row).motion, contact_point(row));
+      }
     return Utilities::MPI::sum(work, solid.communicator);
   }
 

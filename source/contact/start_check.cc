@@ -220,8 +220,9 @@ namespace Touchstone
   void
   StartCheck::check_facing() const
   {
-    // Which parts of a body will meet is not known before they do.
-    if (parameters.of_one_body())
+    // Which parts of a body will meet is not known before they do, and what is tied to an obstacle
+    // meets it nowhere else.
+    if (parameters.of_one_body() || (master == nullptr && parameters.tied()))
       return;
     bool looks = false;
     if (master == nullptr)

@@ -38,6 +38,8 @@ namespace Touchstone
     constexpr unsigned int most_halvings = 12;
     kick(length);
     map.update_ghosts(now.v);
+    if (impulses)
+      impulses->tool_nodes().kick(now.time, 0.5 * (now.length + length));
     if (impulses && !press(length))
       {
         if (halved == most_halvings)
@@ -48,6 +50,7 @@ namespace Touchstone
           }
         now.v       = v_before;
         now.support = support_before;
+        impulses->tool_nodes().restore();
         cycle(0.5 * length, halved + 1);
         cycle(0.5 * length, halved + 1);
         return;
@@ -59,6 +62,8 @@ namespace Touchstone
       support_impulse[k] += 0.5 * (now.length + length) * now.support[k];
     for (unsigned int i = 0; i < map.n_local(); ++i)
       now.u[i] += length * now.v[i];
+    if (impulses)
+      impulses->tool_nodes().advance(length);
     now.time += length;
     // Forces at both ends of a cycle do work on its motion (doc/explicit.md, section 6).
     add_work(length);

@@ -128,6 +128,7 @@ namespace Touchstone
             solid,
             {},
             {},
+            impulses ? impulses->tool_nodes().results() : std::map<std::string, RigidToolResult>(),
             [this]() { return supports.reactions(kept.support); },
             [this]() {
               Vector result(displacement);

@@ -62,7 +62,7 @@ namespace Touchstone
                                                      solid,
                                                      map);
         impulses = std::make_unique<ImpulseContact>(
-          contact, scene.contact, map, scene.bodies, std::move(general));
+          contact, scene.contact, map, scene.bodies, scene.obstacles, std::move(general));
       }
     for (NodeField *field : {&now.u, &now.v, &now.internal, &now.viscous, &v_before})
       field->resize(map.n_local());
@@ -179,11 +179,14 @@ namespace Touchstone
     map.update_ghosts(now.v);
     if (impulses)
       {
+        impulses->tool_nodes().kick(0., -0.5 * now.length);
         impulses->project_before(now.u, at_start, now.v, 0., now.length);
         map.update_ghosts(now.v);
       }
     kept = now;
     cells.commit();
+    if (impulses)
+      impulses->tool_nodes().commit();
     committed         = energies();
     committed.initial = committed.present();
     committed.update_largest();
@@ -235,6 +238,7 @@ namespace Touchstone
     if (impulses)
       {
         impulses->end_interval(now.u, t);
+        impulses->tool_nodes().end_interval(t);
         counts.contact = impulses->work();
       }
     judge();

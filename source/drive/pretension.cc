@@ -4,6 +4,7 @@
 #include <touchstone/base/exact_sum.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/drive/broyden.h>
 #include <touchstone/drive/pretension.h>
 
 #include <algorithm>
@@ -109,39 +110,15 @@ namespace Touchstone
   void
   Pretension::learn(const std::vector<double> &residual)
   {
-    // B += (dx - B dr) (dx^T B) / (dx^T B dr), of which only a part is taken where the new matrix
-    // would come near to a singular one: More and Trangenstein (1976, Math. Comp. 30).
     const std::size_t   n = cuts.size();
-    std::vector<double> dx(n), dr(n), change(n), row(n);
-    double              denominator = 0.;
+    std::vector<double> dx(n), dr(n);
     for (unsigned int c = 0; c < n; ++c)
       if (by_force(cuts[c]))
         {
           dx[c] = present.shortening[c] - last_shortening[c];
           dr[c] = residual[c] - last_residual[c];
         }
-    std::vector<double> &B = present.compliance;
-    for (unsigned int c = 0; c < n; ++c)
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          change[c] += B[c * n + k] * dr[k];
-          row[k] += dx[c] * B[c * n + k];
-        }
-    for (unsigned int k = 0; k < n; ++k)
-      denominator += row[k] * dr[k];
-    double square = 0.;
-    for (const double x : dx)
-      square += x * x;
-    if (square == 0.)
-      return;
-    constexpr double smallest = 1e-3;
-    const double     ratio    = denominator / square;
-    const double     part =
-      std::abs(ratio) >= smallest ? 1. : (1. - std::copysign(smallest, ratio)) / (1. - ratio);
-    denominator = (1. - part) * square + part * denominator;
-    for (unsigned int c = 0; c < n; ++c)
-      for (unsigned int k = 0; k < n; ++k)
-        B[c * n + k] += part * (dx[c] - change[c]) * row[k] / denominator;
+    broyden_update(present.compliance, dx, dr);
   }
 
 

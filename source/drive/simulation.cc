@@ -170,6 +170,7 @@ namespace Touchstone
     record.points       = contact_points(problem->state().contact, u);
     for (unsigned int p = 0; p < results.size(); ++p)
       record.pairs[scene.pairs[p].name] = results[p];
+    record.tools = problem->state().tools;
     for (const Reaction &reaction : problem->state().reactions())
       record.reactions[reaction.body + "/" + reaction.boundary] = reaction.force;
     const CommittedMotion &motion = problem->state().time_integration;
@@ -229,6 +230,7 @@ namespace Touchstone
     for (std::size_t p = 0; p < refinement.force_errors().size(); ++p)
       record.force_errors[scene.pairs[p].name] = refinement.force_errors()[p];
     record.pretension = problem->state().pretension;
+    record.tools      = problem->state().tools;
     summary.reactions.clear();
     for (const Reaction &reaction : problem->state().reactions())
       {

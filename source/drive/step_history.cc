@@ -62,6 +62,8 @@ namespace Touchstone
     contact.add_forces(tangential, ForcePart::tangential);
     // What the supports add is what is missing to the balance of the nodes.
     support *= -1.;
+    const auto                      coefficients = scene.time_integration.coefficients();
+    const double                    end_weight   = coefficients.gamma + coefficients.alpha_m;
     std::vector<VelocityConstraint> constraints;
     // Impacts without rebound change velocities, and need the conditions of the nodes in contact.
     const bool plastic = scene.time_integration.plastic_impacts();
@@ -74,8 +76,8 @@ namespace Touchstone
          &support,
          plastic ? &constraints : nullptr,
          [this](Vector &force) { system->remove_supported(force); },
-         contact.work_of_obstacles(ForcePart::normal),
-         contact.work_of_obstacles(ForcePart::tangential)});
+         contact.work_of_obstacles(ForcePart::normal, end_weight),
+         contact.work_of_obstacles(ForcePart::tangential, end_weight)});
   }
 
 
@@ -132,6 +134,7 @@ namespace Touchstone
     result.energies            = integration->committed_energies();
     result.largest_force_scale = largest_force_scale;
     result.counts              = {linear_counts(), assemblies, n_searches()};
+    result.tools               = tools.transfer();
     return result;
   }
 
@@ -145,6 +148,7 @@ namespace Touchstone
     largest_force_scale = before.largest_force_scale;
     committed_time      = before.committed_time;
     assemblies += before.counts.assemblies;
+    tools.adopt(before.tools);
     // At time 0 the energies are those that the first velocities mean on this mesh.
     if (committed_time > 0.)
       integration->resume(committed_time, before.energies);
@@ -174,6 +178,7 @@ namespace Touchstone
         });
       }
     u = *middle;
+    tools.continue_at(t, before.tools.guess);
     contact.update(u, t);
     contact.adopt({middle + 1, rates}, false);
   }

@@ -32,6 +32,7 @@ namespace Touchstone
               solid,
               boundary_conditions.mirrors())
     , pretension(scene.pairs, scene.load_stepping, contact)
+    , tools(scene.obstacles, scene.time_integration, scene.newton.residual_tolerance, contact)
     , u(solid.owned, solid.communicator)
     , committed_u(u)
     , external(u)
@@ -60,7 +61,7 @@ namespace Touchstone
       scene.time_integration, scene.load_stepping.nominal_step(0.), solid, slaves, committed_u);
     system = std::make_unique<StepSystem>(
       StepSystem::Parts{scene, solid, boundary_conditions, contact, *integration});
-    parts = {integration.get(), &solid, &contact, &pretension};
+    parts = {integration.get(), &solid, &contact, &pretension, &tools};
     // Two lengths: of the largest coordinate, which sets the round-off of positions; and of the box
     // around all bodies, beyond which no increment makes sense.
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
@@ -91,6 +92,7 @@ namespace Touchstone
       contact.update(u, 0.);
       contact.commit();
       remember_contact();
+      tools.start();
     }
     // In statics a rigid motion without support has no equilibrium; in dynamics inertia resists it.
     if (!integration->dynamic())
@@ -131,6 +133,7 @@ namespace Touchstone
     time = t;
     contact.enforcement().begin_step();
     pretension.begin_step(t);
+    tools.begin_step(t);
     integration->begin_step(time, u);
     // Only the first residual of the step, at the first guess of its end, estimates when the first
     // gap closes: later iterates already obey contact.
@@ -152,7 +155,7 @@ namespace Touchstone
     begin_step(t);
     const Newton newton(parameters);
     unsigned int n_iterations = newton.solve(*this, observer);
-    while (pretension.correct(solid.ghosted(u)))
+    while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
       n_iterations += newton.solve(*this, observer);
     return n_iterations;
   }
@@ -206,6 +209,7 @@ namespace Touchstone
             solid,
             {linear_counts(), assemblies, n_searches()},
             pretension.results(),
+            tools.results(),
             [this, needed]() { return boundary_conditions.reactions(needed()); },
             [this, needed]() { return boundary_conditions.nodal_reactions(needed()); }};
   }

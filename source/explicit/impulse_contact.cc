@@ -27,11 +27,12 @@ namespace Touchstone
 
 
 
-  ImpulseContact::ImpulseContact(Contact                           &contact,
-                                 const ContactParameters           &parameters,
-                                 const NodeMap                     &nodes,
-                                 const std::vector<BodyParameters> &bodies,
-                                 std::unique_ptr<GeneralContact>    general)
+  ImpulseContact::ImpulseContact(Contact                               &contact,
+                                 const ContactParameters               &parameters,
+                                 const NodeMap                         &nodes,
+                                 const std::vector<BodyParameters>     &bodies,
+                                 const std::vector<ObstacleParameters> &obstacles,
+                                 std::unique_ptr<GeneralContact>        general)
     : contact(contact)
     , rule(rule_of(contact.enforcement()))
     , parameters(parameters)
@@ -41,6 +42,7 @@ namespace Touchstone
     , surfaces(contact, nodes)
     , displacement(contact.solid_model().owned, contact.communicator())
     , general(std::move(general))
+    , tools(obstacles, contact)
     , history(contact.rows().size())
     , inverse_masses(nodes.n_owned())
   {
@@ -58,7 +60,7 @@ namespace Touchstone
   ImpulseContact::set_mobility(const std::vector<SymmetricTensor<2, dim>> &inverse_mass)
   {
     std::copy_n(inverse_mass.begin(), nodes.n_owned(), inverse_masses.begin());
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+    for (unsigned int node = 0; node < local.size(); ++node)
       solver.mobility[node] = inverse_masses[local[node]];
     solver.nodes.forward(solver.mobility);
   }
@@ -68,12 +70,22 @@ namespace Touchstone
   void
   ImpulseContact::import(const NodeField &u, const NodeField &before, const NodeField &v)
   {
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+    for (unsigned int node = 0; node < local.size(); ++node)
       {
         u_nodes[node]         = u[local[node]];
         v_before[node]        = before[local[node]];
         solver.velocity[node] = v[local[node]];
       }
+    for (unsigned int node = local.size(); node < solver.nodes.n_owned(); ++node)
+      {
+        // Gaps count from where an obstacle is, so that it has no displacement.
+        const Index dof       = solver.nodes.dof(node);
+        v_before[node]        = tools.velocity_before(dof);
+        solver.velocity[node] = tools.velocity(dof);
+        solver.mobility[node] = tools.mobility(dof);
+      }
+    if (!tools.empty())
+      solver.nodes.forward(solver.mobility);
     solver.nodes.forward(u_nodes);
     solver.nodes.forward(v_before);
     solver.nodes.forward(solver.velocity);
@@ -142,12 +154,23 @@ namespace Touchstone
       }
     acted            = true;
     all_asleep_until = 0.;
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
-      v[local[node]] = solver.velocity[node];
+    take_velocities(v);
     keep_results(step);
     if (rule.springs())
       keep_springs(step);
     return true;
+  }
+
+
+
+  void
+  ImpulseContact::take_velocities(NodeField &v)
+  {
+    for (unsigned int node = 0; node < local.size(); ++node)
+      v[local[node]] = solver.velocity[node];
+    for (unsigned int node = local.size(); node < solver.nodes.n_owned(); ++node)
+      tools.take(solver.nodes.dof(node), solver.velocity[node]);
+    tools.spread();
   }
 
 
@@ -164,7 +187,7 @@ namespace Touchstone
     constexpr unsigned int most_rounds = 10;
     for (unsigned int round = 1; general->any(); ++round)
       {
-        for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+        for (unsigned int node = 0; node < local.size(); ++node)
           v[local[node]] = solver.velocity[node];
         const auto found = general->find_crossings(u, v, step);
         if (found == GeneralContact::Crossings::none)
@@ -175,7 +198,7 @@ namespace Touchstone
             counted.many_crossing_rounds += round > 5;
             break;
           }
-        for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+        for (unsigned int node = 0; node < local.size(); ++node)
           v[local[node]] = v_free[node];
         if (found == GeneralContact::Crossings::too_far || round == most_rounds)
           return false;
@@ -198,7 +221,7 @@ namespace Touchstone
   ImpulseContact::keep_drives()
   {
     for (const std::size_t k : solver.near)
-      if (k < kept.size() && solver.rows[k].n_nodes == 1) // of an obstacle
+      if (k < kept.size() && contact.rows()[kept[k].index].get().stencil.empty()) // of an obstacle
         {
           RowHistory &h = history[kept[k].index];
           h.drive       = solver.rows[k].drive;
@@ -257,6 +280,7 @@ namespace Touchstone
   ImpulseContact::commit()
   {
     springs.commit();
+    tools.commit();
   }
 
 
@@ -265,6 +289,7 @@ namespace Touchstone
   ImpulseContact::rollback()
   {
     springs.rollback();
+    tools.rollback();
   }
 
 
@@ -274,6 +299,7 @@ namespace Touchstone
   {
     if (rule.springs())
       springs.save(archive);
+    tools.save(archive);
   }
 
 
@@ -283,5 +309,6 @@ namespace Touchstone
   {
     if (rule.springs())
       springs.load(archive);
+    tools.load(archive);
   }
 } // namespace Touchstone

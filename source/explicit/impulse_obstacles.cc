@@ -94,6 +94,13 @@ namespace Touchstone
     RowHistory &h  = history[of.index];
     h.drive_before = h.driven ? h.drive : row.drive;
     row.normal     = here->normal;
+    if (tools.shift_dof(of.pair) != invalid_index)
+      {
+        row.levered = true;
+        // Behind the slave node and the obstacle's own.
+        solver.levers[row.first + row.n_nodes] =
+          tools.lever(of.pair, row.tied ? x : Point<dim>(x - here->gap_vector), time);
+      }
     if (row.tied)
       {
         // The point of the obstacle that the node had when the rows were made.

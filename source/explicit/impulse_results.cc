@@ -51,8 +51,16 @@ namespace Touchstone
     h.total += row.impulse;
     h.energy.normal += by_normal - supplied;
     h.energy.friction += by_slip;
-    h.energy.obstacles += row.impulse * (0.5 * (h.drive_before + row.drive)) + supplied;
-    h.energy.ahead = 0.5 * (row.impulse * row.drive);
+    // The motion of an obstacle that forces move is in the relative velocity.
+    Tensor<1, dim> drive_before = h.drive_before, drive = row.drive;
+    if (row.key.pair < contact.n_pairs() && tools.shift_dof(row.key.pair) != invalid_index)
+      {
+        const unsigned int slave = solver.nodes.node(row.first);
+        drive_before             = v_before[slave] - velocity_before(row, h);
+        drive                    = solver.velocity[slave] - row.velocity;
+      }
+    h.energy.obstacles += row.impulse * (0.5 * (drive_before + drive)) + supplied;
+    h.energy.ahead = 0.5 * (row.impulse * drive);
     h.pressed      = true;
   }
 

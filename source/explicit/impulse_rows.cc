@@ -143,7 +143,7 @@ namespace Touchstone
       add_row(contact.rows()[row.index], slots);
     if (general)
       general->lay_out(solver.rows, slots);
-    solver.nodes.reinit(contact.solid_model().owned, slots);
+    solver.nodes.reinit(tools.owned(), slots);
     solver.resize();
     set_nodes(u);
     for (std::size_t k = 0; k < kept.size(); ++k)
@@ -172,10 +172,14 @@ namespace Touchstone
   ImpulseContact::add_row(const ContactRow &from, std::vector<std::pair<Index, RowKey>> &slots)
   {
     ImpulseRow row;
-    row.key      = {from.pair, nodes.key(nodes.local(dim * from.slave))};
-    row.first    = slots.size();
-    row.n_nodes  = 1 + from.stencil.size();
-    row.n_lever  = from.stencil.empty() ? 0 : patches[from.index].size();
+    row.key     = {from.pair, nodes.key(nodes.local(dim * from.slave))};
+    row.first   = slots.size();
+    row.n_nodes = 1 + from.stencil.size();
+    row.n_lever = from.stencil.empty() ? 0 : patches[from.index].size();
+    // An obstacle that forces move is a partner with two nodes.
+    const bool tool = tools.shift_dof(from.pair) != invalid_index;
+    if (tool)
+      row.n_nodes = 2;
     row.tied     = from.tied;
     row.friction = from.friction;
     row.area     = from.area;
@@ -185,6 +189,12 @@ namespace Touchstone
     if (row.n_lever > 0)
       for (const Index dof : patches[from.index])
         slots.emplace_back(dof, row.key);
+    if (tool)
+      {
+        row.n_lever = 1;
+        slots.emplace_back(tools.shift_dof(from.pair), row.key);
+        slots.emplace_back(tools.turn_dof(from.pair), row.key);
+      }
     solver.rows.push_back(row);
   }
 
@@ -193,12 +203,21 @@ namespace Touchstone
   void
   ImpulseContact::set_nodes(const NodeField &u)
   {
-    const RowNodes &on = solver.nodes;
-    local.resize(on.n_owned());
+    const RowNodes &on        = solver.nodes;
+    unsigned int    of_bodies = on.n_owned();
+    while (of_bodies > 0 && tools.is_tool(on.dof(of_bodies - 1)))
+      --of_bodies;
+    local.resize(of_bodies);
     for (auto *field : {&reference, &u_nodes, &x_nodes, &made_at, &moved, &v_before})
       field->resize(on.n());
     std::vector<std::uint64_t> keys(on.n());
-    for (unsigned int node = 0; node < on.n_owned(); ++node)
+    for (unsigned int node = of_bodies; node < on.n_owned(); ++node)
+      {
+        keys[node]            = std::numeric_limits<std::uint64_t>::max() - on.dof(node);
+        u_nodes[node]         = Tensor<1, dim>();
+        solver.mobility[node] = tools.mobility(on.dof(node));
+      }
+    for (unsigned int node = 0; node < of_bodies; ++node)
       {
         local[node]           = nodes.local(on.dof(node));
         keys[node]            = nodes.key(local[node]);
@@ -209,8 +228,8 @@ namespace Touchstone
       }
     if (rule.method == ImpulseRule::Method::bulk_springs)
       {
-        stiffness_of_nodes.resize(on.n());
-        for (unsigned int node = 0; node < on.n_owned(); ++node)
+        stiffness_of_nodes.assign(on.n(), 0.);
+        for (unsigned int node = 0; node < of_bodies; ++node)
           stiffness_of_nodes[node] = stiffness_of_cells[local[node]];
         on.forward(stiffness_of_nodes);
       }
@@ -233,6 +252,8 @@ namespace Touchstone
     solver.weights[s++]    = 1.;
     for (const StencilEntry &entry : from.stencil)
       solver.weights[s++] = -entry.weight;
+    if (tools.shift_dof(from.pair) != invalid_index)
+      solver.weights[s++] = -1.;
     // Averages over slivers of faces can leave a sum that is one to ten digits only; momentum
     // wants all of them. The order of slots is that of the keys of nodes.
     double sum = 0.;

@@ -55,7 +55,7 @@ namespace Touchstone
     // An obstacle may drive a node that has rows with other bodies, too.
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
       if (const ContactPair &pair = contact.pair(p); !pair.master())
-        way = std::max(way, largest_motion(p, time, step));
+        way = std::max(way, largest_motion(p, time, step) + step * tools.speed(p));
     return beyond_reach * way;
   }
 

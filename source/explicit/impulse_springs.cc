@@ -28,7 +28,7 @@ namespace Touchstone
     if (rule.method != ImpulseRule::Method::bulk_springs)
       return 0.;
     start_interval(u, time);
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+    for (unsigned int node = 0; node < local.size(); ++node)
       u_nodes[node] = u[local[node]];
     solver.nodes.forward(u_nodes);
     set_geometry(time, step);

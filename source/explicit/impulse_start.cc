@@ -81,7 +81,8 @@ namespace Touchstone
     for (Tensor<1, dim> &velocity : solver.velocity)
       velocity *= -1.;
     solver.solve(control(time, step));
-    for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
-      v[local[node]] = -solver.velocity[node];
+    for (Tensor<1, dim> &velocity : solver.velocity)
+      velocity *= -1.;
+    take_velocities(v);
   }
 } // namespace Touchstone

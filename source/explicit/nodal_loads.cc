@@ -75,6 +75,22 @@ namespace Touchstone
   {
     add_body_forces(conditions);
     add_surface_loads(conditions, solid);
+    for (const NodeSetLoad &load : conditions.node_set_loads())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          std::vector<LoadPoint> points;
+          for (const SetNode &node : load.nodes)
+            {
+              LoadPoint point{};
+              point.position  = node.position;
+              point.n_nodes   = 1;
+              point.nodes[0]  = map.local(dim * node.node);
+              point.shapes[0] = 1.;
+              point.direction = node.share * Point<dim>::unit_vector(d);
+              points.push_back(point);
+            }
+          add(load.force[d], std::move(points));
+        }
   }
 
 

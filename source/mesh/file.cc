@@ -125,6 +125,7 @@ namespace Touchstone
                          "remove duplicate cells from the mesh");
       }
     attach_exact_surfaces(mesh, section);
+    take_sets(mesh, mesh_file, vertex_numbers, cell_numbers, section);
     curve(mesh, mesh_file, vertex_numbers, cell_numbers, section);
     return mesh;
   }

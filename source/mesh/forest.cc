@@ -145,6 +145,11 @@ namespace Touchstone
                          const std::vector<std::string>                         &symmetry)
   {
     names.emplace_back();
+    node_sets.emplace_back();
+    for (const auto &[name, members] : mesh.node_sets)
+      for (const unsigned int v : members)
+        node_sets.back()[name].insert(
+          std::array<double, dim>{{mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]}});
     // A face of a mesh file can belong to several boundaries; such faces have an id of their
     // own, which each of those boundaries includes. So a boundary is a set of ids.
     std::map<types::boundary_id, BoundaryIds> ids_of;
@@ -299,6 +304,12 @@ namespace Touchstone
     if (found != names[body].end())
       return found->second;
 
+    if (has_node_set(body, name))
+      throw InputError(section,
+                       key,
+                       name,
+                       "is a set of nodes, but faces are needed here",
+                       "name a boundary; sets of nodes are for 'Fixed' and 'Boundary conditions'");
     // The message lists the names and numbers that would be accepted.
     std::string available;
     for (const auto &[other, id] : names[body])

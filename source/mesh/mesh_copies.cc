@@ -76,6 +76,9 @@ namespace Touchstone
     manifold_ids[numbers::flat_manifold_id] = numbers::flat_manifold_id;
 
     const unsigned int first = mesh.vertices.size();
+    for (const auto &[name, members] : original.node_sets)
+      for (const unsigned int v : members)
+        mesh.node_sets[name].insert(first + v);
     mesh.vertices.insert(mesh.vertices.end(), copy.vertices.begin(), copy.vertices.end());
     for (CellData<3> cell : copy.cells)
       {

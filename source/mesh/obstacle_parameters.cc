@@ -41,6 +41,7 @@ namespace Touchstone
                       "the axis points at, a formula in t (time); the motion moves the obstacle "
                       "with its axis. [degrees]",
                       FormulaPattern());
+    free.declare(prm);
   }
 
 
@@ -65,5 +66,6 @@ namespace Touchstone
                        dealii::Patterns::Tools::to_string(rotate_point),
                        "means nothing without 'Rotate angle'",
                        "give the angle or remove the point");
+    free.check(section, {{motion_x, motion_y, motion_z, rotate_angle}});
   }
 } // namespace Touchstone

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <istream>
 #include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -100,6 +101,14 @@ namespace Touchstone
       read_set(const std::vector<std::string> &words);
       void
       read_surface(const std::vector<std::string> &words);
+
+      /** Numbers of the nodes of each NSET; of those that cannot be read, as they name nodes of
+       * instances for example, nothing. */
+      std::map<std::string, std::optional<std::set<unsigned long>>> node_sets;
+      void
+      read_node_set(const std::vector<std::string> &words);
+      void
+      make_node_sets();
     };
 
 
@@ -139,6 +148,7 @@ namespace Touchstone
             if (!group.members.empty())
               groups->push_back(group);
           }
+      make_node_sets();
       mesh.join_copies(false);
       return std::move(mesh);
     }
@@ -159,6 +169,8 @@ namespace Touchstone
         read_element(words);
       else if (keyword == "*ELSET")
         read_set(words);
+      else if (keyword == "*NSET")
+        read_node_set(words);
       else if (keyword == "*SURFACE")
         read_surface(words);
     }
@@ -180,6 +192,58 @@ namespace Touchstone
       mesh.vertices.emplace_back(finite_number(words[1]),
                                  finite_number(words[2]),
                                  finite_number(words[3]));
+      if (parameters.count("NSET") > 0)
+        read_node_set({words[0]});
+    }
+
+
+
+    // As an ELSET; sets may name nodes that come later.
+    void
+    AbaqusReader::read_node_set(const std::vector<std::string> &words)
+    {
+      auto &set = node_sets.insert({parameters["NSET"], std::set<unsigned long>()}).first->second;
+      const auto is_number = [](const std::string &word) {
+        return !word.empty() && word.size() < 18 &&
+               word.find_first_not_of("0123456789") == std::string::npos;
+      };
+      if (!set)
+        return;
+      if (parameters.count("GENERATE") > 0)
+        {
+          const bool          numbers = std::all_of(words.begin(), words.end(), is_number);
+          const unsigned long step    = numbers && words.size() > 2 ? std::stoul(words[2]) : 1;
+          if (!numbers || words.size() < 2 || step == 0 ||
+              std::stoul(words[1]) / step > 100000000ul)
+            set.reset();
+          else
+            for (unsigned long n = std::stoul(words[0]); n <= std::stoul(words[1]); n += step)
+              set->insert(n);
+          return;
+        }
+      for (const std::string &word : words)
+        if (is_number(word))
+          set->insert(std::stoul(word));
+        else if (const auto other = node_sets.find(word); other != node_sets.end() && other->second)
+          set->insert(other->second->begin(), other->second->end());
+        else
+          {
+            set.reset();
+            return;
+          }
+    }
+
+
+
+    void
+    AbaqusReader::make_node_sets()
+    {
+      for (const auto &[name, numbers] : node_sets)
+        if (numbers && std::all_of(numbers->begin(), numbers->end(), [this](const auto n) {
+              return node.count(n) > 0;
+            }))
+          for (const unsigned long n : *numbers)
+            mesh.node_sets[name].insert(node.at(n));
     }
 
 
@@ -326,7 +390,7 @@ namespace Touchstone
     AbaqusReader::read_set(const std::vector<std::string> &words)
     {
       // GENERATE gives first, last and step; otherwise a line lists numbers of elements and names
-      // of other sets. Nodes of an NSET never get here.
+      // of other sets.
       const std::string name = parameters["ELSET"];
       if (parameters.count("GENERATE") > 0)
         {

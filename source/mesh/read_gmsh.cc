@@ -45,7 +45,9 @@ namespace Touchstone
       std::map<unsigned long, unsigned int> element;
       /** Physical groups of each surface (2) and volume (3) of version 4. */
       std::map<unsigned long, std::vector<unsigned int>> physical[4];
-      /** Names of physical surfaces and volumes. */
+      /** Vertices of physical points and curves, by dimension and number. */
+      std::map<unsigned int, std::set<unsigned int>> of_group[2];
+      /** Names of physical groups, by dimension. */
       std::map<unsigned int, std::string> names[4];
 
       template <class T>
@@ -137,6 +139,10 @@ namespace Touchstone
       for (auto *groups : {&mesh.surfaces, &mesh.volumes})
         for (MeshFile::Group &group : *groups)
           group.name = names[groups == &mesh.surfaces ? 2 : 3][group.number];
+      for (const unsigned int d : {0, 1})
+        for (const auto &[number, members] : of_group[d])
+          if (const auto name = names[d].find(number); name != names[d].end())
+            mesh.node_sets[name->second].insert(members.begin(), members.end());
       return std::move(mesh);
     }
 
@@ -358,7 +364,7 @@ namespace Touchstone
 
 
     /** Version 4 lists elements in blocks of one entity and type; points and lines are read to be
-     * checked, and dropped. */
+     * checked, and make sets of nodes. */
     void
     GmshReader::read_elements()
     {
@@ -452,7 +458,12 @@ namespace Touchstone
         text.fail("An element of Gmsh's type " + std::to_string(type) + " has more than its " +
                   std::to_string(known->second) + " nodes.");
 
-      // Quadrangles carry the boundary ids; points, lines and triangles have none here.
+      // Points and lines make sets of nodes, lines by their ends; quadrangles carry the boundary
+      // ids, triangles have none here.
+      if (const bool is_line = type == 1 || type == 8; is_line || type == 15)
+        for (const unsigned int number : groups)
+          of_group[is_line ? 1 : 0][number].insert(vertices.begin(),
+                                                   vertices.begin() + (is_line ? 2 : 1));
       if (is_cell)
         {
           // Gmsh numbers edges by their ends, others go around the bottom and the top.

@@ -127,6 +127,35 @@ namespace Touchstone
 
 
 
+    /** Where obstacles are that forces move, and what acts on them; also in summary.json. */
+    class ToolResults : public BuiltInQuantity<16>
+    {
+    public:
+      bool
+      in_summary() const override
+      {
+        return true;
+      }
+
+      void
+      evaluate(const ConvergedStep &step, StepValues &values) override
+      {
+        for (const auto &[name, result] : step.tools)
+          {
+            values.add("obstacle " + name, "displacement", result.displacement);
+            values.add("obstacle " + name, "rotation", result.rotation);
+            values.add("obstacle " + name, "force", result.force);
+            values.add("obstacle " + name, "moment", result.moment);
+            if (!result.dynamic)
+              continue;
+            values.add("obstacle " + name, "velocity", result.velocity);
+            values.add("obstacle " + name, "angular velocity", result.angular_velocity);
+          }
+      }
+    };
+
+
+
     /** Forces that supports exert on the bodies. */
     class Reactions : public BuiltInQuantity<20>
     {
@@ -181,6 +210,8 @@ namespace Touchstone
       pair_results_entry("pair results", "Force, area, pressure and nodes of each contact pair.");
     const StepQuantityRegistry::Entry<PretensionResults>
       pretension_entry("pretension", "Shortening and tension of pairs with pretension.");
+    const StepQuantityRegistry::Entry<ToolResults>
+      tools_entry("tools", "Motion of obstacles that forces move, and what acts on them.");
     const StepQuantityRegistry::Entry<Reactions> reactions_entry("reactions",
                                                                  "Forces of supports on bodies.");
     const StepQuantityRegistry::Entry<EnergyTerms>

@@ -4,6 +4,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/base/suggestion.h>
 #include <touchstone/scene/combinations.h>
+#include <touchstone/scene/free_motion_rules.h>
 #include <touchstone/scene/scene.h>
 
 #include <algorithm>
@@ -75,6 +76,7 @@ namespace Touchstone
         probe.check();
       }
     check_combinations(*this);
+    check_free_motions(*this);
     check_reference();
   }
 
@@ -143,6 +145,9 @@ namespace Touchstone
                                       std::make_pair("Motion z", &obstacle.motion_z),
                                       std::make_pair("Rotate angle", &obstacle.rotate_angle)})
         check(obstacle.section(), key, *text);
+    for (const ObstacleParameters &obstacle : obstacles)
+      for (unsigned int c = 0; c < FreeMotionParameters::n_components; ++c)
+        check(obstacle.section(), FreeMotionParameters::load_key(c), obstacle.free.loads[c]);
   }
 
 

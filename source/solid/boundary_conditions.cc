@@ -68,6 +68,21 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Names of boundaries, and those of sets of nodes. */
+    std::pair<std::vector<std::string>, std::vector<std::string>>
+    divide(const Forest &forest, const unsigned int body, const std::vector<std::string> &names)
+    {
+      std::pair<std::vector<std::string>, std::vector<std::string>> result;
+      for (const std::string &name : names)
+        (forest.has_node_set(body, name) ? result.second : result.first).push_back(name);
+      return result;
+    }
+  } // namespace
+
+
+
   BoundaryConditions::BoundaryConditions(const Forest &forest, const Solid &solid)
     : solid(solid)
     , following(solid)
@@ -81,20 +96,36 @@ namespace Touchstone
         const BodyParameters &body    = solid.bodies[b];
         const std::string     section = "Body " + body.name;
         // Each list once, under whatever name: a name and a number can mean the same.
-        Supported  supported{forest.boundaries(b, body.fixed, section, "Fixed"), {}};
-        const auto symmetry = forest.boundaries(b, body.symmetry, section, "Symmetry");
-        const auto conditions =
-          forest.boundaries(b, body.conditions, section, "Boundary conditions");
+        // Sets of nodes come behind boundaries.
+        const auto [fixed, fixed_sets]         = divide(forest, b, body.fixed);
+        const auto [of_faces, conditions_sets] = divide(forest, b, body.conditions);
+        Supported  supported{forest.boundaries(b, fixed, section, "Fixed"), {}};
+        const auto symmetry   = forest.boundaries(b, body.symmetry, section, "Symmetry");
+        const auto conditions = forest.boundaries(b, of_faces, section, "Boundary conditions");
         for (std::size_t k = 0; k < supported.fixed.size(); ++k)
           {
-            supports.push_back({body.name, body.fixed[k], Tensor<1, dim>()});
+            supports.push_back({body.name, fixed[k], Tensor<1, dim>()});
             for (unsigned int d = 0; d < dim; ++d)
               prescribe_on(supported.fixed[k], axis(d), nullptr, b, supports.size() - 1);
+          }
+        for (const std::string &name : fixed_sets)
+          {
+            supports.push_back({body.name, name, Tensor<1, dim>()});
+            for (const SetNode &node : nodes_of_set(forest, solid, b, name))
+              for (unsigned int d = 0; d < dim; ++d)
+                prescribed.push_back({node.node,
+                                      axis(d),
+                                      nullptr,
+                                      node.position,
+                                      b,
+                                      static_cast<unsigned int>(supports.size() - 1)});
           }
         for (std::size_t k = 0; k < symmetry.size(); ++k)
           add_symmetry(b, symmetry[k], body.symmetry[k], supported);
         for (std::size_t k = 0; k < conditions.size(); ++k)
-          add_condition(b, conditions[k], body.conditions[k], supported);
+          add_condition(b, conditions[k], of_faces[k], supported);
+        for (const std::string &name : conditions_sets)
+          add_set_condition(forest, b, name);
         body_forces.push_back({{formulas.add(section, "Body force x", body.body_force[0]),
                                 formulas.add(section, "Body force y", body.body_force[1]),
                                 formulas.add(section, "Body force z", body.body_force[2])}});
@@ -185,6 +216,48 @@ namespace Touchstone
       springs.add({id, condition.spring_normal, condition.spring_tangential});
     if (load.resultant || load.pressure || load.traction[0] || load.traction[1] || load.traction[2])
       loads.push_back(load);
+  }
+
+
+
+  void
+  BoundaryConditions::add_set_condition(const Forest      &forest,
+                                        const unsigned int b,
+                                        const std::string &name)
+  {
+    const BodyParameters     &body      = solid.bodies[b];
+    const BoundaryParameters &condition = body.boundaries.at(name);
+    const std::string         section   = "Body " + body.name + "/Boundary " + name;
+    check_for_node_set(condition, section);
+    std::vector<SetNode> nodes           = nodes_of_set(forest, solid, b, name);
+    const std::string   *displacements[] = {&condition.displacement_x,
+                                            &condition.displacement_y,
+                                            &condition.displacement_z};
+    bool                 moved           = false;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (const Function value =
+            formulas.add(section, "Displacement " + std::string(1, "xyz"[d]), *displacements[d]))
+        {
+          if (!moved)
+            supports.push_back({body.name, name, Tensor<1, dim>()});
+          moved = true;
+          for (const SetNode &node : nodes)
+            prescribed.push_back({node.node,
+                                  axis(d),
+                                  value,
+                                  node.position,
+                                  b,
+                                  static_cast<unsigned int>(supports.size() - 1)});
+        }
+    if (!condition.has_resultant())
+      return;
+    NodeSetLoad load;
+    for (unsigned int d = 0; d < dim; ++d)
+      load.force[d] =
+        formulas.add(section, "Force " + std::string(1, "xyz"[d]), condition.force[d]);
+    set_shares(solid, forest, b, name, section, nodes);
+    load.nodes = nodes;
+    set_loads.push_back(load);
   }
 
 
@@ -362,6 +435,7 @@ namespace Touchstone
     springs.add_force(u, force);
     add_body_forces(t, force);
     add_tractions(t, force);
+    add_set_forces(t, force);
     formulas.check(solid.communicator);
   }
 
@@ -406,6 +480,21 @@ namespace Touchstone
                                           values.JxW(q);
                   }
               }
+    force.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  BoundaryConditions::add_set_forces(const double t, Vector &force) const
+  {
+    if (set_loads.empty())
+      return;
+    for (const NodeSetLoad &load : set_loads)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (load.force[d])
+          for (const SetNode &node : load.nodes)
+            force(dim * node.node + d) += node.share * load.force[d]->value(node.position, t);
     force.compress(VectorOperation::add);
   }
 

@@ -60,6 +60,19 @@ namespace Touchstone
     using NonConvergence::NonConvergence;
   };
 
+  /** @brief An obstacle that forces move has nothing that holds it against its load. */
+  class NothingResists : public NonConvergence
+  {
+  public:
+    using NonConvergence::NonConvergence;
+
+    bool
+    shorter_step_may_help() const override
+    {
+      return false;
+    }
+  };
+
   /** @brief A Newton increment is far larger than all bodies together. */
   class ExcessiveIncrement : public NonConvergence
   {

@@ -152,9 +152,11 @@ namespace Touchstone
 
     /** @brief Work of a part of the contact forces on the displacement that obstacles made
      * since the committed state, force times length: the bodies get it from outside.
-     * Collective. */
+     * Collective.
+     * @param weight Of the forces at the end of the step, those at its beginning having the rest,
+     * on obstacles that forces move: as on nodes. Driven ones work with the forces of the end. */
     double
-    work_of_obstacles(ForcePart part) const;
+    work_of_obstacles(ForcePart part, double weight) const;
 
     /** @brief What nodes pass through counts from the displacement of the last update() on: the
      * rows of explicit dynamics are updated within a step. */

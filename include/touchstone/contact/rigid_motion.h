@@ -52,6 +52,46 @@ namespace Touchstone
       return x - earlier.place(back(x));
     }
   };
+
+  /** @brief How far forces have moved an obstacle from where it is driven: a turn about a point of
+   * it, and a displacement of that point. */
+  struct ToolMotion
+  {
+    /** The point at time 0. */
+    dealii::Point<dim>     point;
+    dealii::Tensor<1, dim> shift;
+    dealii::Tensor<2, dim> turn = RigidMotion().turn;
+    /** Whether it may turn at all. */
+    bool turns = false;
+
+    /** @brief Where the obstacle is that is driven to @p driven. */
+    RigidMotion
+    after(const RigidMotion &driven) const
+    {
+      RigidMotion result = driven;
+      result.shift += shift;
+      if (turns)
+        {
+          const dealii::Point<dim> centre = driven.place(point);
+          result.turned                   = true;
+          result.turn                     = turn * driven.turn;
+          result.shift += turn * (driven.shift - centre) - (driven.shift - centre);
+        }
+      return result;
+    }
+  };
+
+  /** @brief What has come of an obstacle that is moved by forces. */
+  struct RigidToolResult
+  {
+    /** Of its reference point, length; and its turn about axes, degrees. */
+    dealii::Tensor<1, dim> displacement, rotation;
+    /** Of the bodies on it, moment about the reference point. */
+    dealii::Tensor<1, dim> force, moment;
+    /** In dynamics: of the reference point, and angular velocity in radians per time. */
+    dealii::Tensor<1, dim> velocity, angular_velocity;
+    bool                   dynamic = false;
+  };
 } // namespace Touchstone
 
 #endif

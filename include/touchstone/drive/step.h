@@ -7,6 +7,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/missed_pairs.h>
 #include <touchstone/drive/newton.h>
+#include <touchstone/drive/rigid_tools.h>
 #include <touchstone/drive/time_integration.h>
 #include <touchstone/explicit/impulse_work.h>
 #include <touchstone/scene/scene.h>
@@ -40,6 +41,8 @@ namespace Touchstone
     StepCounts             counts;
     /** Shortening and tension of cuts with pretension, by pair: length, force. */
     std::map<std::string, std::pair<double, double>> pretension;
+    /** Of obstacles that forces move, by name. */
+    std::map<std::string, RigidToolResult> tools;
     /** Forces of the supports. */
     std::function<std::vector<Reaction>()> reactions;
     /** The same forces at the nodes, without ghosts; collective. */
@@ -106,6 +109,7 @@ namespace Touchstone
     Energies                  energies;
     double                    largest_force_scale = 0.;
     StepCounts                counts;
+    RigidTools::Transfer      tools;
   };
 
   /**

@@ -6,6 +6,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/drive/forcing_term.h>
 #include <touchstone/drive/pretension.h>
+#include <touchstone/drive/rigid_tools.h>
 #include <touchstone/drive/step.h>
 #include <touchstone/drive/step_system.h>
 #include <touchstone/scene/scene.h>
@@ -114,6 +115,7 @@ namespace Touchstone
     BoundaryConditions   boundary_conditions;
     Contact              contact;
     Pretension           pretension;
+    RigidTools           tools;
 
     double time = 0., committed_time = 0.;
     /** Displacements, and forces on the nodes: of loads (external) and of stresses (internal);

@@ -11,6 +11,7 @@
 #include <touchstone/explicit/node_map.h>
 #include <touchstone/explicit/row_motion.h>
 #include <touchstone/explicit/surface_speeds.h>
+#include <touchstone/explicit/tool_nodes.h>
 
 #include <memory>
 #include <vector>
@@ -44,12 +45,14 @@ namespace Touchstone
   public:
     /** @param contact With an enforcement that has an ImpulseRule; must live as long, as the others
      * must.
+     * @param obstacles Those of the scene.
      * @param general Null if there is none. */
-    ImpulseContact(Contact                           &contact,
-                   const ContactParameters           &parameters,
-                   const NodeMap                     &nodes,
-                   const std::vector<BodyParameters> &bodies,
-                   std::unique_ptr<GeneralContact>    general = nullptr);
+    ImpulseContact(Contact                               &contact,
+                   const ContactParameters               &parameters,
+                   const NodeMap                         &nodes,
+                   const std::vector<BodyParameters>     &bodies,
+                   const std::vector<ObstacleParameters> &obstacles,
+                   std::unique_ptr<GeneralContact>        general = nullptr);
 
     /** @brief The inverse masses of owned nodes by local node, without the directions that
      * supports determine. Must be set before the first project(), and when they change. */
@@ -105,7 +108,7 @@ namespace Touchstone
     for_each_impulse(const Use &use) const
     {
       if (acted)
-        for (unsigned int node = 0; node < solver.nodes.n_owned(); ++node)
+        for (unsigned int node = 0; node < local.size(); ++node)
           use(local[node], solver.impulse(node));
     }
 
@@ -128,6 +131,19 @@ namespace Touchstone
     general_contact()
     {
       return general.get();
+    }
+
+    /** @brief Obstacles that forces move: the caller gives them the velocities of a cycle before
+     * project(), and moves them after it. */
+    ToolNodes &
+    tool_nodes()
+    {
+      return tools;
+    }
+    const ToolNodes &
+    tool_nodes() const
+    {
+      return tools;
     }
 
     /** @brief The highest velocity of nodes of both sides of a pair of bodies relative to each
@@ -180,6 +196,7 @@ namespace Touchstone
 
     /** Its rows follow those of Contact in the solver. */
     std::unique_ptr<GeneralContact> general;
+    ToolNodes                       tools;
     /** Free velocities of nodes of the solver. */
     std::vector<dealii::Tensor<1, dim>> v_free;
 
@@ -230,7 +247,8 @@ namespace Touchstone
     };
     std::vector<KeptRow>     kept;
     std::vector<std::size_t> kept_rows;
-    /** By node of the solver: number here of owned ones, displacement, reference position,
+    /** By node of the solver: number here of owned ones, which come before those of tools;
+     * displacement, reference position,
      * displacement when the rows were made, and motion since. */
     std::vector<unsigned int>           local;
     std::vector<dealii::Tensor<1, dim>> u_nodes, x_nodes, reference, made_at, moved, v_before;
@@ -281,6 +299,9 @@ namespace Touchstone
     take_out_motion(std::size_t k);
     void
     import(const NodeField &u, const NodeField &before, const NodeField &v);
+    /** What contact allows, into @p v and to tools. Collective. */
+    void
+    take_velocities(NodeField &v);
     /** Renew the rows if motion demands it. Collective. */
     void
     renew_if_moved(const NodeField &u,

@@ -57,6 +57,13 @@ namespace Touchstone
          const MeshFile                             &mesh_file,
          const std::map<unsigned int, unsigned int> &vertex_numbers,
          const std::string                          &section) const;
+    /** Take the sets of nodes that the body has. */
+    void
+    take_sets(BodyMesh                                   &mesh,
+              const MeshFile                             &mesh_file,
+              const std::map<unsigned int, unsigned int> &vertex_numbers,
+              const std::vector<unsigned int>            &cell_numbers,
+              const std::string                          &section) const;
     void
     attach_exact_surfaces(BodyMesh &mesh, const std::string &section) const;
   };

@@ -10,6 +10,8 @@
 #include <deal.II/distributed/tria_base.h>
 #include <deal.II/grid/cell_id.h>
 
+#include <array>
+#include <map>
 #include <set>
 
 namespace Touchstone
@@ -59,6 +61,8 @@ namespace Touchstone
     // In this order: the mesh is made with the names, and the reference below is to it.
     /** Boundary names of each body, with ids that are unique in the forest. */
     std::vector<std::map<std::string, BoundaryIds>> names;
+    /** Sets of nodes of each body. */
+    std::vector<std::map<std::string, std::set<std::array<double, dim>>>> node_sets;
     /** Those of each body that are no planes of symmetry. */
     std::vector<BoundaryIds>                                                     all_ids;
     std::map<dealii::types::boundary_id, std::shared_ptr<const AnalyticSurface>> surfaces;
@@ -131,6 +135,24 @@ namespace Touchstone
                const std::vector<std::string> &names,
                const std::string              &section,
                const std::string              &key) const;
+
+    /** Corners of coarse cells, by their coordinates. */
+    using NodeSet = std::set<std::array<double, dim>>;
+
+    /** @brief Whether a name is that of a set of nodes of the body, and of no boundary. */
+    bool
+    has_node_set(const unsigned int body, const std::string &name) const
+    {
+      return names[body].count(name) == 0 && node_sets[body].count(name) > 0;
+    }
+
+    /** @brief A set of nodes: what a node of the mesh file is in, and what lies between nodes that
+     * are. Refinement moves no corner of a coarse cell, so that coordinates tell them. */
+    const NodeSet &
+    node_set(const unsigned int body, const std::string &name) const
+    {
+      return node_sets[body].at(name);
+    }
 
     /** @brief The boundary ids of all of them together. Where no boundary has the name, 'all' are
      * those that are no planes of symmetry. */

@@ -32,6 +32,8 @@ namespace Touchstone
     std::map<std::string, dealii::types::boundary_id> boundary_names;
     /** Boundary ids of faces that belong to several boundaries, with the ids of these. */
     std::map<dealii::types::boundary_id, std::set<dealii::types::boundary_id>> shared;
+    /** Sets of vertices: edges, points, or any others. */
+    std::map<std::string, std::set<unsigned int>> node_sets;
     /** Manifolds of cells and faces for refinement and curved mappings. */
     std::map<dealii::types::manifold_id, std::shared_ptr<dealii::Manifold<3>>> manifolds;
     /** Exact shape of curved boundaries, for contact. */

@@ -8,13 +8,15 @@
 
 #include <array>
 #include <iosfwd>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace Touchstone
 {
   /**
-   * @brief What a mesh file holds: hexahedra, marked faces, and their groups.
+   * @brief What a mesh file holds: hexahedra, marked faces, their groups, and named sets of nodes.
    *
    * deal.II's GridIn is not used because it drops the names of groups and
    * refuses marked faces inside the mesh, which files with several bodies have.
@@ -46,6 +48,8 @@ namespace Touchstone
     /** Places of the file where faces stand, of VTK files only. */
     std::vector<unsigned int> face_lines;
     std::vector<Group>        volumes, surfaces;
+    /** Sets of vertices that the file names. */
+    std::map<std::string, std::set<unsigned int>> node_sets;
 
     /** @brief Add a hexahedron of 8, 20 or 27 nodes in the order of Abaqus and VTK: around the
      * bottom, around the top, then the middle of the edges at the bottom, at the top, and

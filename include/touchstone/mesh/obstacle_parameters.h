@@ -4,6 +4,7 @@
 #define touchstone_mesh_obstacle_parameters_h
 
 #include <touchstone/base/choice.h>
+#include <touchstone/mesh/free_motion_parameters.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/tensor.h>
@@ -26,6 +27,8 @@ namespace Touchstone
      * point. */
     std::string          rotate_angle = "0";
     dealii::Tensor<1, 3> rotate_axis{{0., 0., 1.}}, rotate_point;
+    /** What follows from forces instead. */
+    FreeMotionParameters free;
 
     /** @brief "Obstacle NAME". */
     std::string

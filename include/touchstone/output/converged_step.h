@@ -39,6 +39,8 @@ namespace Touchstone
     std::map<std::string, double> force_errors;
     /** Shortening and tension of pairs with pretension: length, force. */
     std::map<std::string, std::pair<double, double>> pretension;
+    /** Obstacles that forces move, by name. */
+    std::map<std::string, RigidToolResult> tools;
     /** Reaction forces, by "BODY/BOUNDARY". */
     std::map<std::string, dealii::Tensor<1, dim>> reactions;
     /** Energies by name, force times length. */

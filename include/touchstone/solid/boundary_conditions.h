@@ -7,6 +7,7 @@
 #include <touchstone/base/formula.h>
 #include <touchstone/solid/follower_pressure.h>
 #include <touchstone/solid/ground_springs.h>
+#include <touchstone/solid/node_sets.h>
 #include <touchstone/solid/resultant_load.h>
 
 #include <algorithm>
@@ -101,6 +102,11 @@ namespace Touchstone
     {
       return loads;
     }
+    const std::vector<NodeSetLoad> &
+    node_set_loads() const
+    {
+      return set_loads;
+    }
     /** @brief By body; empty if there are none at all. */
     const std::vector<std::array<Function, dim>> &
     volume_loads() const
@@ -182,6 +188,7 @@ namespace Touchstone
     /** Of owned nodes. */
     std::map<Index, std::vector<dealii::Tensor<1, dim>>> mirror_normals;
     std::vector<Load>                                    loads;
+    std::vector<NodeSetLoad>                             set_loads;
     /** Force per reference volume, by body; empty if there is none at all. */
     std::vector<std::array<Function, dim>> body_forces;
     FollowerPressure                       following;
@@ -219,6 +226,11 @@ namespace Touchstone
                   const BoundaryIds &boundary,
                   const std::string &name,
                   const Supported   &supported);
+    /** Displacements and a force on a set of nodes. */
+    void
+    add_set_condition(const Forest &forest, unsigned int body, const std::string &name);
+    void
+    add_set_forces(double t, Vector &force) const;
     void
     add_body_forces(double t, Vector &force) const;
     void

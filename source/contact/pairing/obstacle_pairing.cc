@@ -13,7 +13,8 @@
 
 // Contact with a rigid obstacle whose surface is given by a formula: projection, normal and their
 // derivatives come from AnalyticSurface, so that no search and no communication is needed. The
-// obstacle moves as a rigid body by a rotation and a translation, functions of time.
+// obstacle moves as a rigid body by a rotation and a translation, functions of time, and by what
+// forces add to it.
 namespace Touchstone
 {
   using namespace dealii;
@@ -38,6 +39,8 @@ namespace Touchstone
         fixed = Point<dim>(o.rotate_point);
         if (turns)
           angle = formulas.add(o.section(), "Rotate angle", o.rotate_angle);
+        free.point = Point<dim>(o.free.reference_point);
+        free.turns = o.free.turns();
       }
 
       void
@@ -126,7 +129,13 @@ namespace Touchstone
             result.shift += fixed - result.turn * fixed;
           }
         formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
-        return result;
+        return free.after(result);
+      }
+
+      void
+      set_free_motion(const ToolMotion &of_forces) override
+      {
+        free = of_forces;
       }
 
     private:
@@ -146,6 +155,7 @@ namespace Touchstone
       /** Of the rotation: a unit vector, and a point of it at time 0. */
       Tensor<1, dim> axis;
       Point<dim>     fixed;
+      ToolMotion     free;
     };
   } // namespace
 

@@ -129,11 +129,17 @@ namespace Touchstone
       return {};
     }
 
-    /** @brief Where the master is, if it is rigid and driven. */
+    /** @brief Where the master is, if it is rigid. */
     virtual RigidMotion
     motion(double /*time*/) const
     {
       return {};
+    }
+
+    /** @brief Forces have moved a rigid master so far beside what drives it. */
+    virtual void
+    set_free_motion(const ToolMotion &)
+    {
     }
 
     /** @brief Amount of work of its searches so far; zero without any. */

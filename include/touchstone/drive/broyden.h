@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_drive_broyden_h
+#define touchstone_drive_broyden_h
+
+#include <optional>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Broyden's update (1965, Math. Comp. 19) of the inverse of a matrix of derivatives, such
+   * that it takes the change @p dr of the residual to the change @p dx of the unknowns. Only a part
+   * of it is made where the new matrix would come near to a singular one: More and Trangenstein
+   * (1976, Math. Comp. 30).
+   * @param inverse Row by row; the unknowns have one unit, and so have the residuals.
+   */
+  void
+  broyden_update(std::vector<double>       &inverse,
+                 const std::vector<double> &dx,
+                 const std::vector<double> &dr);
+
+  /**
+   * @brief Broyden's method for a few unknowns whose residual costs a solution of all bodies: the
+   * caller evaluates the residual at x(), and advance() finds the next one.
+   *
+   * It goes back to the best state where the residual grows much, and takes finite differences
+   * where the updates lead nowhere. Unknowns are lengths, residuals forces.
+   */
+  class Broyden
+  {
+  public:
+    using Numbers = std::vector<double>;
+
+    /** Change of each unknown by each residual, row by row: kept from step to step by the caller;
+     * zero where nothing is known. */
+    Numbers inverse;
+
+    /** @brief Begin with these unknowns. */
+    void
+    begin(const Numbers &guess);
+
+    const Numbers &
+    x() const
+    {
+      return present;
+    }
+
+    /** @brief Number of calls of advance() since begin(). */
+    unsigned int
+    n_changes() const
+    {
+      return changes;
+    }
+
+    /** @brief Forget what the last residuals were, and go on at @p elsewhere. */
+    void
+    jump(const Numbers &elsewhere);
+
+    /** What an iteration is measured by. */
+    struct Sizes
+    {
+      /** What each unknown is expected to meet, force per length. */
+      Numbers stiffness;
+      /** Of the forces that are to be in balance. */
+      double force;
+      /** No change is larger, length. */
+      double largest_step;
+    };
+
+    /** @brief Take the residual at x(), and go on to another x().
+     * @return a direction in which the residual does not change, if finite differences show one. */
+    std::optional<Numbers>
+    advance(const Numbers &residual, const Sizes &sizes);
+
+  private:
+    Numbers present;
+    /** Where the last residual was found, and what it was. */
+    Numbers last, last_residual;
+    /** The state with the smallest residual. */
+    Numbers      best, best_residual;
+    unsigned int changes = 0;
+    /** Finite differences: the present unknown, its step, and the columns so far. */
+    std::optional<unsigned int> difference;
+    double                      width         = 0.;
+    unsigned int                n_differences = 0;
+    std::vector<Numbers>        columns;
+
+    void
+    learn(const Numbers &residual, const Sizes &sizes);
+    /** A step from the best state that is no longer than @p longest. */
+    void
+    step_from_best(double longest);
+    void
+    take_difference(unsigned int k, const Sizes &sizes);
+    std::optional<Numbers>
+    end_differences(const Sizes &sizes);
+  };
+} // namespace Touchstone
+
+#endif

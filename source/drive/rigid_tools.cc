@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/non_convergence.h>
+#include <touchstone/drive/rigid_tools.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// Where obstacles that forces move are in an implicit step (doc/theory.md 4.5). Their balance is in
+// rigid_tools_balance.cc; what is kept of a step, and how a run begins, in rigid_tools_history.cc.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  RigidTools::Components
+  RigidTools::motion_of(const unsigned int tool) const
+  {
+    Components motion{};
+    for (std::size_t k = 0; k < unknowns.size(); ++k)
+      if (unknowns[k].tool == tool)
+        motion[unknowns[k].component] = broyden.x()[k] / unknowns[k].scale;
+    return motion;
+  }
+
+
+
+  void
+  RigidTools::place()
+  {
+    for (unsigned int k = 0; k < tools.size(); ++k)
+      {
+        RigidTool::move(tools[k].present, tools[k].committed, motion_of(k));
+        tools[k].place(tools[k].present);
+      }
+  }
+
+
+
+  void
+  RigidTools::begin_step(const double t)
+  {
+    if (tools.empty())
+      return;
+    time = t;
+    step = time - committed_time;
+    // Inertia is a part of what the inverse is of.
+    if (scheme && std::abs(step - committed_step) > 1e-9 * step)
+      broyden.inverse.assign(broyden.inverse.size(), 0.);
+    else
+      broyden.inverse = committed_inverse;
+    const std::size_t n = unknowns.size();
+    Numbers           x(n);
+    if (!guess.empty())
+      x = guess;
+    else if (scheme)
+      // As the nodes, in free flight.
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const RigidTool::State &state = tools[unknowns[k].tool].committed;
+          Tensor<1, dim>          omega;
+          for (unsigned int d = 0; d < dim; ++d)
+            omega[d] = state.velocity[dim + d];
+          omega                = state.turn * omega;
+          const unsigned int c = unknowns[k].component;
+          x[k] = step * (c < dim ? state.velocity[c] : omega[c - dim]) * unknowns[k].scale;
+        }
+    else if (!broyden.inverse.empty())
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const RigidTool   &tool = tools[unknowns[k].tool];
+          const unsigned int c    = unknowns[k].component;
+          const double change     = (tool.load(t)[c] - tool.committed.load[c]) / unknowns[k].scale;
+          for (std::size_t i = 0; i < n; ++i)
+            x[i] += broyden.inverse[i * n + k] * change;
+        }
+    guess.clear();
+    approaches = 0;
+    broyden.begin(x);
+    place();
+  }
+
+
+
+  double
+  RigidTools::way_to_touch(const RigidTool &tool, const Components &direction) const
+  {
+    Tensor<1, dim> shift, turn;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        shift[d] = direction[d];
+        turn[d]  = direction[dim + d];
+      }
+    const Point<dim> centre = tool.centre(time);
+    double           least  = std::numeric_limits<double>::max();
+    for (const unsigned int p : tool.pairs())
+      for (const ContactRow &row : contact.pair(p).rows())
+        if (row.has_partner)
+          {
+            const Tensor<1, dim> way =
+              shift + cross_product_3d(turn, Tensor<1, dim>(contact_point(row) - centre));
+            // Nearly along the surface obstacles do not come to a body.
+            constexpr double along = 1e-6;
+            if (const double closing = way * row.normal; closing > along * way.norm())
+              least = std::min(least, row.gap / closing);
+          }
+    return Utilities::MPI::min(least, contact.communicator());
+  }
+
+
+
+  bool
+  RigidTools::approach(const Numbers                 &residual,
+                       const double                   scale,
+                       const std::vector<PairResult> &results)
+  {
+    constexpr unsigned int most  = 20;
+    Numbers                x     = broyden.x();
+    bool                   moved = false;
+    for (unsigned int t = 0; t < tools.size(); ++t)
+      {
+        const RigidTool &tool   = tools[t];
+        unsigned int     active = 0;
+        for (const unsigned int p : tool.pairs())
+          active += results[p].active;
+        double force = 0.;
+        for (std::size_t k = 0; k < unknowns.size(); ++k)
+          if (unknowns[k].tool == t)
+            force = std::hypot(force, residual[k]);
+        if (active > 0 || force <= 1e-8 * scale)
+          continue;
+        Components direction{};
+        for (std::size_t k = 0; k < unknowns.size(); ++k)
+          if (unknowns[k].tool == t)
+            direction[unknowns[k].component] = -residual[k] / (force * unknowns[k].scale);
+        const double way = way_to_touch(tool, direction);
+        if (way == std::numeric_limits<double>::max() || approaches >= most)
+          throw NothingResists("the load moves the obstacle '" + tool.name() +
+                               "' to where it touches nothing: no force holds it");
+        // So far that a force arises.
+        const double further = std::min(force / (tool.modulus() * tool.face()), 0.1 * tool.face());
+        for (std::size_t k = 0; k < unknowns.size(); ++k)
+          if (unknowns[k].tool == t)
+            x[k] -= (way + further) * residual[k] / force;
+        moved = true;
+      }
+    approaches += moved;
+    if (moved)
+      broyden.jump(x);
+    return moved;
+  }
+
+
+
+  bool
+  RigidTools::correct(const Vector &u)
+  {
+    if (tools.empty())
+      return false;
+    const auto     results = pair_results(contact, u);
+    const Residual found   = residual(results);
+    const auto     bad     = worst(found);
+    if (!bad)
+      return false;
+    const unsigned int most = 30 + 10 * unknowns.size();
+    if (broyden.n_changes() >= most)
+      throw NewtonFailure(
+        "the obstacle '" + tools[unknowns[*bad].tool].name() +
+        "' does not come to balance along '" +
+        FreeMotionParameters::word(unknowns[*bad].component) +
+        "': " + Patterns::Tools::to_string(std::abs(found.missing[*bad]) / found.largest) +
+        " of the largest force is missing");
+    if (!scheme && broyden.n_changes() == 0 && approach(found.missing, found.largest, results))
+      {
+        place();
+        return true;
+      }
+    const Numbers stiff = stiffness(results);
+    // No change is larger than what the forces would move the obstacle by, or than the motion so
+    // far: where contact closes or opens, stiffness says little farther away.
+    double motion = 0., soft = std::numeric_limits<double>::max();
+    for (const double x : broyden.x())
+      motion = std::hypot(motion, x);
+    for (const RigidTool &tool : tools)
+      soft = std::min(soft, tool.modulus() * tool.face());
+    double longest = std::max(motion, 10. * found.largest / soft);
+    if (scheme)
+      for (const double stiffness : stiff)
+        longest = std::max(longest, 10. * found.largest / stiffness);
+    if (const auto direction = broyden.advance(found.missing, {stiff, found.largest, longest}))
+      throw NothingResists(describe(*direction));
+    place();
+    return true;
+  }
+
+
+
+  std::string
+  RigidTools::describe(const Numbers &direction) const
+  {
+    std::size_t main = 0;
+    for (std::size_t k = 0; k < direction.size(); ++k)
+      if (std::abs(direction[k]) > std::abs(direction[main]))
+        main = k;
+    const Unknown &unknown = unknowns[main];
+    return "nothing resists the motion of the obstacle '" + tools[unknown.tool].name() +
+           "' along '" + FreeMotionParameters::word(unknown.component) +
+           "', one of its 'Free directions', against its load";
+  }
+} // namespace Touchstone

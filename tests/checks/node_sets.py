@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# ctest: label = quick
+"""Sets of nodes of mesh files: supports and forces on edges and points, Abaqus and Gmsh. Reactions of a
+block that three points hold, and of a beam on two edges, follow from statics, whatever the element, the
+refinement, the solver and the ranks; a force on an edge is the same per length on cells of different length;
+momentum in explicit dynamics; what needs faces is refused."""
+
+import itertools
+import pathlib
+
+from touchstone_test import CG, DEGREE, FACTOR, below, check, finish, folder, relative, run
+
+X, Y, Z = (0, 0.5, 1.5, 3, 4), (0, 0.4, 1), (0, 0.5, 1)
+NODES = {(i, j, k): 1 + i + len(X) * (j + len(Y) * k)
+         for k, j, i in itertools.product(range(3), range(3), range(5))}
+AROUND = (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)
+CELLS = [[NODES[i + a, j + b, k + c] for a, b, c in AROUND]
+         for k, j, i in itertools.product(range(2), range(2), range(4))]
+EDGES = {"left": [(0, j, 0) for j in range(3)], "right": [(4, j, 0) for j in range(3)],
+         "top": [(i, 0, 2) for i in range(5)]}
+POINTS = {"one": [(0, 0, 0)], "two": [(4, 0, 0)], "three": [(0, 2, 0)], "tips": [(4, 0, 2), (4, 2, 2)]}
+
+
+def abaqus():
+    """The mesh with NSETs."""
+    lines = ["*NODE"]
+    lines += [f"{n}, {X[i]}, {Y[j]}, {Z[k]}" for (i, j, k), n in NODES.items()]
+    lines += ["*ELEMENT, TYPE=C3D8, ELSET=beam"]
+    lines += [", ".join(map(str, [c + 1, *cell])) for c, cell in enumerate(CELLS)]
+    for name, members in {**EDGES, **POINTS}.items():
+        lines += [f"*NSET, NSET={name}", ", ".join(str(NODES[m]) for m in members)]
+    lines += ["*NSET, NSET=again", "left, top", "*NSET, NSET=run, GENERATE", "1, 5, 1",
+              "*ELSET, ELSET=at west", *(str(1 + 4 * n) for n in range(4)),
+              "*SURFACE, NAME=west", "at west, S6",
+              "*ELSET, ELSET=at east", *(str(4 + 4 * n) for n in range(4)), "*SURFACE, NAME=east", "at east, S4"]
+    return "\n".join(lines) + "\n"
+
+
+def gmsh():
+    """The same with physical curves and points."""
+    names, elements = [], []
+    for number, name in enumerate(EDGES, 1):
+        names.append(f'1 {number} "{name}"')
+        for a, b in zip(EDGES[name], EDGES[name][1:]):
+            elements.append(f"1 2 {number} {number} {NODES[a]} {NODES[b]}")
+    for number, name in enumerate(POINTS, 1):
+        names.append(f'0 {number} "{name}"')
+        elements += [f"15 2 {number} {number} {NODES[m]}" for m in POINTS[name]]
+    names.append('3 1 "beam"')
+    elements += [f"5 2 1 1 {' '.join(map(str, cell))}" for cell in CELLS]
+    return "\n".join(["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(names)), *names,
+                      "$EndPhysicalNames", "$Nodes", str(len(NODES)),
+                      *(f"{n} {X[i]} {Y[j]} {Z[k]}" for (i, j, k), n in NODES.items()), "$EndNodes",
+                      "$Elements", str(len(elements)), *(f"{n} {e}" for n, e in enumerate(elements, 1)),
+                      "$EndElements"]) + "\n"
+
+
+pathlib.Path(folder / "beam.inp").write_text(abaqus(), encoding="utf-8")
+pathlib.Path(folder / "beam.msh").write_text(gmsh(), encoding="utf-8")
+HEAD = """set Title  = Sets of nodes
+set Bodies = beam
+subsection Body beam
+  subsection Geometry
+    set Type = file
+    set File = {file}
+  end
+  subsection Material
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+    set Density       = 1
+  end
+"""
+TAIL = """end
+subsection Load stepping
+  set Steps = 1
+end
+subsection Output
+  set VTU interval = 0
+end
+"""
+
+
+def scene(name, file, *lines):
+    """A scene with these lines in the body."""
+    path = folder / f"{name}.prm"
+    path.write_text(HEAD.format(file=file) + "\n".join(lines) + "\n" + TAIL, encoding="utf-8")
+    return path
+
+
+def boundary(name, *entries):
+    return [f"  subsection Boundary {name}", *(f"    set {entry}" for entry in entries), "  end"]
+
+
+# On two edges, with a force on a third one.
+BEAM = ["  set Boundary conditions = left, right, top, one",
+        *boundary("left", "Displacement z = 0", "Displacement x = 0"), *boundary("right", "Displacement z = 0"),
+        *boundary("one", "Displacement y = 0"), *boundary("top", "Force z = -2*t")]
+bent = {name: scene(f"beam_{name}", f"beam.{name}", *BEAM) for name in ("inp", "msh")}
+for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1), ("ranks", "inp", {}, 2),
+                                    ("fine", "inp", {FACTOR: 2}, 2), ("degree", "msh", {DEGREE: 2}, 1),
+                                    ("both", "msh", {DEGREE: 2, FACTOR: 2}, 2), ("cg", "inp", CG, 1),
+                                    ("adaptive", "inp", {"Refinement/Estimator": "recovered stress",
+                                                          "Refinement/Cycles": 2}, 1),
+                                    ("p4est", "inp", {FACTOR: 2, "Discretisation/Partitioner": "p4est"}, 2)):
+    result = run(name, bent[file], settings, ranks)
+    for edge in "left", "right":
+        below(f"{name}: reaction at {edge}", relative(result.reaction("beam", edge)[2], 1), 1e-7)
+    below(f"{name}: no other reaction", max(abs(r) for r in (*result.reaction("beam", "left")[:2],
+                                                            *result.reaction("beam", "one"))), 1e-7)
+
+# Three points hold the block, forces at its tips: statics alone decides.
+points = scene("points", "beam.inp", "  set Fixed = one", "  set Boundary conditions = two, three, tips",
+               *boundary("two", "Displacement y = 0", "Displacement z = 0"), *boundary("three", "Displacement z = 0"),
+               *boundary("tips", "Force z = -3*t"))
+for name, settings, ranks in ("points", {}, 1), ("points_fine", {FACTOR: 2}, 2), ("points_2", {DEGREE: 2}, 1):
+    result = run(name, points, settings, ranks)
+    # The resultant -3 at (4, 0.5): the third point at (0, 1) has 1.5, the first one -1.5, the second 3.
+    for point, force in (("one", -1.5), ("two", 3), ("three", 1.5)):
+        below(f"{name}: reaction at {point}", relative(result.reaction("beam", point)[2], force), 1e-7)
+
+# Momentum of a free beam is force times time, with its moment about the origin: the edge is at y = 0, its
+# middle at x = 2.
+free = scene("free", "beam.inp", "  set Boundary conditions = top", *boundary("top", "Force z = 2"))
+for name, settings, ranks in (("explicit", {"Time integration/Scheme": "central_differences"}, 1),
+                              ("explicit_2", {"Time integration/Scheme": "central_differences"}, 2),
+                              ("newmark", {"Time integration/Scheme": "newmark"}, 2)):
+    moved = run(name, free, {**settings, "Load stepping/End time": 0.01, "Load stepping/Steps": 4}, ranks)
+    last = moved.rows()[-1]
+    # Explicit velocities are half a cycle early.
+    below(f"{name}: momentum", relative(last["momentum z"], 2 * (0.01 - last.get("shortest cycle", 0) / 2)), 1e-9)
+    below(f"{name}: its moment", relative(last["angular momentum y"] / last["momentum z"], -2), 1e-4)
+
+# What needs faces, and names that are none.
+for name, entries, text in (("pressure", ["Pressure = 1"], "needs faces, but this is a set of nodes"),
+                            ("moment", ["Moment x = 1"], "needs faces, but this is a set of nodes")):
+    bad = scene(f"bad_{name}", "beam.inp", "  set Fixed = left, two", "  set Boundary conditions = top",
+                *boundary("top", *entries))
+    refused = run(f"bad_{name}", bad, fails=True)
+    check(text in refused.text, f"{name}: {refused.text[-500:]}")
+symmetric = run("bad_symmetry", scene("bad_symmetry", "beam.inp", "  set Symmetry = left"), fails=True)
+check("is a set of nodes, but faces are needed here" in symmetric.text, symmetric.text[-500:])
+finish()
