@@ -6,6 +6,7 @@
 #include <touchstone/contact/geometry/face_area.h>
 #include <touchstone/contact/geometry/measured_face.h>
 #include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/search/self_contact.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <tuple>
 
 // Contact that passes between the slave nodes: rows exist at these alone, and Newton's method finds
 // nothing wrong with a state in which the bodies overlap elsewhere (doc/theory.md 4.1).
@@ -243,16 +243,9 @@ namespace Touchstone
     double deepest = 0.;
     for (const Overlap &overlap : all)
       deepest = std::max(deepest, overlap.place.depth);
-    // Rounded: of points that are equally deep the first, whatever round-off makes of them.
-    const double unit = 1e-4 * deepest;
-    const auto   key  = [unit](const Place &p) {
-      return std::make_tuple(-std::round(p.depth / unit),
-                             std::round(p.x[0] / unit),
-                             std::round(p.x[1] / unit),
-                             std::round(p.x[2] / unit));
-    };
-    std::sort(all.begin(), all.end(), [&](const Overlap &a, const Overlap &b) {
-      return key(a.place) < key(b.place);
+    std::sort(all.begin(), all.end(), [deepest](const Overlap &a, const Overlap &b) {
+      return overlap_order(a.place.depth, a.place.x, deepest) <
+             overlap_order(b.place.depth, b.place.x, deepest);
     });
     // The cells around a point may belong to any rank.
     std::map<unsigned int, DeformedCells> cells;

@@ -3,6 +3,7 @@
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/overlapping_bodies.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -251,16 +252,8 @@ namespace Touchstone
     double deepest = 0.;
     for (const BodyOverlap &overlap : all)
       deepest = std::max(deepest, overlap.depth);
-    // Rounded: of points that are equally deep the first, whatever round-off makes of them. Scenes
-    // have round coordinates: the shift keeps them off the limits between two numbers.
-    const double unit    = 1e-4 * deepest;
-    const auto   rounded = [unit](const double value) {
-      constexpr double shift = 0.3183;
-      return std::floor(value / unit + shift);
-    };
-    const auto key = [&rounded](const BodyOverlap &o) {
-      return std::make_tuple(
-        o.body, o.other, -rounded(o.depth), rounded(o.x[0]), rounded(o.x[1]), rounded(o.x[2]));
+    const auto key = [deepest](const BodyOverlap &o) {
+      return std::make_tuple(o.body, o.other, overlap_order(o.depth, o.x, deepest));
     };
     std::sort(all.begin(), all.end(), [&](const BodyOverlap &a, const BodyOverlap &b) {
       return key(a) < key(b);

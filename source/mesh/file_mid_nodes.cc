@@ -64,23 +64,10 @@ namespace Touchstone
       void
       add(const std::vector<unsigned int> &v, const std::vector<Point<3>> &nodes)
       {
-        // Ends of the edges in VTK's order, in deal.II's numbers of vertices.
-        static constexpr unsigned int ends[12][2] = {{0, 1},
-                                                     {1, 3},
-                                                     {3, 2},
-                                                     {2, 0},
-                                                     {4, 5},
-                                                     {5, 7},
-                                                     {7, 6},
-                                                     {6, 4},
-                                                     {0, 4},
-                                                     {1, 5},
-                                                     {3, 7},
-                                                     {2, 6}};
-        Point<3>                      sum_of_edges;
+        Point<3> sum_of_edges;
         for (unsigned int e = 0; e < 12; ++e)
           {
-            const unsigned int a = v[ends[e][0]], b = v[ends[e][1]];
+            const unsigned int a = v[MeshFile::edge_ends[e][0]], b = v[MeshFile::edge_ends[e][1]];
             const Point<3>     middle = 0.5 * (vertices[a] + vertices[b]);
             const Point<3>     x      = nodes.empty() ? middle : nodes[e];
             const double       length = vertices[a].distance(vertices[b]);

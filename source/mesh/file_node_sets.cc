@@ -17,19 +17,6 @@ namespace Touchstone
                           const std::vector<unsigned int>            &cell_numbers,
                           const std::string                          &section) const
   {
-    // Ends of the edges in the order of mid nodes, in that of vertices.
-    static constexpr unsigned int ends[12][2] = {{0, 1},
-                                                 {1, 3},
-                                                 {3, 2},
-                                                 {2, 0},
-                                                 {4, 5},
-                                                 {5, 7},
-                                                 {7, 6},
-                                                 {6, 4},
-                                                 {0, 4},
-                                                 {1, 5},
-                                                 {3, 7},
-                                                 {2, 6}};
     for (const auto &[name, members] : mesh_file.node_sets)
       {
         for (const unsigned int v : members)
@@ -39,7 +26,7 @@ namespace Touchstone
           for (unsigned int e = 0; c < mesh_file.mid_nodes.size() && e < 12; ++e)
             if (const auto &middle = mesh_file.mid_nodes[c];
                 e < middle.size() && members.count(middle[e]) > 0)
-              for (const unsigned int end : ends[e])
+              for (const unsigned int end : MeshFile::edge_ends[e])
                 if (members.count(mesh_file.cells[c].vertices[end]) == 0)
                   throw InputError(section,
                                    "File",

@@ -154,6 +154,36 @@ namespace Touchstone
 
 
 
+  void
+  CattaneoMindlin::compare_fields(const ReferenceInput &input,
+                                  const double          normal,
+                                  const double          tangential,
+                                  const double          peak,
+                                  ReferenceComparison  &result) const
+  {
+    if (!ContactField::available(input))
+      return;
+    const ContactField field(input, pair);
+    const double       a = half_width(normal), p0 = peak_pressure(normal);
+    result.add("pressure_field_l2",
+               "pressure field",
+               field.relative_error([](const auto &, const auto &t) { return std::abs(t[2]); },
+                                    [&](const dealii::Point<dim> &x) {
+                                      return p0 * half_ellipse(x[0] - centre, a);
+                                    }));
+    result.add("shear_traction_field_l2",
+               "shear traction field",
+               field.relative_error([](const auto &, const auto &t) { return -t[0]; },
+                                    [&](const dealii::Point<dim> &x) {
+                                      return shear_traction(x[0] - centre,
+                                                            normal,
+                                                            tangential,
+                                                            peak);
+                                    }));
+  }
+
+
+
   ReferenceComparison
   CattaneoMindlin::compare(const ReferenceInput &input) const
   {
@@ -224,25 +254,7 @@ namespace Touchstone
                c);
     result.add("pressure_l2", "pressure profile", relative(p_error, p_size));
     result.add("shear_traction_l2", "shear traction profile", relative(q_error, q_size));
-    if (ContactField::available(input))
-      {
-        const ContactField field(input, pair);
-        result.add("pressure_field_l2",
-                   "pressure field",
-                   field.relative_error([](const auto &, const auto &t) { return std::abs(t[2]); },
-                                        [&](const dealii::Point<dim> &x) {
-                                          return p0 * half_ellipse(x[0] - centre, a);
-                                        }));
-        result.add("shear_traction_field_l2",
-                   "shear traction field",
-                   field.relative_error([](const auto &, const auto &t) { return -t[0]; },
-                                        [&](const dealii::Point<dim> &x) {
-                                          return shear_traction(x[0] - centre,
-                                                                normal,
-                                                                tangential,
-                                                                peak);
-                                        }));
-      }
+    compare_fields(input, normal, tangential, peak, result);
     if (!std::isnan(prescribed))
       {
         // A force that has come back to zero is compared with its peak.

@@ -39,6 +39,20 @@ namespace Touchstone
     /** For each cell its 12 nodes in the middle of edges, in VTK's order, and behind them those in
      * the middle of its faces and the one of the cell, in any order: 12 or 19, or none. */
     std::vector<std::vector<unsigned int>> mid_nodes;
+    /** The vertices at the ends of each edge of a cell: edges in VTK's order, vertices in
+     * deal.II's. */
+    static constexpr unsigned int edge_ends[12][2] = {{0, 1},
+                                                      {1, 3},
+                                                      {3, 2},
+                                                      {2, 0},
+                                                      {4, 5},
+                                                      {5, 7},
+                                                      {7, 6},
+                                                      {6, 4},
+                                                      {0, 4},
+                                                      {1, 5},
+                                                      {3, 7},
+                                                      {2, 6}};
     /** Places of the file where the cells stand, for messages. */
     std::vector<unsigned int> cell_lines;
     /** What counts these places. */

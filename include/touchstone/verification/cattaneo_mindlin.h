@@ -68,6 +68,15 @@ namespace Touchstone
     /** Forces on the model that the scene prescribes; NaN if it does not. */
     double       prescribed, prescribed_peak;
     unsigned int pair;
+
+    /** Add the errors of the tractions as fields, where they are known. @param normal, tangential,
+     * peak Forces per length. */
+    void
+    compare_fields(const ReferenceInput &input,
+                   double                normal,
+                   double                tangential,
+                   double                peak,
+                   ReferenceComparison  &result) const;
   };
 } // namespace Touchstone
 
