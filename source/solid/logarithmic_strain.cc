@@ -81,12 +81,8 @@ namespace Touchstone
   {
     decompose(C, value, frame);
     for (unsigned int a = 0; a < dim; ++a)
-      for (unsigned int b = 0; b < dim; ++b)
-        {
-          first[a][b] = first_difference(value[a], value[b]);
-          for (unsigned int c = 0; c < dim; ++c)
-            second[a][b][c] = second_difference(value[a], value[b], value[c]);
-        }
+      for (unsigned int b = a; b < dim; ++b)
+        first[a][b] = first[b][a] = first_difference(value[a], value[b]);
   }
 
 
@@ -95,69 +91,62 @@ namespace Touchstone
   LogarithmicStrain::strain() const
   {
     // Elastic strains of metals are small: ln(1 + x) keeps their digits.
-    std::array<double, dim> logarithm;
+    SymmetricTensor<2, dim> E;
     for (unsigned int a = 0; a < dim; ++a)
-      logarithm[a] = 0.5 * std::log1p(value[a] - 1.);
-    return assemble(logarithm, frame);
+      E[a][a] = 0.5 * std::log1p(value[a] - 1.);
+    return E;
   }
 
 
 
-  SymmetricTensor<2, dim>
+  std::array<double, dim>
   LogarithmicStrain::inverse_stretch() const
   {
-    std::array<double, dim> stretch;
+    std::array<double, dim> result;
     for (unsigned int a = 0; a < dim; ++a)
-      stretch[a] = 1. / std::sqrt(value[a]);
-    return assemble(stretch, frame);
-  }
-
-
-
-  Tensor<2, dim>
-  LogarithmicStrain::to_frame(const SymmetricTensor<2, dim> &H) const
-  {
-    return transpose(frame) * (Tensor<2, dim>(H) * frame);
+      result[a] = 1. / std::sqrt(value[a]);
+    return result;
   }
 
 
 
   SymmetricTensor<2, dim>
-  LogarithmicStrain::from_frame(const Tensor<2, dim> &H) const
+  LogarithmicStrain::conjugate_stress(const SymmetricTensor<2, dim> &T) const
   {
-    return symmetrize(frame * H * transpose(frame));
+    SymmetricTensor<2, dim> S;
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = a; b < dim; ++b)
+        S[a][b] = 2. * first[a][b] * T[a][b];
+    return S;
   }
 
 
 
-  /** DE(C) : H, i.e. e[a, b] H_ab in the frame (theorem of Daleckii and Krein). */
-  SymmetricTensor<2, dim>
-  LogarithmicStrain::derivative(const SymmetricTensor<2, dim> &H) const
+  SymmetricTensor<4, dim>
+  LogarithmicStrain::conjugate_tangent(const SymmetricTensor<2, dim> &T,
+                                       const SymmetricTensor<4, dim> &D) const
   {
-    Tensor<2, dim> turned = to_frame(H);
+    SymmetricTensor<4, dim> result;
     for (unsigned int a = 0; a < dim; ++a)
-      for (unsigned int b = 0; b < dim; ++b)
-        turned[a][b] *= first[a][b];
-    return from_frame(turned);
-  }
-
-
-
-  /** The tensor that represents G -> T : D^2E(C)(H, G): with T the stress conjugate to E it is the
-   * geometric part of the tangent. */
-  SymmetricTensor<2, dim>
-  LogarithmicStrain::curvature(const SymmetricTensor<2, dim> &T,
-                               const SymmetricTensor<2, dim> &H) const
-  {
-    // T : D2E(H, G) = sum_abc e[a,b,c] T_ab (H_ac G_cb + G_ac H_cb): the coefficients of
-    // G_cb and G_ac are each other's transposes.
-    const Tensor<2, dim> t = to_frame(T), h = to_frame(H);
-    Tensor<2, dim>       result;
-    for (unsigned int a = 0; a < dim; ++a)
-      for (unsigned int b = 0; b < dim; ++b)
+      for (unsigned int b = a; b < dim; ++b)
         for (unsigned int c = 0; c < dim; ++c)
-          result[c][b] += second[a][b][c] * t[a][b] * h[a][c];
-    return from_frame(result + transpose(result));
+          for (unsigned int d = c; d < dim; ++d)
+            result[a][b][c][d] = 4. * first[a][b] * D[a][b][c][d] * first[c][d];
+
+    // H : T : D2E : G = 2 sum_abc e[a,b,c] T_ab H_ac G_bc. An entry of the result for a pair of
+    // different indices stands for both of their orders, so that each has half of the sum.
+    const auto orders = [](const unsigned int i, const unsigned int j) { return i == j ? 1. : 2.; };
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = a; b < dim; ++b)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double share = 8. * second_difference(value[a], value[b], value[c]) * T[a][b] /
+                                 (orders(a, c) * orders(b, c));
+            result[a][c][b][c] += share;
+            if (a != b)
+              result[b][c][a][c] += share;
+          }
+    return result;
   }
 
 

@@ -30,6 +30,8 @@ namespace Touchstone
     , hardening(material.hardening)
     , modulus(material.kinematic_modulus)
     , recovery(material.kinematic_recovery)
+    , elastic(2. * mu * deviator_tensor<dim>() +
+              kappa * outer_product(unit_symmetric_tensor<dim>(), unit_symmetric_tensor<dim>()))
   {
   }
 
@@ -131,20 +133,18 @@ namespace Touchstone
         // the tangent unsymmetric.
         if (with_tangent)
           {
-            const double beta = 2. * mu * root_3_2 * x / norm;
-            result.tangent    = 2. * mu * (1. - beta) * deviator_tensor<dim>() +
-                             2. * mu * beta * outer_product(direction, direction);
+            const double beta              = 2. * mu * root_3_2 * x / norm;
+            result.tangent                 = elastic - 2. * mu * beta * deviator_tensor<dim>();
             SymmetricTensor<2, dim> change = direction;
             if (recovery > 0.)
               change += x / norm * recovery * theta * theta *
                         (back_stress - (direction * back_stress) * direction);
-            result.tangent -= 6. * mu * mu / (-slope) * outer_product(change, direction);
+            result.tangent +=
+              outer_product(2. * mu * beta * direction + 6. * mu * mu / slope * change, direction);
           }
       }
     else if (with_tangent)
-      result.tangent = 2. * mu * deviator_tensor<dim>();
-    if (with_tangent)
-      result.tangent += kappa * outer_product(identity, identity);
+      result.tangent = elastic;
 
     result.elastic_energy = 0.5 * (result.stress * result.elastic_strain);
     return result;

@@ -6,6 +6,7 @@
 #include <touchstone/solid/von_mises.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 // The two registered von Mises laws, small and finite strain: they keep the history of a point in
@@ -197,60 +198,107 @@ namespace Touchstone
               MaterialResponse    &response,
               double              *present) const override
       {
-        const Tensor<2, dim>   &F         = input.deformation;
+        // All is done in the frame of the eigenvectors of C_e, in which the trial strain is
+        // diagonal and the derivatives of the logarithm are products of components.
         const double           *committed = input.committed;
         const Tensor<2, dim>    inverse   = plastic_inverse(committed);
-        const Tensor<2, dim>    F_e       = F * inverse;
+        const Tensor<2, dim>    F_e       = input.deformation * inverse;
         const LogarithmicStrain logarithm(symmetrize(transpose(F_e) * F_e));
+        const Tensor<2, dim>   &axes = logarithm.axes();
         SymmetricTensor<2, dim> back_stress;
         if (von_mises.kinematic())
-          back_stress = read(committed + own + dim * dim);
+          back_stress = symmetrize(transpose(axes) *
+                                   (Tensor<2, dim>(read(committed + own + dim * dim)) * axes));
         const ReturnMapping point = von_mises.respond(logarithm.strain(),
                                                       committed[at_strain],
                                                       back_stress,
                                                       demand == Demand::tangent);
         keep(point, committed, response, present);
+        // F_p^{-1}, from the frame to the reference configuration.
+        const Tensor<2, dim> pulled = inverse * axes;
         // F_e at the end is R exp(E_e) with the rotation R of the trial, so that the elastic
         // strain, evaluated anew after the step, is that of the return mapping. Where both
         // strains are coaxial this is the exponential map, exp(dE_p) F_p.
         if (point.increment > 0.)
-          write_inverse(inverse * Tensor<2, dim>(logarithm.inverse_stretch()) *
-                          Tensor<2, dim>(exponential(point.elastic_strain)),
-                        present);
+          {
+            const std::array<double, dim> stretch = logarithm.inverse_stretch();
+            Tensor<2, dim>                trial   = pulled;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int a = 0; a < dim; ++a)
+                trial[i][a] *= stretch[a];
+            write_inverse(trial * Tensor<2, dim>(exponential(point.elastic_strain)) *
+                            transpose(axes),
+                          present);
+          }
         else
           write_inverse(inverse, present);
         if (von_mises.kinematic())
-          write(point.back_stress, present + own + dim * dim);
+          write(symmetrize(axes * Tensor<2, dim>(point.back_stress) * transpose(axes)),
+                present + own + dim * dim);
         if (demand == Demand::energy)
           return;
 
-        // P_e = F_e S with S = 2 DE T, and P = P_e F_p^{-T}.
-        const Tensor<2, dim> S(2. * logarithm.derivative(point.stress));
-        const Tensor<2, dim> transposed = transpose(inverse);
-        response.stress                 = F_e * S * transposed;
-        if (demand == Demand::stress)
-          return;
-        // The tangent column by column: for a unit change of F_kl, that of C_e = F_e^T F_e, of E,
-        // of T by the return mapping, of S by the product rule (the second derivative of E is its
-        // geometric part), and of P.
-        for (unsigned int k = 0; k < dim; ++k)
-          for (unsigned int l = 0; l < dim; ++l)
-            {
-              Tensor<2, dim> dF;
-              dF[k]                                = inverse[l];
-              const SymmetricTensor<2, dim> dC     = 2. * symmetrize(transpose(F_e) * dF);
-              const SymmetricTensor<2, dim> change = point.tangent * logarithm.derivative(dC);
-              const SymmetricTensor<2, dim> dS =
-                2. * (logarithm.derivative(change) + logarithm.curvature(point.stress, dC));
-              const Tensor<2, dim> dP = (dF * S + F_e * Tensor<2, dim>(dS)) * transposed;
-              for (unsigned int i = 0; i < dim; ++i)
-                for (unsigned int j = 0; j < dim; ++j)
-                  response.tangent[i][j][k][l] = dP[i][j];
-            }
+        // P = F_e S F_p^{-T} with S = 2 DE T.
+        const Tensor<2, dim> pushed = F_e * axes;
+        const Tensor<2, dim> S(logarithm.conjugate_stress(point.stress));
+        response.stress = pushed * S * transpose(pulled);
+        if (demand == Demand::tangent)
+          set_tangent(pushed,
+                      pulled,
+                      pulled * S * transpose(pulled),
+                      logarithm.conjugate_tangent(point.stress, point.tangent),
+                      response.tangent);
       }
 
     private:
       const VonMises von_mises;
+
+      /** A_iJkL = delta_ik S_JL + f_ia p_Jb L_abcd f_kc p_Ld with f = F_e and p = F_p^{-1} from the
+       * frame of the eigenvectors, S in the reference configuration and L the derivative of the
+       * stress conjugate to C_e / 2. */
+      static void
+      set_tangent(const Tensor<2, dim>          &f,
+                  const Tensor<2, dim>          &p,
+                  const Tensor<2, dim>          &S,
+                  const SymmetricTensor<4, dim> &L,
+                  Tensor<4, dim>                &A)
+      {
+        // The change of C_e / 2 with F, both orders of a pair of indices together.
+        double change[dim * dim][n_independent], product[dim * dim][n_independent];
+        double moduli[n_independent][n_independent];
+        for (unsigned int m = 0; m < n_independent; ++m)
+          {
+            const TableIndices<2> pair = SymmetricTensor<2, dim>::unrolled_to_component_indices(m);
+            const unsigned int    a = pair[0], b = pair[1];
+            for (unsigned int n = 0; n < n_independent; ++n)
+              {
+                const TableIndices<2> other =
+                  SymmetricTensor<2, dim>::unrolled_to_component_indices(n);
+                moduli[m][n] = L[a][b][other[0]][other[1]];
+              }
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int J = 0; J < dim; ++J)
+                change[dim * i + J][m] =
+                  a == b ? f[i][a] * p[J][a] : f[i][a] * p[J][b] + f[i][b] * p[J][a];
+          }
+        for (unsigned int r = 0; r < dim * dim; ++r)
+          for (unsigned int n = 0; n < n_independent; ++n)
+            {
+              product[r][n] = 0.;
+              for (unsigned int m = 0; m < n_independent; ++m)
+                product[r][n] += change[r][m] * moduli[m][n];
+            }
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int J = 0; J < dim; ++J)
+            for (unsigned int k = 0; k < dim; ++k)
+              for (unsigned int l = 0; l < dim; ++l)
+                {
+                  double sum = i == k ? S[J][l] : 0.;
+                  for (unsigned int n = 0; n < n_independent; ++n)
+                    sum += product[dim * i + J][n] * change[dim * k + l][n];
+                  A[i][J][k][l] = sum;
+                }
+      }
 
       static Tensor<2, dim>
       plastic_inverse(const double *state)

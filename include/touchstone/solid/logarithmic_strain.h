@@ -7,13 +7,16 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <array>
+
 namespace Touchstone
 {
   /**
    * @brief The logarithmic strain E = 1/2 ln C of a tensor C = F^T F and its derivatives.
    *
-   * In the frame of the eigenvectors of C, with e(x) = 1/2 ln x and its divided differences
-   * e[a,b], e[a,b,c] at the eigenvalues (Daleckii and Krein),
+   * All tensors that functions take and return are components in the frame of the eigenvectors
+   * of C, axes(). There, with e(x) = 1/2 ln x and its divided differences e[a,b], e[a,b,c] at the
+   * eigenvalues (Daleckii and Krein),
    *
    *   (DE H)_ab = e[a,b] H_ab,
    *   (D2E (H, G))_ab = sum_c e[a,b,c] (H_ac G_cb + G_ac H_cb),
@@ -27,34 +30,37 @@ namespace Touchstone
     /** @param C Symmetric and positive definite. */
     explicit LogarithmicStrain(const dealii::SymmetricTensor<2, dim> &C);
 
-    /** @brief E. */
+    /** @brief The eigenvectors of C, in columns: a tensor A of the frame of C is axes()^T A
+     * axes() here. */
+    const dealii::Tensor<2, dim> &
+    axes() const
+    {
+      return frame;
+    }
+
+    /** @brief E, diagonal. */
     dealii::SymmetricTensor<2, dim>
     strain() const;
 
-    /** @brief exp(-E). */
-    dealii::SymmetricTensor<2, dim>
+    /** @brief The eigenvalues of exp(-E). */
+    std::array<double, dim>
     inverse_stretch() const;
 
-    /** @brief DE H, the change of E with C; the map is its own transpose. */
+    /** @brief The stress S = 2 DE T that does work on C / 2 where @p T does work on E, force per
+     * area as @p T. */
     dealii::SymmetricTensor<2, dim>
-    derivative(const dealii::SymmetricTensor<2, dim> &H) const;
+    conjugate_stress(const dealii::SymmetricTensor<2, dim> &T) const;
 
-    /** @brief The tensor Q with Q : G = T : D2E(H, G) for all G. */
-    dealii::SymmetricTensor<2, dim>
-    curvature(const dealii::SymmetricTensor<2, dim> &T,
-              const dealii::SymmetricTensor<2, dim> &H) const;
+    /** @brief The change of conjugate_stress() with C / 2, 4 (DE D DE + T : D2E), force per area.
+     * @param T The stress. @param D Its derivative by E. */
+    dealii::SymmetricTensor<4, dim>
+    conjugate_tangent(const dealii::SymmetricTensor<2, dim> &T,
+                      const dealii::SymmetricTensor<4, dim> &D) const;
 
   private:
-    /** Columns are eigenvectors. */
     dealii::Tensor<2, dim>  frame;
     std::array<double, dim> value;
     double                  first[dim][dim];
-    double                  second[dim][dim][dim];
-
-    dealii::Tensor<2, dim>
-    to_frame(const dealii::SymmetricTensor<2, dim> &H) const;
-    dealii::SymmetricTensor<2, dim>
-    from_frame(const dealii::Tensor<2, dim> &H) const;
   };
 
   /** @brief The exponential of a symmetric tensor. */

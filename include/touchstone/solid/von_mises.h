@@ -76,6 +76,8 @@ namespace Touchstone
     const std::shared_ptr<HardeningLaw> hardening;
     /** C and gamma of the back stress. */
     const double modulus, recovery;
+    /** The derivative of the stress by the strain where nothing flows. */
+    const dealii::SymmetricTensor<4, dim> elastic;
 
     /** The root of the yield condition in the increment of the plastic strain. */
     bool
