@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/explicit/lanes.h>
 #include <touchstone/explicit/row_motion.h>
 
 #include <algorithm>
@@ -88,28 +89,51 @@ namespace Touchstone
 
 
 
-  double
+  // Eight faces at a time; negative if any has turned too far.
+  TOUCHSTONE_VECTORISED double
   RowMotion::until_faces_turn(const NodeField &u, const NodeField &v, const double step) const
   {
-    const auto moved = [&](const unsigned int node) {
-      return u[node] + step * v[node] - made_at[node];
+    const auto numbers = [](const NodeField &field) {
+      return reinterpret_cast<const double *>(field.data());
     };
-    double result = std::numeric_limits<double>::max();
-    for (const WatchedFace &face : faces)
+    const double *const displacement = numbers(u), *const velocity = numbers(v),
+                        *const start = numbers(made_at);
+    double                     least = std::numeric_limits<double>::max();
+    for (std::size_t first = 0; first < faces.size(); first += n_lanes)
       {
-        std::array<Tensor<1, dim>, 4> m;
+        Lanes m[4][dim], size = {};
         for (unsigned int i = 0; i < 4; ++i)
-          m[i] = moved(face.corners[i]);
-        const double limit  = turns * face.size;
-        const double square = std::max({(m[0] - m[1]).norm_square(),
-                                        (m[1] - m[3]).norm_square(),
-                                        (m[3] - m[2]).norm_square(),
-                                        (m[2] - m[0]).norm_square()});
-        if (square > limit * limit)
-          return -1.;
-        result = std::min(result, limit - std::sqrt(square));
+          {
+            const double *of_u[n_lanes], *of_v[n_lanes], *of_start[n_lanes];
+            for (unsigned int c = 0; c < n_lanes; ++c)
+              {
+                const WatchedFace &face = faces[std::min(first + c, faces.size() - 1)];
+                const std::size_t  at   = dim * face.corners[i];
+                of_u[c]                 = displacement + at;
+                of_v[c]                 = velocity + at;
+                of_start[c]             = start + at;
+                size[c]                 = face.size;
+              }
+            Lanes speed[dim], before[dim];
+            gather(of_u, m[i]);
+            gather(of_v, speed);
+            gather(of_start, before);
+            for (unsigned int d = 0; d < dim; ++d)
+              m[i][d] += step * speed[d] - before[d];
+          }
+        Lanes square = {};
+        for (const auto &[one, other] : {std::pair(0, 1), {1, 3}, {3, 2}, {2, 0}})
+          {
+            Lanes sum = {};
+            for (unsigned int d = 0; d < dim; ++d)
+              sum += (m[one][d] - m[other][d]) * (m[one][d] - m[other][d]);
+            square = sum > square ? sum : square;
+          }
+        const Lanes until = turns * size - square_root(square);
+        for (unsigned int c = 0; c < n_lanes; ++c)
+          least = std::min(least, until[c]);
       }
-    return result;
+    return least;
   }
 
 
