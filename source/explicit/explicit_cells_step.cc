@@ -27,21 +27,21 @@ namespace Touchstone
 
 
 
-  double
-  ExplicitCells::step_of(const unsigned int body,
-                         const unsigned int c,
-                         const NodeField   &u,
-                         const NodeField   &v) const
+  std::vector<double>
+  ExplicitCells::steps_of(const unsigned int body, const NodeField &u, const NodeField &v) const
   {
     // Viscous forces are those of the velocity half a cycle before: the step of a mode with the
     // part xi of critical damping (doc/explicit.md, section 4).
-    std::array<Tensor<1, dim>, 8> derivative;
-    double                        rate = 0.;
+    std::vector<double> result(periods[body].size(), 0.);
     if (parameters.quadratic_viscosity > 0.)
-      rate = of_bodies[body]->volume_rate(c, u, v, derivative);
-    const double xi =
-      Viscosity(bodies[body].material, parameters, 0.).damping(rate, periods[body][c]);
-    return 2. * periods[body][c] * (std::sqrt(1. + xi * xi) - xi);
+      of_bodies[body]->set_volume_rates(u, v, result);
+    const Viscosity viscosity(bodies[body].material, parameters, 0.);
+    for (unsigned int c = 0; c < result.size(); ++c)
+      {
+        const double xi = viscosity.damping(result[c], periods[body][c]);
+        result[c]       = 2. * periods[body][c] * (std::sqrt(1. + xi * xi) - xi);
+      }
+    return result;
   }
 
 
@@ -56,11 +56,11 @@ namespace Touchstone
     std::vector<std::vector<double>> steps(bodies.size());
     result.length = std::numeric_limits<double>::max();
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int c = 0; c < periods[b].size(); ++c)
-        {
-          steps[b].push_back(step_of(b, c, u, v));
-          result.length = std::min(result.length, steps[b].back());
-        }
+      {
+        steps[b] = steps_of(b, u, v);
+        for (const double step : steps[b])
+          result.length = std::min(result.length, step);
+      }
     result.length = Utilities::MPI::min(result.length, map.communicator());
     for (unsigned int b = 0; b < bodies.size(); ++b)
       for (unsigned int c = 0; c < steps[b].size(); ++c)
@@ -79,25 +79,19 @@ namespace Touchstone
   ExplicitCells::time_to_shorten(const double step, const NodeField &u, const NodeField &v) const
   {
     // A little above the stable step unstable modes grow slowly.
-    constexpr double below  = 0.2;
-    double           result = std::numeric_limits<double>::max();
+    constexpr double    below  = 0.2;
+    double              result = std::numeric_limits<double>::max();
+    std::vector<double> squares;
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int c = 0; c < periods[b].size(); ++c)
-        {
-          const auto &nodes = map.cells()[of_bodies[b]->cell_numbers()[c]].nodes;
-          double      rate  = 0.;
-          for (unsigned int a = 0; a < nodes.size(); ++a)
-            for (unsigned int d = 0; d < dim; ++d)
-              if (const unsigned int e = a | (1U << d); e != a)
-                {
-                  const unsigned int   i = nodes[a], j = nodes[e];
-                  const Tensor<1, dim> edge = map.positions()[j] + u[j] - map.positions()[i] - u[i];
-                  rate = std::max(rate, (v[j] - v[i]).norm_square() / edge.norm_square());
-                }
-          const double room = std::log(std::max(1., 2. * periods[b][c] / step)) + below;
-          if (rate > 0.)
-            result = std::min(result, room / std::sqrt(rate));
-        }
+      {
+        of_bodies[b]->set_edge_rates(u, v, squares);
+        for (unsigned int c = 0; c < periods[b].size(); ++c)
+          {
+            const double room = std::log(std::max(1., 2. * periods[b][c] / step)) + below;
+            if (squares[c] > 0.)
+              result = std::min(result, room / std::sqrt(squares[c]));
+          }
+      }
     return Utilities::MPI::min(result, map.communicator());
   }
 
@@ -110,17 +104,20 @@ namespace Touchstone
     const NodeField rest(u.size());
     ExactSum        total, added;
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int c = 0; c < periods[b].size(); ++c)
-        {
-          const double step = parameters.courant_factor * step_of(b, c, u, rest);
-          factors[b][c]     = std::max(1., std::pow(parameters.mass_scaling_step / step, 2));
-          if (map.cells()[of_bodies[b]->cell_numbers()[c]].owned)
-            for (const double mass : cell_masses[b][c])
-              {
-                total.add(mass);
-                added.add((factors[b][c] - 1.) * mass);
-              }
-        }
+      {
+        const std::vector<double> steps = steps_of(b, u, rest);
+        for (unsigned int c = 0; c < steps.size(); ++c)
+          {
+            const double step = parameters.courant_factor * steps[c];
+            factors[b][c]     = std::max(1., std::pow(parameters.mass_scaling_step / step, 2));
+            if (map.cells()[of_bodies[b]->cell_numbers()[c]].owned)
+              for (const double mass : cell_masses[b][c])
+                {
+                  total.add(mass);
+                  added.add((factors[b][c] - 1.) * mass);
+                }
+          }
+      }
     const double all = total.value(map.communicator()), more = added.value(map.communicator());
     if (more > parameters.largest_added_mass * all)
       {

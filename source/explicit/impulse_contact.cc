@@ -107,12 +107,18 @@ namespace Touchstone
   {
     check_obstacles(time, step);
     if (surfaces.needed())
-      surfaces.measure(before, v, speeds_before, speeds);
-    fastest = std::max(fastest, speeds_before.apart);
+      {
+        speeds_before = speeds;
+        if (untouched)
+          surfaces.measure({{&v, &speeds}});
+        else
+          surfaces.measure({{&before, &speeds_before}, {&v, &speeds}});
+      }
+    untouched = false;
+    fastest   = std::max(fastest, speeds_before.apart);
     if (general)
       general->begin_cycle(u, v, step);
-    if (!start_interval(u, time))
-      renew_if_moved(u, before, v, time, step);
+    const bool imported = !start_interval(u, time) && renew_if_moved(u, before, v, time, step);
     if (general && general->must_lay_out())
       lay_out(u);
     last_step = step;
@@ -120,9 +126,11 @@ namespace Touchstone
       {
         ++counted.cycles;
         end_of_action();
+        untouched = true;
         return true;
       }
-    import(u, before, v);
+    if (!imported || general)
+      import(u, before, v);
     set_geometry(time, step);
     ImpulseCounts counts =
       rule.springs() ? push(time, step, acting > 0. ? acting : step) : solve(time, step);
@@ -143,6 +151,7 @@ namespace Touchstone
     if (counts.rounds == 0)
       {
         end_of_action();
+        untouched = !general;
         if (surfaces.needed() && !rule.springs())
           {
             all_asleep_until = std::numeric_limits<double>::max();
@@ -290,6 +299,7 @@ namespace Touchstone
   {
     springs.rollback();
     tools.rollback();
+    untouched = false;
   }
 
 

@@ -23,7 +23,7 @@ namespace Touchstone
 
   // Most cycles need not look at the motion of single faces and rows: nodes of a surface cannot
   // have moved by more, relative to each other, than the box of their velocities allows.
-  void
+  bool
   ImpulseContact::renew_if_moved(const NodeField &u,
                                  const NodeField &before,
                                  const NodeField &v,
@@ -31,16 +31,18 @@ namespace Touchstone
                                  const double     step)
   {
     if (!surfaces.needed())
-      return;
+      return false;
     travelled.add(last_step, speeds_before);
     const RowTravel ahead(step, speeds);
     if (!motion.must_look(travelled, ahead))
-      return;
+      return false;
     import(u, before, v);
     for (unsigned int node = 0; node < solver.nodes.n(); ++node)
       moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
-    if (motion.demands_rows(u, v, step, solver, moved, travelled, ahead, largest_weights))
-      renew(u, time);
+    if (!motion.demands_rows(u, v, step, solver, moved, travelled, ahead, largest_weights))
+      return true;
+    renew(u, time);
+    return false;
   }
 
 

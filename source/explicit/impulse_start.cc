@@ -15,6 +15,7 @@ namespace Touchstone
   {
     renew_rows = true;
     counted    = ImpulseWork();
+    untouched  = false;
     if (general)
       general->begin_interval();
     fastest = 0.;
@@ -64,7 +65,7 @@ namespace Touchstone
       }
     renew(u, time);
     if (surfaces.needed())
-      surfaces.measure(start, v, speeds_before, speeds);
+      surfaces.measure({{&start, &speeds_before}, {&v, &speeds}});
     import(u, start, v);
     set_geometry(time, step);
     for (const std::size_t k : solver.near)

@@ -29,75 +29,41 @@ namespace Touchstone
     , states(cells.size(), law.law(), 1)
     , blocks((cells.size() + n_cells - 1) / n_cells)
   {
+    const double factor = body.hourglass_factor();
+    if (body.hourglass != BodyParameters::Hourglass::none)
+      {
+        control.young = body.material.young_modulus;
+        control.shear = body.material.shear_modulus();
+      }
+    if (body.hourglass == BodyParameters::Hourglass::stiffness)
+      {
+        control.young *= factor;
+        control.shear *= factor;
+      }
+    else if (body.hourglass == BodyParameters::Hourglass::viscous)
+      {
+        control.damping = factor;
+        control.density = body.material.density;
+      }
     for (unsigned int b = 0; b < blocks.size(); ++b)
-      set_block(blocks[b], b * n_cells);
+      for (unsigned int lane = 0; lane < n_cells; ++lane)
+        {
+          // The last block is filled with copies, whose results are dropped.
+          const NodeMap::Cell &one =
+            cell(std::min<unsigned int>(b * n_cells + lane, cells.size() - 1));
+          std::copy(one.nodes.begin(), one.nodes.end(), blocks[b].of_cells[lane]);
+        }
   }
 
 
 
-  void
-  OnePointCells::set_block(OnePointBlock &block, const unsigned int first)
+  const OnePointBlock &
+  OnePointCells::block_of(const unsigned int c) const
   {
-    const double young  = body.material.young_modulus;
-    const double factor = body.hourglass_factor();
-    for (unsigned int lane = 0; lane < n_cells; ++lane)
-      {
-        // The last block is filled with copies, whose results are dropped.
-        const NodeMap::Cell &one = cell(std::min<unsigned int>(first + lane, cells.size() - 1));
-        const auto           x   = corners(map, one);
-        const auto           b   = volume_derivative(x);
-        double               V   = 0.;
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          V += b[a] * x[a] / dim;
-        block.volume[lane] = V;
-        Tensor<2, dim> edges; // mean edge vectors
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          {
-            block.nodes[lane][a] = one.nodes[a];
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                block.gradients[dim * a + i][lane] = b[a][i] / V;
-                edges[i] += (((a >> i) & 1) ? 0.25 : -0.25) * x[a];
-              }
-          }
-        double square[dim], mass = body.material.density * V / n_nodes;
-        for (unsigned int i = 0; i < dim; ++i)
-          square[i] = edges[i].norm_square();
-        for (unsigned int m = 0; m < n_modes; ++m)
-          {
-            for (unsigned int i = 0; i < dim; ++i)
-              {
-                block.warp[dim * m + i][lane] = 0.;
-                for (unsigned int a = 0; a < n_nodes; ++a)
-                  block.warp[dim * m + i][lane] += hourglass_sign(m, a) * x[a][i];
-              }
-          }
-        // Exact for bending of a box: the normal strains of the modes with the modulus of bars.
-        // What is left, warping, has the stiffness of the twist of a plate.
-        const double shear    = body.material.shear_modulus();
-        const double shortest = std::min({square[0], square[1], square[2]}),
-                     longest  = std::max({square[0], square[1], square[2]});
-        double k[n_modes];
-        for (unsigned int i = 0; i < dim; ++i)
-          k[i] = young * V / (48. * square[i]);
-        k[dim] = shear * V * shortest / (12. * longest * longest);
-        for (unsigned int m = 0; m < n_modes; ++m)
-          {
-            double softest = std::numeric_limits<double>::max();
-            for (unsigned int i = 0; i < dim; ++i)
-              softest =
-                std::min(softest,
-                         OnePointBlock::warps(m, i) ? k[dim] : OnePointBlock::part(m) * k[i]);
-            // The part of critical damping of the softest direction, 8 c / mass = 2 xi omega.
-            block.control[m][lane] = body.hourglass == BodyParameters::Hourglass::none ? 0.
-                                     : body.hourglass == BodyParameters::Hourglass::viscous
-                                       ? factor * 0.25 * mass * std::sqrt(n_nodes * softest / mass)
-                                       : factor * k[m];
-          }
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            block.edges[dim * i + j][lane] = edges[i][j] / std::sqrt(square[i]);
-      }
+    if (present != c / n_cells)
+      block.reinit(blocks[c / n_cells], numbers_of(map.positions()), control);
+    present = c / n_cells;
+    return block;
   }
 
 
@@ -113,44 +79,63 @@ namespace Touchstone
     using Hourglass      = OnePointKernels::Hourglass;
     unsigned int failed  = numbers::invalid_unsigned_int;
     const bool   damped  = body.hourglass == BodyParameters::Hourglass::viscous;
-    const auto   control = body.hourglass != BodyParameters::Hourglass::stiffness ? Hourglass::none
+    const auto   springs = body.hourglass != BodyParameters::Hourglass::stiffness ? Hourglass::none
                            : finite ? Hourglass::convected
                                     : Hourglass::fixed;
-    double       values[dim * n_nodes][n_cells], forces[dim * n_nodes][n_cells],
-      gradient[dim * dim][n_cells], stress[dim * dim][n_cells];
+    double       sums[dim * OnePointBlock::n_sums][n_cells], forces[dim * n_nodes][n_cells],
+      gradient[dim * dim][n_cells], stress[dim * dim][n_cells], rates[dim * dim][n_cells],
+      rate[n_cells], periods[n_cells];
     for (unsigned int b = 0; b < blocks.size(); ++b)
       {
-        const OnePointBlock &block  = blocks[b];
+        const BlockNodes    &nodes  = blocks[b];
         const unsigned int   first  = b * n_cells;
         const unsigned int   n_used = std::min<unsigned int>(n_cells, cells.size() - first);
-        OnePointKernels::gather(block, numbers_of(u), values);
-        OnePointKernels::set_gradients(block, values, gradient);
+        const OnePointBlock &shapes = block_of(first);
+        OnePointKernels::set_gradients(nodes, shapes, numbers_of(u), sums, gradient);
         const unsigned int lane = law.respond(gradient, step, n_used, states.block(b), stress);
         if (lane < n_used)
           failed = std::min(failed, first + lane);
-        OnePointKernels::set_forces(block, values, gradient, stress, control, forces);
-        scatter(block.nodes, n_used, forces, force);
+        OnePointKernels::set_forces(shapes, sums, gradient, stress, springs, forces);
+        scatter(nodes.of_cells, n_used, forces, force);
         if (!damped && bulk == nullptr)
           continue;
-        OnePointKernels::gather(block, numbers_of(v), values);
+        OnePointKernels::set_gradients(nodes, shapes, numbers_of(v), sums, rates);
         if (bulk != nullptr)
           {
-            double periods[n_cells];
             for (unsigned int l = 0; l < n_cells; ++l)
               periods[l] = bulk->periods[first + std::min(l, n_used - 1)];
-            OnePointKernels::set_viscous_forces(
-              block, values, finite ? gradient : nullptr, bulk->viscosity, periods, forces);
-            scatter(block.nodes, n_used, forces, viscous);
+            OnePointKernels::set_volume_rates(rates, finite ? gradient : nullptr, rate, stress);
+            OnePointKernels::set_viscous_stress(bulk->viscosity, periods, rate, stress);
           }
-        if (damped)
-          {
-            std::fill_n(&stress[0][0], dim * dim * n_cells, 0.);
-            OnePointKernels::set_gradients(block, values, gradient);
-            OnePointKernels::set_forces(block, values, gradient, stress, Hourglass::damped, forces);
-            scatter(block.nodes, n_used, forces, viscous);
-          }
+        else
+          std::fill_n(&stress[0][0], dim * dim * n_cells, 0.);
+        OnePointKernels::set_forces(
+          shapes, sums, rates, stress, damped ? Hourglass::damped : Hourglass::none, forces);
+        scatter(nodes.of_cells, n_used, forces, viscous);
       }
     return failed;
+  }
+
+
+
+  void
+  OnePointCells::set_volume_rates(const NodeField     &u,
+                                  const NodeField     &v,
+                                  std::vector<double> &result)
+  {
+    double sums[dim * OnePointBlock::n_sums][n_cells], gradient[dim * dim][n_cells],
+      rates[dim * dim][n_cells], derivatives[dim * dim][n_cells], rate[n_cells];
+    result.resize(cells.size());
+    for (unsigned int first = 0; first < cells.size(); first += n_cells)
+      {
+        const BlockNodes    &nodes  = blocks[first / n_cells];
+        const OnePointBlock &shapes = block_of(first);
+        if (finite)
+          OnePointKernels::set_gradients(nodes, shapes, numbers_of(u), sums, gradient);
+        OnePointKernels::set_gradients(nodes, shapes, numbers_of(v), sums, rates);
+        OnePointKernels::set_volume_rates(rates, finite ? gradient : nullptr, rate, derivatives);
+        std::copy_n(rate, std::min<std::size_t>(n_cells, cells.size() - first), &result[first]);
+      }
   }
 
 
@@ -160,9 +145,9 @@ namespace Touchstone
   {
     if (body.hourglass != BodyParameters::Hourglass::stiffness)
       return 0.;
-    const auto &control = blocks[c / n_cells].control;
-    return OnePointBlock::warps(m, i) ? control[dim][c % n_cells]
-                                      : OnePointBlock::part(m) * control[i][c % n_cells];
+    const OnePointBlock &of = block_of(c);
+    return OnePointBlock::warps(m, i) ? of.warping[i][c % n_cells]
+                                      : OnePointBlock::part(m) * of.bending[i][c % n_cells];
   }
 
 
@@ -170,13 +155,14 @@ namespace Touchstone
   Tensor<2, dim>
   OnePointCells::displacement_gradient(const unsigned int c, const NodeField &u) const
   {
-    const OnePointBlock &block = blocks[c / n_cells];
+    const OnePointBlock &of    = block_of(c);
     const unsigned int   lane  = c % n_cells;
+    const auto          &nodes = cell(c).nodes;
     Tensor<2, dim>       result;
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
-          result[i][j] += u[block.nodes[lane][a]][i] * block.gradients[dim * a + j][lane];
+          result[i][j] += u[nodes[a]][i] * of.gradient(a, j, lane);
     return result;
   }
 
@@ -187,16 +173,16 @@ namespace Touchstone
                                   const NodeField      &u,
                                   const Tensor<2, dim> &H) const
   {
-    const OnePointBlock &block = blocks[c / n_cells];
-    const unsigned int   lane  = c % n_cells;
-    double               sum   = 0.;
+    const OnePointBlock &of   = block_of(c);
+    const unsigned int   lane = c % n_cells;
+    double               sum  = 0.;
     for (unsigned int m = 0; m < n_modes; ++m)
       {
         Tensor<1, dim> q, warp;
         for (unsigned int a = 0; a < n_nodes; ++a)
-          q += hourglass_sign(m, a) * u[block.nodes[lane][a]];
+          q += OnePointBlock::sign(dim + m, a) * u[cell(c).nodes[a]];
         for (unsigned int j = 0; j < dim; ++j)
-          warp[j] = block.warp[dim * m + j][lane];
+          warp[j] = of.positions[dim * (dim + m) + j][lane];
         q -= H * warp;
         if (finite)
           q += transpose(H) * q;
@@ -204,7 +190,7 @@ namespace Touchstone
           {
             Tensor<1, dim> edge;
             for (unsigned int j = 0; j < dim; ++j)
-              edge[j] = block.edges[dim * i + j][lane];
+              edge[j] = of.positions[dim * i + j][lane];
             sum += 0.5 * stiffness(c, m, i) * (edge * q) * (edge * q);
           }
       }
@@ -223,16 +209,14 @@ namespace Touchstone
     for (unsigned int c = 0; c < cells.size(); ++c)
       if (cell(c).owned)
         {
-          const OnePointBlock &block = blocks[c / n_cells];
-          const unsigned int   lane  = c % n_cells;
-          Tensor<2, dim>       H     = displacement_gradient(c, u);
+          Tensor<2, dim> H      = displacement_gradient(c, u);
+          const double   volume = block_of(c).volume[c % n_cells];
           energies.hourglass.add(hourglass_energy(c, u, H));
           if (law.law() == nullptr)
             {
               const SymmetricTensor<2, dim> strain = symmetrize(H);
               energies.strain.add(
-                block.volume[lane] *
-                (0.5 * lambda * trace(strain) * trace(strain) + mu * (strain * strain)));
+                volume * (0.5 * lambda * trace(strain) * trace(strain) + mu * (strain * strain)));
               continue;
             }
           if (finite)
@@ -240,9 +224,9 @@ namespace Touchstone
           states.get(c, begin.data());
           if (!finite || determinant(H) > 0.)
             law.law()->respond({H, begin.data(), 0.}, Demand::energy, response, end.data());
-          energies.strain.add(block.volume[lane] * response.elastic_energy);
+          energies.strain.add(volume * response.elastic_energy);
           if (states.size() > 0)
-            energies.plastic.add(block.volume[lane] * law.law()->dissipation(begin.data()));
+            energies.plastic.add(volume * law.law()->dissipation(begin.data()));
         }
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/explicit/lanes.h>
 #include <touchstone/explicit/row_motion.h>
 
 #include <algorithm>
@@ -20,9 +21,15 @@ namespace Touchstone
     /** The same relative to the gap of a node that is apart: what it faces when it arrives is found
      * on its way. */
     constexpr double slides_apart = 0.25;
+    /** Motion of a node without partner relative to its distance from the master surface: it cannot
+     * have come there yet. */
+    constexpr double on_its_way = 0.75;
     /** Change of the edges of a face relative to its size: normals are off by as much, in radians.
      */
     constexpr double turns = 1e-3;
+    /** As long as all rows are apart faces may turn so far, and no farther than 'slides_apart' says
+     * of the smallest gap. */
+    constexpr double turns_apart = 0.1;
   } // namespace
 
 
@@ -78,38 +85,73 @@ namespace Touchstone
         searching[p] = Utilities::MPI::max(some, nodes.communicator()) > 0;
       }
     sliding.clear();
+    least_gap = std::numeric_limits<double>::max();
     for (std::size_t k = 0; k < rows.size(); ++k)
       {
-        const ContactRow &row = contact.rows()[rows[k]];
-        if (!row.stencil.empty() && !contact.pair(row).small_sliding())
-          sliding.push_back({k, row.size, row.gap, row.normal});
+        const ContactRow  &row  = contact.rows()[rows[k]];
+        const ContactPair &pair = contact.pair(row);
+        if (!row.stencil.empty() && !pair.small_sliding())
+          {
+            sliding.push_back({k, row.size, row.gap, row.normal});
+            const bool overlaps = pair.overlap(row.index - pair.rows().front().index) != 0.;
+            least_gap           = std::min(least_gap, row.tied || overlaps ? 0. : row.gap);
+          }
       }
+    least_gap = Utilities::MPI::min(least_gap, nodes.communicator());
   }
 
 
 
-  double
-  RowMotion::until_faces_turn(const NodeField &u, const NodeField &v, const double step) const
+  // Eight faces at a time; negative if any has turned too far.
+  TOUCHSTONE_VECTORISED double
+  RowMotion::until_faces_turn(const NodeField &u,
+                              const NodeField &v,
+                              const double     step,
+                              const double     gap) const
   {
-    const auto moved = [&](const unsigned int node) {
-      return u[node] + step * v[node] - made_at[node];
+    const auto numbers = [](const NodeField &field) {
+      return reinterpret_cast<const double *>(field.data());
     };
-    double result = std::numeric_limits<double>::max();
-    for (const WatchedFace &face : faces)
+    const double *const displacement = numbers(u), *const velocity = numbers(v),
+                        *const start = numbers(made_at);
+    double                     least = std::numeric_limits<double>::max();
+    for (std::size_t first = 0; first < faces.size(); first += n_lanes)
       {
-        std::array<Tensor<1, dim>, 4> m;
+        Lanes m[4][dim], size = {};
         for (unsigned int i = 0; i < 4; ++i)
-          m[i] = moved(face.corners[i]);
-        const double limit  = turns * face.size;
-        const double square = std::max({(m[0] - m[1]).norm_square(),
-                                        (m[1] - m[3]).norm_square(),
-                                        (m[3] - m[2]).norm_square(),
-                                        (m[2] - m[0]).norm_square()});
-        if (square > limit * limit)
-          return -1.;
-        result = std::min(result, limit - std::sqrt(square));
+          {
+            const double *of_u[n_lanes], *of_v[n_lanes], *of_start[n_lanes];
+            for (unsigned int c = 0; c < n_lanes; ++c)
+              {
+                const WatchedFace &face = faces[std::min(first + c, faces.size() - 1)];
+                const std::size_t  at   = dim * face.corners[i];
+                of_u[c]                 = displacement + at;
+                of_v[c]                 = velocity + at;
+                of_start[c]             = start + at;
+                size[c]                 = face.size;
+              }
+            Lanes speed[dim], before[dim];
+            gather(of_u, m[i]);
+            gather(of_v, speed);
+            gather(of_start, before);
+            for (unsigned int d = 0; d < dim; ++d)
+              m[i][d] += step * speed[d] - before[d];
+          }
+        Lanes square = {};
+        for (const auto &[one, other] : {std::pair(0, 1), {1, 3}, {3, 2}, {2, 0}})
+          {
+            Lanes sum = {};
+            for (unsigned int d = 0; d < dim; ++d)
+              sum += (m[one][d] - m[other][d]) * (m[one][d] - m[other][d]);
+            square = sum > square ? sum : square;
+          }
+        const Lanes close = turns * size, far = turns_apart * size,
+                    between = Lanes{} + slides_apart * gap, apart = between < far ? between : far,
+                    limit = apart > close ? apart : close, until = limit - square_root(square);
+        for (unsigned int c = 0; c < n_lanes; ++c)
+          least = std::min(least, until[c]);
       }
-    return result;
+    return least;
   }
 
 
@@ -175,7 +217,7 @@ namespace Touchstone
                 Tensor<1, dim>       farthest;
                 for (unsigned int d = 0; d < dim; ++d)
                   farthest[d] = std::max(m[d] + all[dim + d], all[d] - m[d]);
-                const double limit = std::max(slides * slave.size, slides_apart * row.away);
+                const double limit = std::max(slides * slave.size, on_its_way * row.away);
                 result             = std::min(result, limit - farthest.norm());
               }
         }
@@ -196,9 +238,11 @@ namespace Touchstone
   {
     // Which criteria are looked at is the same on all ranks.
     const double apart = travelled.apart + ahead.apart;
-    const bool   turn  = travelled.within + ahead.within >= safe_until.turn,
+    const bool   turn  = turned(travelled) + turned(ahead) >= safe_until.turn,
                slide = apart >= safe_until.slide, find = apart >= safe_until.find;
-    const double until[3] = {turn ? until_faces_turn(u, v, step) : 0.,
+    // No row can have become narrower than this.
+    const double gap      = std::max(0., least_gap - largest_weights * apart);
+    const double until[3] = {turn ? until_faces_turn(u, v, step, gap) : 0.,
                              slide ? until_rows_slide(solver, moved) : 0.,
                              find ? until_partners_are_found(u, v, step) : 0.};
     double least[3];
@@ -207,7 +251,11 @@ namespace Touchstone
     // nodes are elsewhere by what they travel until then, and by both free motions.
     constexpr double safe = 1. - 1e-9;
     if (turn)
-      safe_until.turn = safe * least[0] + travelled.within - ahead.within;
+      {
+        // The limit falls with the gap.
+        safe_until.by_gap = gap > 0. ? slides_apart * largest_weights : 0.;
+        safe_until.turn   = safe * least[0] + turned(travelled) - turned(ahead);
+      }
     if (slide)
       safe_until.slide = safe * least[1] / largest_weights + travelled.apart - ahead.apart;
     if (find)

@@ -58,6 +58,18 @@ namespace Touchstone
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = i; j < dim; ++j)
           G[i][j] += b[a][i] * b[a][j] / masses[a];
+    return one_point_frequency(G, volume, material);
+  }
+
+
+
+  double
+  one_point_frequency(const SymmetricTensor<2, dim> &G,
+                      const double                   volume,
+                      const MaterialParameters      &material)
+  {
+    if (!(volume > 0.))
+      return 0.;
     const double mu = material.shear_modulus(), lambda = material.bulk_modulus() - 2. / 3. * mu;
     const auto   g = eigenvalues(G);
     SymmetricTensor<2, dim> reduced;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/explicit/lanes.h>
 #include <touchstone/explicit/surface_speeds.h>
 
 #include <algorithm>
@@ -25,16 +26,6 @@ namespace Touchstone
       }
 
       void
-      add(const Tensor<1, dim> &v)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            values[d]       = std::max(values[d], v[d]);
-            values[dim + d] = std::max(values[dim + d], -v[d]);
-          }
-      }
-
-      void
       add(const Bounds &other)
       {
         for (unsigned int i = 0; i < 2 * dim; ++i)
@@ -51,17 +42,40 @@ namespace Touchstone
       }
     };
 
-    /** The bounds of a surface and the highest square of a speed there. */
-    void
+    /** The bounds of the nodes of a list, and the highest square of a speed there, as of earlier
+     * lists; @p v [3n+i]. */
+    TOUCHSTONE_VECTORISED void
     measure_nodes(const std::vector<unsigned int> &list,
-                  const NodeField                 &v,
-                  Bounds                          &bounds,
-                  double                          &square)
+                  const double                    *v,
+                  double (&bounds)[2 * dim],
+                  double &square)
     {
-      for (const unsigned int node : list)
+      if (list.empty())
+        return;
+      Lanes extreme[2 * dim], fastest = {};
+      for (Lanes &e : extreme)
+        e = Lanes{} + std::numeric_limits<double>::lowest();
+      for (std::size_t first = 0; first < list.size(); first += n_lanes)
         {
-          bounds.add(v[node]);
-          square = std::max(square, v[node].norm_square());
+          const double *x[n_lanes];
+          for (unsigned int c = 0; c < n_lanes; ++c)
+            x[c] = v + dim * list[std::min(first + c, list.size() - 1)];
+          Lanes of_nodes[dim], sum = {};
+          gather(x, of_nodes);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const Lanes one = of_nodes[d], other = -one;
+              extreme[d]       = one > extreme[d] ? one : extreme[d];
+              extreme[dim + d] = other > extreme[dim + d] ? other : extreme[dim + d];
+              sum += one * one;
+            }
+          fastest = sum > fastest ? sum : fastest;
+        }
+      for (unsigned int c = 0; c < n_lanes; ++c)
+        {
+          for (unsigned int i = 0; i < 2 * dim; ++i)
+            bounds[i] = std::max(bounds[i], extreme[i][c]);
+          square = std::max(square, fastest[c]);
         }
     }
   } // namespace
@@ -96,36 +110,31 @@ namespace Touchstone
 
 
   void
-  SurfaceSpeeds::measure(const NodeField &before,
-                         const NodeField &v,
-                         Speeds          &of_before,
-                         Speeds          &of_v) const
+  SurfaceSpeeds::measure(const std::vector<Measured> &fields) const
   {
-    const NodeField *const fields[]  = {&before, &v};
-    Speeds *const          results[] = {&of_before, &of_v};
-    const std::size_t      n         = sides.size();
-    // Bounds of all sides for either field, and behind them the squares of the highest speeds.
-    std::vector<Bounds> bounds(2 * n);
-    std::vector<double> all(2 * n * 2 * dim + 2, 0.);
-    for (unsigned int f = 0; f < 2; ++f)
+    const std::size_t n = sides.size(), n_fields = fields.size();
+    // Bounds of all sides for each field, and behind them the squares of the highest speeds.
+    std::vector<Bounds> bounds(n_fields * n);
+    std::vector<double> all(n_fields * (n * 2 * dim + 1), 0.);
+    double *const       squares = &all[n_fields * n * 2 * dim];
+    for (std::size_t f = 0; f < n_fields; ++f)
       {
-        double square = 0.;
-        Bounds unused;
+        const double *const v = reinterpret_cast<const double *>(fields[f].first->data());
+        Bounds              unused;
         for (std::size_t side = 0; side < n; ++side)
-          measure_nodes(sides[side], *fields[f], bounds[f * n + side], square);
-        measure_nodes(others, *fields[f], unused, square);
-        all[2 * n * 2 * dim + f] = square;
+          measure_nodes(sides[side], v, bounds[f * n + side].values, squares[f]);
+        measure_nodes(others, v, unused.values, squares[f]);
       }
-    for (std::size_t i = 0; i < 2 * n; ++i)
+    for (std::size_t i = 0; i < n_fields * n; ++i)
       std::copy_n(bounds[i].values, 2 * dim, &all[i * 2 * dim]);
     Utilities::MPI::max(std::vector<double>(all), nodes.communicator(), all);
-    for (std::size_t i = 0; i < 2 * n; ++i)
+    for (std::size_t i = 0; i < n_fields * n; ++i)
       std::copy_n(&all[i * 2 * dim], 2 * dim, bounds[i].values);
-    for (unsigned int f = 0; f < 2; ++f)
+    for (std::size_t f = 0; f < n_fields; ++f)
       {
-        Speeds &result = *results[f];
+        Speeds &result = *fields[f].second;
         result         = Speeds();
-        result.highest = std::sqrt(all[2 * n * 2 * dim + f]);
+        result.highest = std::sqrt(squares[f]);
         for (std::size_t side = 0; side < n; side += 2)
           {
             Bounds &one = bounds[f * n + side], &other = bounds[f * n + side + 1];

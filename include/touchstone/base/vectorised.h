@@ -46,6 +46,12 @@ namespace Touchstone
   };
 
   template <>
+  struct Simd<double, 2>
+  {
+    using type __attribute__((vector_size(16), aligned(8), may_alias)) = double;
+  };
+
+  template <>
   struct Simd<double, 4>
   {
     using type __attribute__((vector_size(32), aligned(8), may_alias)) = double;

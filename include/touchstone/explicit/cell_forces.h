@@ -6,6 +6,7 @@
 #include <touchstone/base/exact_sum.h>
 #include <touchstone/explicit/cell_states.h>
 #include <touchstone/explicit/node_map.h>
+#include <touchstone/explicit/one_point_block.h>
 #include <touchstone/explicit/viscosity.h>
 #include <touchstone/solid/body_parameters.h>
 
@@ -82,13 +83,13 @@ namespace Touchstone
                     NodeField           &force,
                     NodeField           &viscous) = 0;
 
-    /** @brief Rate of the volume of a cell, relative to it, and the derivative of the volume by the
-     * positions of the nodes. */
-    double
-    volume_rate(unsigned int                           c,
-                const NodeField                       &u,
-                const NodeField                       &v,
-                std::array<dealii::Tensor<1, dim>, 8> &derivative) const;
+    /** @brief Rates of the volumes of all cells, relative to them, as bulk viscosity sees them. */
+    virtual void
+    set_volume_rates(const NodeField &u, const NodeField &v, std::vector<double> &result);
+
+    /** @brief Largest square of the rate of the edges of each cell, relative to them. */
+    void
+    set_edge_rates(const NodeField &u, const NodeField &v, std::vector<double> &result) const;
 
     /** @brief Add the energies of owned cells at the displacement of the last subtract_forces(). */
     virtual void
@@ -144,6 +145,16 @@ namespace Touchstone
     const NodeMap                  &map;
     const std::vector<unsigned int> cells;
     const BodyParameters           &body;
+
+    /** The nodes of eight cells from this one on; of the last cell where there are fewer. */
+    BlockNodes
+    block_nodes(unsigned int first) const;
+
+    /** Frequencies of the cells as if they had one point, see one_point_frequency(). */
+    void
+    set_one_point_frequencies(const NodeField                &u,
+                              const std::vector<NodalMasses> &masses,
+                              std::vector<double>            &result) const;
 
     /** Subtract the forces of bulk viscosity, if there is any: its pressure times the rate of the
      * volume. */

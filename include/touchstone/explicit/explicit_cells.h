@@ -140,8 +140,9 @@ namespace Touchstone
     place(unsigned int body, unsigned int c) const;
     double
     time_to_shorten(double step, const NodeField &u, const NodeField &v) const;
-    double
-    step_of(unsigned int body, unsigned int c, const NodeField &u, const NodeField &v) const;
+    /** Of the cells of a body. */
+    std::vector<double>
+    steps_of(unsigned int body, const NodeField &u, const NodeField &v) const;
   };
 } // namespace Touchstone
 

@@ -182,8 +182,10 @@ namespace Touchstone
     /** There were impulses in the last cycle. */
     bool acted = false;
     /** Of the cycle before and of the free velocities, and the length of the cycle before. */
-    Speeds    speeds_before, speeds;
-    double    last_step = 0., fastest = 0.;
+    Speeds speeds_before, speeds;
+    double last_step = 0., fastest = 0.;
+    /** The velocities of the cycle before are its free ones, whose speeds are known. */
+    bool      untouched = false;
     RowTravel travelled;
     /** Half the largest sum of the absolute weights of a row and its slave node, over all ranks: by
      * so much a row can move faster than its nodes do apart. */
@@ -302,8 +304,9 @@ namespace Touchstone
     /** What contact allows, into @p v and to tools. Collective. */
     void
     take_velocities(NodeField &v);
-    /** Renew the rows if motion demands it. Collective. */
-    void
+    /** Renew the rows if motion demands it. Collective. @return whether the rows are as they were,
+     * and the fields were imported. */
+    bool
     renew_if_moved(const NodeField &u,
                    const NodeField &before,
                    const NodeField &v,

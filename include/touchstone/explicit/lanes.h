@@ -27,6 +27,29 @@ namespace Touchstone
     *reinterpret_cast<Lanes *>(values) = lanes;
   }
 
+  /** @brief The components of eight vectors, at these addresses. */
+  __attribute__((always_inline)) inline void
+  gather(const double *const (&x)[n_lanes], Lanes (&values)[3])
+  {
+    using Pair = Simd<double, 2>::type;
+    // Two components at once, of each other vector: loads of single ones take twice the time.
+    const auto pairs = [&](const unsigned int i, const unsigned int c)
+      __attribute__((always_inline))
+    {
+      const auto at = [&](const unsigned int k) __attribute__((always_inline))
+      {
+        return *reinterpret_cast<const Pair *>(x[k] + i);
+      };
+      const auto low  = TOUCHSTONE_SHUFFLE(at(c), at(c + 2), 0, 1, 2, 3),
+                 high = TOUCHSTONE_SHUFFLE(at(c + 4), at(c + 6), 0, 1, 2, 3);
+      return TOUCHSTONE_SHUFFLE(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+    };
+    const Lanes first = pairs(0, 0), second = pairs(0, 1);
+    values[0] = TOUCHSTONE_SHUFFLE(first, second, 0, 8, 2, 10, 4, 12, 6, 14);
+    values[1] = TOUCHSTONE_SHUFFLE(first, second, 1, 9, 3, 11, 5, 13, 7, 15);
+    values[2] = TOUCHSTONE_SHUFFLE(pairs(1, 0), pairs(1, 1), 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+
   /** @brief Cofactors of tensors [3i+j]: det(F) F^{-T}. */
   __attribute__((always_inline)) inline void
   cofactors(const Lanes (&F)[9], Lanes (&H)[9])

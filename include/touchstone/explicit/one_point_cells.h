@@ -6,43 +6,12 @@
 #include <touchstone/explicit/block_law.h>
 #include <touchstone/explicit/cell_forces.h>
 #include <touchstone/explicit/cell_states.h>
+#include <touchstone/explicit/one_point_block.h>
 
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief Eight one-point cells, of which everything is computed at once. */
-  struct OnePointBlock
-  {
-    static constexpr unsigned int n_cells = n_lanes, n_nodes = NodeMap::nodes_per_cell, n_modes = 4;
-
-    /** Local nodes of each cell. */
-    unsigned int nodes[n_cells][n_nodes];
-    /** Means of the gradients of the shapes over the undeformed cell, [3a+i]. */
-    double gradients[dim * n_nodes][n_cells];
-    /** Hourglass vectors times positions, [3m+i]. */
-    double warp[dim * n_modes][n_cells];
-    double volume[n_cells];
-    /** Unit vectors along the edges of the undeformed cell, [3i+j]. */
-    double edges[dim * dim][n_cells];
-    /** Stiffness of the control of hourglass modes, force per length: of bending along each edge,
-     * and of warping; or the viscosity of each mode, if the control is viscous. */
-    double control[n_modes][n_cells];
-
-    /** @brief Whether mode @p m along edge @p i is a warping, across both of its own edges. */
-    static constexpr bool
-    warps(const unsigned int m, const unsigned int i)
-    {
-      return m < dim && i == (m + 2) % dim;
-    }
-    /** @brief The stiffness of bending of mode @p m relative to that in #control. */
-    static constexpr double
-    part(const unsigned int m)
-    {
-      return m < dim ? 1. : 1. / 3.;
-    }
-  };
-
   /**
    * @brief Hexahedra with one point of integration and control of the four hourglass modes.
    *
@@ -64,6 +33,8 @@ namespace Touchstone
                     const BulkViscosity *bulk,
                     NodeField           &force,
                     NodeField           &viscous) override;
+    void
+    set_volume_rates(const NodeField &u, const NodeField &v, std::vector<double> &result) override;
     void
     add_energies(const NodeField &u, CellEnergies &energies) override;
     void
@@ -87,18 +58,20 @@ namespace Touchstone
     set_state(unsigned int c, const std::vector<double> &values) override;
 
   private:
-    BlockLaw                   law;
-    const bool                 finite;
-    CellStates                 states;
-    std::vector<OnePointBlock> blocks;
+    BlockLaw                law;
+    const bool              finite;
+    CellStates              states;
+    OnePointBlock::Control  control;
+    std::vector<BlockNodes> blocks;
+    /** The block that was last asked for by cell, and its number. */
+    mutable OnePointBlock block;
+    mutable unsigned int  present = dealii::numbers::invalid_unsigned_int;
     /** See KernelCells. */
     std::vector<double> exact, estimate;
-    /** Gradients of the displacement of a block, and stresses. */
-    double gradient[dim * dim][OnePointBlock::n_cells], stress[dim * dim][OnePointBlock::n_cells];
 
-    void
-    set_block(OnePointBlock &block, unsigned int first);
-    /** Stiffness of hourglass mode @p m along edge @p i of cell @p c, force per length. */
+    const OnePointBlock &
+    block_of(unsigned int c)
+      const; /** Stiffness of hourglass mode @p m along edge @p i of cell @p c, force per length. */
     double
     stiffness(unsigned int c, unsigned int m, unsigned int i) const;
     dealii::Tensor<2, dim>

@@ -65,7 +65,7 @@ namespace Touchstone
     must_look(const RowTravel &travelled, const RowTravel &ahead) const
     {
       return travelled.apart + ahead.apart >= std::min(safe_until.slide, safe_until.find) ||
-             travelled.within + ahead.within >= safe_until.turn;
+             turned(travelled) + turned(ahead) >= safe_until.turn;
     }
 
     /**
@@ -121,16 +121,25 @@ namespace Touchstone
       dealii::Tensor<1, dim> normal;
     };
     std::vector<WatchedRow> sliding;
-    /** Travel until which each criterion cannot be met, from the last look at it; length. */
+    /** The smallest gap of these when they were made, of all ranks; length. */
+    double least_gap = 0.;
+    /** Travel until which each criterion cannot be met, from the last look at it; length. By the
+     * part #by_gap of what the sides travel apart the limit of the first falls. */
     struct Safe
     {
-      double turn = 0., slide = 0., find = 0.;
+      double turn = 0., slide = 0., find = 0., by_gap = 0.;
     };
     Safe safe_until;
 
+    double
+    turned(const RowTravel &travel) const
+    {
+      return travel.within + safe_until.by_gap * travel.apart;
+    }
+
     /** How far each criterion is from being met, negative if it is; length. */
     double
-    until_faces_turn(const NodeField &u, const NodeField &v, double step) const;
+    until_faces_turn(const NodeField &u, const NodeField &v, double step, double gap) const;
     double
     until_rows_slide(const ImpulseSolver                       &solver,
                      const std::vector<dealii::Tensor<1, dim>> &moved) const;

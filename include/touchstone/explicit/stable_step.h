@@ -20,8 +20,16 @@ namespace Touchstone
    * With b_a the mean gradients, G = sum_a b_a b_a^T / m_a and s_i the roots of the eigenvalues g_i
    * of G it is V times the largest eigenvalue of lambda s s^T + 2 mu diag(g). See doc/explicit.md,
    * section 4.
+   * @param G         Of the derivatives of the volume in place of the mean gradients, which are
+   *                  these over the volume.
    * @return 0 if the volume is not positive.
    */
+  double
+  one_point_frequency(const dealii::SymmetricTensor<2, dim> &G,
+                      double                                 volume,
+                      const MaterialParameters              &material);
+
+  /** @brief The same of a cell with these corners. */
   double
   one_point_frequency(const Hexahedron::Corners     &x,
                       const MaterialParameters      &material,

@@ -6,6 +6,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/explicit/node_map.h>
 
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -33,9 +34,12 @@ namespace Touchstone
       return !sides.empty();
     }
 
-    /** @brief Of two fields of velocities, with their ghosts. Collective. */
+    /** @brief A field of velocities, with its ghosts, and where its result goes. */
+    using Measured = std::pair<const NodeField *, Speeds *>;
+
+    /** @brief Of several fields at once. Collective. */
     void
-    measure(const NodeField &before, const NodeField &v, Speeds &of_before, Speeds &of_v) const;
+    measure(const std::vector<Measured> &fields) const;
 
   private:
     const NodeMap &nodes;
