@@ -33,10 +33,11 @@ namespace Touchstone
       velocity = solid.ghosted(*rates.front());
     const Vector reaction = solid.ghosted(problem->state().nodal_reactions());
     volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time, &reaction);
-    contact_output.write(contact_faces(problem->state().contact),
-                         contact_points(problem->state().contact, u),
-                         step,
-                         time);
+    if (scene.output.point_values())
+      point_output.write(u, step, time);
+    const Contact &contact = problem->state().contact;
+    contact_output.write(contact_faces(contact), contact_points(contact, u), step, time);
+    master_output.write(master_faces(contact), master_points(contact, u), step, time);
   }
 
 

@@ -9,7 +9,7 @@
 
 /**
  * @file
- * VTU output of the slave surfaces with the contact results of their nodes. Results belong to rows,
+ * Output of the contact surfaces with the results at their nodes. Results of slaves belong to rows,
  * which live on the rank that owns the slave node, while faces live on the rank that owns the cell:
  * values of nodes at the border of partitions are fetched first, then each rank writes the faces
  * that it owns.
@@ -218,9 +218,11 @@ namespace Touchstone
 
 
 
-  ContactOutput::ContactOutput(const OutputFolder &folder)
+  ContactOutput::ContactOutput(const OutputFolder &folder,
+                               const ResultFormat  format,
+                               const std::string  &name)
     : folder(folder)
-    , files(folder, "contact")
+    , files(FileSeries::make(format, folder, name))
   {
   }
 
@@ -239,6 +241,6 @@ namespace Touchstone
     const std::size_t n_patches =
       dealii::Utilities::MPI::sum(data.get_patches().size(), folder.communicator);
     if (n_patches > 0)
-      files.write(data, step, time);
+      files->write(data, step, time);
   }
 } // namespace Touchstone

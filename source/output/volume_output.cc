@@ -11,7 +11,7 @@
 
 /**
  * @file
- * VTU output of the bodies. Scalar nodal fields have a numbering of their own, with one dof per
+ * Output of the bodies. Scalar nodal fields have a numbering of their own, with one dof per
  * node. It is made at the first output after each change of the mesh (reinit()). Only owned cells
  * are written by a rank.
  */
@@ -52,14 +52,37 @@ namespace Touchstone
         return ranges;
       }
     };
+
+
+
+    /** "xy" for the component of a tensor that is its second number. */
+    std::string
+    component_name(const unsigned int c)
+    {
+      constexpr char axes[] = "xyz";
+      return {axes[c / dim], axes[c % dim]};
+    }
   } // namespace
 
 
 
-  VolumeOutput::VolumeOutput(const Solid &solid, const OutputFolder &folder)
+  bool
+  VolumeOutput::has_components(const std::string &tensor) const
+  {
+    return std::any_of(fields.begin(), fields.end(), [&tensor](const auto &field) {
+      return field.first == tensor + "_" + component_name(0);
+    });
+  }
+
+
+
+  VolumeOutput::VolumeOutput(const Solid            &solid,
+                             const OutputFolder     &folder,
+                             const OutputParameters &parameters)
     : solid(solid)
     , node_fe(solid.fe.degree)
-    , files(folder, "solution")
+    , files(FileSeries::make(parameters.format, folder, "solution"))
+    , cell_values(parameters.cell_values())
   {
     // Stable sorting: fields of equal order stay sorted by name, as the registry gives them.
     for (const std::string &name : VolumeFieldRegistry::names())
@@ -122,7 +145,7 @@ namespace Touchstone
 
 
   std::vector<dealii::SymmetricTensor<2, dim>>
-  VolumeOutput::node_stress(const Vector &displacement) const
+  VolumeOutput::node_stress(const std::vector<dealii::SymmetricTensor<2, dim>> &cell_stress) const
   {
     constexpr unsigned int n = dealii::SymmetricTensor<2, dim>::n_independent_components;
 
@@ -131,7 +154,6 @@ namespace Touchstone
       sum = make_node_field();
     // Nodal stress as the mean of the cells at the node, weighted with their volumes: for one node
     // sum_K V_K sigma_K / sum_K V_K.
-    const auto         cell_stress = solid.cell_stress(displacement);
     std::vector<Index> nodes(node_fe.n_dofs_per_cell());
     for (const auto &cell : node_dofs.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -162,7 +184,7 @@ namespace Touchstone
   {
     if (!node_dofs.has_active_dofs())
       number_nodes();
-    const auto          stress = node_stress(displacement);
+    const auto          stress = node_stress(solid.cell_stress(displacement));
     std::vector<double> normal, shear;
     for (const dealii::SymmetricTensor<2, dim> &one : stress)
       {
@@ -206,8 +228,10 @@ namespace Touchstone
   {
     if (!node_dofs.has_active_dofs())
       number_nodes();
-    const auto        stress = node_stress(displacement);
-    const VolumeState state{solid, displacement, velocity, reaction, time, stress};
+    const auto        cell_stress = solid.cell_stress(displacement);
+    const auto        stress      = node_stress(cell_stress);
+    const VolumeState state{
+      solid, displacement, velocity, reaction, time, stress, cell_stress, cell_values};
     const std::size_t n_nodes = node_in_solid.size();
     // Cell fields have entries for ghost cells, too, since deal.II indexes them by active cell;
     // those are not written.
@@ -219,37 +243,45 @@ namespace Touchstone
     std::list<Vector>                 vectors;
     std::list<dealii::Vector<double>> cells;
     TensorDataOut                     data_out;
+    const auto add_scalar = [&](const bool at_nodes, const std::string &name, const auto &values) {
+      if (at_nodes)
+        {
+          scalars.push_back(scalar_field(values));
+          data_out.add_data_vector(node_dofs, scalars.back(), name);
+        }
+      else
+        {
+          cells.emplace_back(values.begin(), values.end());
+          data_out.add_data_vector(cells.back(), name, dealii::DataOut<dim>::type_cell_data);
+        }
+    };
     for (const auto &[name, field] : fields)
       if (field->available(state))
         {
           const bool          at_nodes = field->location() == VolumeField::Location::nodes;
-          std::vector<double> values(at_nodes ? n_nodes * field->n_components() : n_cells);
+          const std::size_t   size     = at_nodes ? n_nodes : n_cells;
+          const unsigned int  n        = field->n_components();
+          std::vector<double> values(size * n);
           field->evaluate(state, values);
-          if (!at_nodes)
-            {
-              cells.emplace_back(values.begin(), values.end());
-              data_out.add_data_vector(cells.back(), name, dealii::DataOut<dim>::type_cell_data);
-            }
-          else if (field->n_components() == 1)
-            {
-              scalars.push_back(scalar_field(values));
-              data_out.add_data_vector(node_dofs, scalars.back(), name);
-            }
-          else if (field->n_components() == dim * dim)
+          if (n == 1)
+            add_scalar(at_nodes, name, values);
+          else if (n == dim * dim)
             {
               // A scalar for each component, which together are a tensor to the viewer.
-              const std::size_t   n = dim * dim;
-              std::vector<double> component(n_nodes);
-              for (std::size_t c = 0; c < n; ++c)
+              if (files->has_tensors())
+                data_out.tensors.push_back(name);
+              else if (has_components(name))
+                continue;
+              std::vector<double> component(size);
+              for (unsigned int c = 0; c < n; ++c)
                 {
-                  for (std::size_t i = 0; i < n_nodes; ++i)
+                  for (std::size_t i = 0; i < size; ++i)
                     component[i] = values[n * i + c];
-                  scalars.push_back(scalar_field(component));
-                  data_out.add_data_vector(node_dofs,
-                                           scalars.back(),
-                                           name + "_" + std::to_string(c));
+                  add_scalar(at_nodes,
+                             name + "_" +
+                               (files->has_tensors() ? std::to_string(c) : component_name(c)),
+                             component);
                 }
-              data_out.tensors.push_back(name);
             }
           else
             {
@@ -276,6 +308,6 @@ namespace Touchstone
                            solid.fe.degree,
                            dealii::DataOut<dim>::curved_inner_cells);
 
-    files.write(data_out, step, time);
+    files->write(data_out, step, time);
   }
 } // namespace Touchstone
