@@ -80,7 +80,7 @@ namespace Touchstone
     , point_output(solid, folder, scene.output.format)
     , probes(scene.probes, forest, solid)
     , contact_output(folder, scene.output.format)
-    , master_output(folder, scene.output.format, "contact_master")
+    , master_output(folder, scene.output.format, "master_contact")
     , reference(make_reference(scene))
     , checkpoints(folder, origin.checkpoint)
     , repeated_failure(scene.newton)

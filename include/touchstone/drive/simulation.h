@@ -171,6 +171,10 @@ namespace Touchstone
                 unsigned int phase);
     void
     write_vtu(unsigned int step, double time);
+    /** @brief Why springs of contact are too soft for the result to mean anything; empty if they
+     * are not. Warns where they are merely soft. Collective. */
+    std::string
+    too_soft_springs();
     /** @brief All series of files, by their names in checkpoints. */
     std::vector<std::pair<std::string, std::reference_wrapper<FileSeries>>>
     picture_series();

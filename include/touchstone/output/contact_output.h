@@ -71,7 +71,7 @@ namespace Touchstone
     std::vector<dealii::DataOutBase::Patch<2, 3>> patches;
   };
 
-  /** @brief Output of one side of the contact surfaces: contact.pvd or contact_master.pvd, with all
+  /** @brief Output of one side of the contact surfaces: contact.pvd or master_contact.pvd, with all
    * registered ContactField classes on the undeformed faces. */
   class ContactOutput
   {
