@@ -84,12 +84,12 @@ render benchmarks/hill_tube --size "$small" --field equivalent_plastic_strain --
 render lug --size "$small" --camera "0.3 -0.6 1" --up "0 1 0" --contact-camera "0.5 -1 0.6" --contact-up "0 0 1" --no-edges
 render seal --size "$small" --camera "0.3 -1 0.25" --mirror "x" --contact-camera "0.3 -0.6 1" --field stress_zz
 render bolt_pretension --size "$small" --camera "1 1 0.7" --contact-camera "0.6 0.9 -1.2"
-render stress_wave --size "$small" --no-contact --field stress_zz --camera "1 -1 0.4"
+render stress_wave --size "$small" --no-contact --field stress_xx --camera "1 -1 0.4"
 render benchmarks/hertz_rings --size "$small" --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.02" --width 0.5 \
   --contact-camera "-0.4 -0.8 1.6" --contact-width 0.45 --no-outline
 render bolted_joint --camera "-0.7 -1 0.7" --contact-camera "0.2 -1 1.6"
 render self_contact --size "$small" --camera "0.2 -1 0.2" --mirror "x" --no-contact
-render_test cone_obstacle --size "$small" --camera "1 -1.4 0.9" --contact-camera "0.3 -0.6 1.4"
+render_test cone_obstacle --size "$small" --camera "1 -1.4 0.9" --width 4 --focus "0.7 0.7 -0.5" --contact-camera "0.3 -0.6 1.4" --contact-width 3
 render_test pressed_sphere --size "$small" --camera "1 -1.4 0.9" --contact-camera "0.3 -0.6 1.4"
 render_test turning_roller --size "$small" --camera "0.5 -1.4 0.5" --contact traction_x --contact-camera "0.3 -0.6 1.4"
 render_test springs_and_moments --size "$small" --camera "0.5 -1.4 0.5" --no-contact
