@@ -83,7 +83,7 @@ render benchmarks/hill_tube --size "$small" --field equivalent_plastic_strain --
   --camera "0.35 -0.6 1" --up "0 1 0" --no-contact
 render lug --size "$small" --camera "0.3 -0.6 1" --up "0 1 0" --contact-camera "0.5 -1 0.6" --contact-up "0 0 1" --no-edges
 render seal --size "$small" --camera "0.3 -1 0.25" --mirror "x" --contact-camera "0.3 -0.6 1" --field stress_zz
-render bolt_pretension --size "$small" --camera "1 1 0.7" --contact-camera "0.6 0.9 -1.2"
+render bolt_pretension --size "$small" --camera "-1 -1.2 0.6" --scale 20 --no-contact
 render stress_wave --size "$small" --no-contact --field stress_xx --camera "1 -1 0.4"
 render benchmarks/hertz_rings --size "$small" --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.02" --width 0.5 \
   --contact-camera "-0.4 -0.8 1.6" --contact-width 0.45 --no-outline

@@ -13,13 +13,13 @@ check(lug.cuts() == 0, "lug: steps were cut")
 seal = run("seal", prm / "seal.prm")
 below("seal: force", relative(-seal.force("lip")[2], 60), 1e-6)
 depth = [-z for z in seal.column("obstacle rib: displacement z")]
-check(depth == sorted(depth) and depth[-1] > 1 and seal.cuts() == 0, f"seal: the rib goes to {depth}")
+check(depth == sorted(depth) and depth[-1] > 1, f"seal: the rib goes to {depth}")
 
 # The bolt takes a small part of the pull until the flanges part, and then all of it.
 bolt = run("bolt", prm / "bolt_pretension.prm")
 tension, pull = bolt.column("cut: tension"), [2000 * max(0, t - 1) for t in bolt.column("time")]
 below("bolt: tension of the phase 'tighten'", relative(tension[0], 5000), 1e-7)
-below("bolt: part of the first pull", (tension[1] - tension[0]) / pull[1], 0.4)
+below("bolt: part of the first pull", abs(tension[1] - tension[0]) / pull[1], 0.1)
 below("bolt: all of the last pull", relative(tension[-1], pull[-1]), 1e-6)
 check(bolt.cuts() == 0 and abs(bolt.force("parting line")[2]) < 1e-6, f"bolt: {bolt.force('parting line')}")
 
