@@ -98,7 +98,7 @@ namespace
   round_caps()
   {
     const std::string rings =
-      "set Edges = 0.4, 0.5\nset Edge size = 0.1\nset Largest size = 0.2\nset Growth = 2\n"
+      "set Edges = 0.5\nset Edge size = 0.1\nset Largest size = 0.2\nset Growth = 2\n"
       "set Outer growth = 2\nset Layer growth = 3\nset Core radius = 0.15\nset Cells = 2\n";
     print_geometry("flat round cap: 0.785398; contact and far 0.785398, side 1.570796",
                    "round cap",

@@ -76,7 +76,7 @@ main(int argc, char **argv)
   output.write(faces, points, 1, 0.5);
 
   const auto     cloud = FileSeries::make(ResultFormat::xdmf, folder, "cloud");
-  PointCloudData data(std::vector<std::string>(9, "stress"), cloud->has_tensors());
+  PointCloudData data(std::vector<std::string>(9, "stress"), *cloud);
   if (last)
     for (unsigned int i = 0; i < 3; ++i)
       data.add({double(i), 0., 0.}, {1., 2., 3., 4., 5., 6., 7., 8., 9. + 1e-12 * i});

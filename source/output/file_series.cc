@@ -6,6 +6,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
+
 namespace Touchstone
 {
   std::unique_ptr<FileSeries>
@@ -22,6 +24,15 @@ namespace Touchstone
     : folder(folder)
     , name(name)
   {
+  }
+
+
+
+  double
+  FileSeries::rest(const double value)
+  {
+    const double held = static_cast<float>(value);
+    return std::isfinite(held) ? value - held : 0.;
   }
 
 

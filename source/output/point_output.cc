@@ -10,9 +10,10 @@
 
 namespace Touchstone
 {
-  PointCloudData::PointCloudData(std::vector<std::string> names, const bool tensors)
+  PointCloudData::PointCloudData(std::vector<std::string> names, const FileSeries &format)
     : names(std::move(names))
-    , tensors(tensors)
+    , tensors(format.has_tensors())
+    , with_rests(format.has_doubles())
   {
     dealii::DataOutBase::VtkFlags flags;
     // Output of equal runs is equal byte by byte.
@@ -30,9 +31,13 @@ namespace Touchstone
     dealii::DataOutBase::Patch<0, 3> patch;
     patch.vertices[0] = position;
     patch.patch_index = patches.size();
-    patch.data.reinit(values.size(), 1);
+    patch.data.reinit((with_rests ? 2 : 1) * values.size(), 1);
     for (unsigned int c = 0; c < values.size(); ++c)
-      patch.data(c, 0) = values[c];
+      {
+        patch.data(c, 0) = values[c];
+        if (with_rests)
+          patch.data(values.size() + c, 0) = FileSeries::rest(values[c]);
+      }
     patches.push_back(patch);
   }
 
@@ -59,6 +64,8 @@ namespace Touchstone
             for (unsigned int c = 0; c < dim * dim; ++c)
               result[first + c] += std::string("_") + "xyz"[c / dim] + "xyz"[c % dim];
         }
+    for (unsigned int c = 0; with_rests && c < names.size(); ++c)
+      result.push_back(FileSeries::rest_name(result[c]));
     return result;
   }
 
@@ -111,7 +118,7 @@ namespace Touchstone
     const std::vector<double> strain = solid.point_plastic_strain();
     if (solid.plastic())
       names.push_back("equivalent_plastic_strain");
-    PointCloudData data(names, files->has_tensors());
+    PointCloudData data(names, *files);
 
     // Points in the order of for_each_stress(): cell by cell, those of the Gauss formula.
     const dealii::QGauss<dim>           quadrature(solid.fe.degree + 1);

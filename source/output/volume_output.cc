@@ -55,6 +55,17 @@ namespace Touchstone
 
 
 
+    /** What single precision leaves of numbers. */
+    std::vector<double>
+    rests(std::vector<double> values)
+    {
+      for (double &value : values)
+        value = FileSeries::rest(value);
+      return values;
+    }
+
+
+
     /** "xy" for the component of a tensor that is its second number. */
     std::string
     component_name(const unsigned int c)
@@ -73,6 +84,18 @@ namespace Touchstone
       return field.first == tensor + "_" + component_name(0);
     });
   }
+
+
+
+  /** The fields of a file; elements of a list do not move when further ones are added: DataOut
+   * keeps pointers to the vectors until the patches are built. */
+  struct VolumeOutput::Written
+  {
+    std::list<NodeField>              scalars;
+    std::list<Vector>                 vectors;
+    std::list<dealii::Vector<double>> cells;
+    TensorDataOut                     data_out;
+  };
 
 
 
@@ -220,6 +243,85 @@ namespace Touchstone
 
 
   void
+  VolumeOutput::add_scalar(const std::string         &name,
+                           const bool                 at_nodes,
+                           const std::vector<double> &values,
+                           Written                   &written) const
+  {
+    const auto add = [&](const std::string &title, const std::vector<double> &numbers) {
+      if (at_nodes)
+        {
+          written.scalars.push_back(scalar_field(numbers));
+          written.data_out.add_data_vector(node_dofs, written.scalars.back(), title);
+        }
+      else
+        {
+          written.cells.emplace_back(numbers.begin(), numbers.end());
+          written.data_out.add_data_vector(written.cells.back(),
+                                           title,
+                                           dealii::DataOut<dim>::type_cell_data);
+        }
+    };
+    add(name, values);
+    if (files->has_doubles())
+      add(FileSeries::rest_name(name), rests(values));
+  }
+
+
+
+  void
+  VolumeOutput::add_vector(const std::string         &name,
+                           const std::vector<double> &values,
+                           Written                   &written) const
+  {
+    namespace Interpretation = dealii::DataComponentInterpretation;
+    const auto add           = [&](const std::string &title, const std::vector<double> &numbers) {
+      written.vectors.push_back(vector_field(numbers));
+      written.data_out.add_data_vector(solid.dof_handler,
+                                       written.vectors.back(),
+                                       std::vector<std::string>(dim, title),
+                                       std::vector<Interpretation::DataComponentInterpretation>(
+                                         dim, Interpretation::component_is_part_of_vector));
+    };
+    add(name, values);
+    if (files->has_doubles())
+      add(FileSeries::rest_name(name), rests(values));
+  }
+
+
+
+  void
+  VolumeOutput::add_field(const std::string         &name,
+                          const bool                 at_nodes,
+                          const unsigned int         n_components,
+                          const std::vector<double> &values,
+                          Written                   &written) const
+  {
+    if (n_components == 1)
+      add_scalar(name, at_nodes, values, written);
+    else if (n_components == dim)
+      add_vector(name, values, written);
+    else if (files->has_tensors() || !has_components(name))
+      {
+        // A scalar for each component, which together are a tensor to the viewer.
+        if (files->has_tensors())
+          written.data_out.tensors.push_back(name);
+        std::vector<double> component(values.size() / n_components);
+        for (unsigned int c = 0; c < n_components; ++c)
+          {
+            for (std::size_t i = 0; i < component.size(); ++i)
+              component[i] = values[n_components * i + c];
+            add_scalar(name + "_" + (files->has_tensors() ? std::to_string(c) : component_name(c)),
+                       at_nodes,
+                       component,
+                       written);
+          }
+      }
+  }
+
+
+
+  void
   VolumeOutput::write(const Vector      &displacement,
                       const Vector      *velocity,
                       const unsigned int step,
@@ -237,64 +339,17 @@ namespace Touchstone
     // those are not written.
     const std::size_t n_cells = node_dofs.get_triangulation().n_active_cells();
 
-    // DataOut keeps pointers to the vectors until the patches are built; the elements of a list do
-    // not move when further ones are added.
-    std::list<NodeField>              scalars;
-    std::list<Vector>                 vectors;
-    std::list<dealii::Vector<double>> cells;
-    TensorDataOut                     data_out;
-    const auto add_scalar = [&](const bool at_nodes, const std::string &name, const auto &values) {
-      if (at_nodes)
-        {
-          scalars.push_back(scalar_field(values));
-          data_out.add_data_vector(node_dofs, scalars.back(), name);
-        }
-      else
-        {
-          cells.emplace_back(values.begin(), values.end());
-          data_out.add_data_vector(cells.back(), name, dealii::DataOut<dim>::type_cell_data);
-        }
-    };
+    Written written;
     for (const auto &[name, field] : fields)
       if (field->available(state))
         {
           const bool          at_nodes = field->location() == VolumeField::Location::nodes;
-          const std::size_t   size     = at_nodes ? n_nodes : n_cells;
-          const unsigned int  n        = field->n_components();
-          std::vector<double> values(size * n);
+          std::vector<double> values((at_nodes ? n_nodes : n_cells) * field->n_components());
           field->evaluate(state, values);
-          if (n == 1)
-            add_scalar(at_nodes, name, values);
-          else if (n == dim * dim)
-            {
-              // A scalar for each component, which together are a tensor to the viewer.
-              if (files->has_tensors())
-                data_out.tensors.push_back(name);
-              else if (has_components(name))
-                continue;
-              std::vector<double> component(size);
-              for (unsigned int c = 0; c < n; ++c)
-                {
-                  for (std::size_t i = 0; i < size; ++i)
-                    component[i] = values[n * i + c];
-                  add_scalar(at_nodes,
-                             name + "_" +
-                               (files->has_tensors() ? std::to_string(c) : component_name(c)),
-                             component);
-                }
-            }
-          else
-            {
-              namespace Interpretation = dealii::DataComponentInterpretation;
-              vectors.push_back(vector_field(values));
-              data_out.add_data_vector(solid.dof_handler,
-                                       vectors.back(),
-                                       std::vector<std::string>(dim, name),
-                                       std::vector<Interpretation::DataComponentInterpretation>(
-                                         dim, Interpretation::component_is_part_of_vector));
-            }
+          add_field(name, at_nodes, field->n_components(), values, written);
         }
 
+    TensorDataOut                &data_out = written.data_out;
     dealii::DataOutBase::VtkFlags flags;
     flags.time  = time;
     flags.cycle = step;

@@ -3,29 +3,116 @@
 #include <touchstone/output/xdmf_series.h>
 
 #include <deal.II/base/mpi.h>
+#include <deal.II/base/table.h>
 #include <deal.II/grid/reference_cell.h>
 
 #include <filesystem>
+#include <map>
 #include <system_error>
 
 namespace Touchstone
 {
   namespace
   {
-    /** Number of patches of this rank, which deal.II shows to derived classes only. */
+    /** What deal.II shows of its data to derived classes only. */
     template <int patch_dim>
-    std::size_t
-    n_patches(const dealii::DataOutInterface<patch_dim, 3> &data)
+    struct Access : public dealii::DataOutInterface<patch_dim, 3>
     {
-      struct Access : public dealii::DataOutInterface<patch_dim, 3>
+      using Data = dealii::DataOutInterface<patch_dim, 3>;
+
+      static const std::vector<dealii::DataOutBase::Patch<patch_dim, 3>> &
+      patches(const Data &data)
       {
-        static std::size_t
-        count(const dealii::DataOutInterface<patch_dim, 3> &data)
+        return (data.*&Access::get_patches)();
+      }
+
+      static std::vector<std::string>
+      names(const Data &data)
+      {
+        return (data.*&Access::get_dataset_names)();
+      }
+
+      static auto
+      ranges(const Data &data)
+      {
+        return (data.*&Access::get_nonscalar_data_ranges)();
+      }
+    };
+
+
+
+    /** Points and cells of the patches, without fields. */
+    template <int patch_dim>
+    void
+    add_mesh(const std::vector<dealii::DataOutBase::Patch<patch_dim, 3>> &patches,
+             dealii::DataOutBase::DataOutFilter                          &filter)
+    {
+      auto bare = patches;
+      for (auto &patch : bare)
         {
-          return (data.*&Access::get_patches)().size();
+          // Positions that are available are the last rows.
+          const unsigned int n_rows = patch.points_are_available ? 3 : 0;
+          const auto         all    = patch.data;
+          patch.data.reinit(n_rows, all.n_cols());
+          for (unsigned int r = 0; r < n_rows; ++r)
+            for (unsigned int q = 0; q < all.n_cols(); ++q)
+              patch.data(r, q) = all(all.n_rows() - n_rows + r, q);
         }
+      dealii::DataOutBase::write_filtered_data(bare, {}, {}, filter);
+    }
+
+
+
+    /** The fields, each with its rest (FileSeries::rest_name()). */
+    template <int patch_dim>
+    void
+    add_fields(const dealii::DataOutInterface<patch_dim, 3> &data,
+               dealii::DataOutBase::DataOutFilter           &filter)
+    {
+      const auto &patches = Access<patch_dim>::patches(data);
+      const auto  names   = Access<patch_dim>::names(data);
+      std::size_t n       = 0;
+      for (const auto &patch : patches)
+        n += patch.data.n_cols();
+
+      // Components of a vector have one name.
+      std::map<std::string, std::vector<unsigned int>> rows;
+      for (unsigned int c = 0; c < names.size(); ++c)
+        rows[names[c]].push_back(c);
+      dealii::Table<2, double> values(names.size(), n);
+      std::vector<bool>        is_rest(names.size());
+      const auto               add = [&](const unsigned int from, const unsigned int to) {
+        std::size_t q = 0;
+        for (const auto &patch : patches)
+          for (unsigned int i = 0; i < patch.data.n_cols(); ++i)
+            values(to, q++) += patch.data(from, i);
       };
-      return Access::count(data);
+      for (const auto &[name, of_name] : rows)
+        for (unsigned int k = 0; k < of_name.size(); ++k)
+          {
+            add(of_name[k], of_name[k]);
+            if (const auto rests = rows.find(FileSeries::rest_name(name)); rests != rows.end())
+              {
+                add(rests->second[k], of_name[k]);
+                is_rest[rests->second[k]] = true;
+              }
+          }
+
+      std::map<unsigned int, std::pair<unsigned int, std::string>> vectors;
+      for (const auto &range : Access<patch_dim>::ranges(data))
+        vectors[std::get<0>(range)] = {std::get<1>(range) - std::get<0>(range) + 1,
+                                       std::get<2>(range)};
+      for (unsigned int c = 0; c < names.size();)
+        {
+          const auto         vector = vectors.find(c);
+          const unsigned int size   = vector != vectors.end() ? vector->second.first : 1;
+          if (!is_rest[c])
+            filter.write_data_set(vector != vectors.end() ? vector->second.second : names[c],
+                                  size,
+                                  c,
+                                  values);
+          c += size;
+        }
     }
 
 
@@ -109,13 +196,14 @@ namespace Touchstone
     const std::string file = stem(step) + ".h5", part = file + ".part";
     std::string       entry;
     // deal.II 9.4 fails on ranks that have nothing to write, as most have of small surfaces.
-    const PartOfRanks writers(n_patches(data) > 0, folder);
+    const PartOfRanks writers(!Access<patch_dim>::patches(data).empty(), folder);
     folder.together([&] {
       if (writers.communicator == MPI_COMM_NULL)
         return;
       try
         {
-          data.write_filtered_data(filter);
+          add_mesh(Access<patch_dim>::patches(data), filter);
+          add_fields(data, filter);
           data.write_hdf5_parallel(filter, folder.path(part), writers.communicator);
           entry = data.create_xdmf_entry(filter, file, time, writers.communicator)
                     .get_xdmf_content(3, dealii::ReferenceCells::get_hypercube<patch_dim>());

@@ -49,10 +49,12 @@ namespace Touchstone
   class ContactSurfaceData : public dealii::DataOutInterface<2, 3>
   {
   public:
-    /** @brief Faces with a node that is missing from @p nodes are left out. */
+    /** @brief Faces with a node that is missing from @p nodes are left out.
+     * @param with_rests Add what single precision leaves of the numbers, see FileSeries. */
     ContactSurfaceData(const ContactFieldList         &fields,
                        const std::vector<ContactFace> &faces,
-                       const ContactNodeMap           &nodes);
+                       const ContactNodeMap           &nodes,
+                       bool                            with_rests = false);
 
     const std::vector<dealii::DataOutBase::Patch<2, 3>> &
     get_patches() const override;
@@ -68,6 +70,7 @@ namespace Touchstone
 
   private:
     const ContactFieldList                       &fields;
+    const bool                                    with_rests;
     std::vector<dealii::DataOutBase::Patch<2, 3>> patches;
   };
 

@@ -50,6 +50,21 @@ namespace Touchstone
     virtual bool
     has_tensors() const = 0;
 
+    /** @brief Whether numbers are written in double precision. deal.II's patches hold them in
+     * single precision: what that leaves of them goes beside them, under the name rest_name(). */
+    virtual bool
+    has_doubles() const = 0;
+
+    static std::string
+    rest_name(const std::string &name)
+    {
+      return name + "(rest)";
+    }
+
+    /** @brief What single precision leaves of a number, zero where it is too large for it. */
+    static double
+    rest(double value);
+
     const List &
     list() const
     {

@@ -19,8 +19,9 @@ namespace Touchstone
   public:
     /** @param names   Of each component; equal ones that follow one another are a vector (3) or a
      *                tensor (9).
-     * @param tensors Whether the format has tensors: their components have numbers otherwise. */
-    PointCloudData(std::vector<std::string> names, bool tensors);
+     * @param format  Whether it has tensors, of which components have names otherwise, and doubles.
+     */
+    PointCloudData(std::vector<std::string> names, const FileSeries &format);
 
     /** @brief Add a point with a value for each name. */
     void
@@ -40,7 +41,7 @@ namespace Touchstone
 
   private:
     std::vector<std::string>                      names;
-    const bool                                    tensors;
+    const bool                                    tensors, with_rests;
     std::vector<dealii::DataOutBase::Patch<0, 3>> patches;
   };
 

@@ -93,6 +93,26 @@ namespace Touchstone
     std::vector<dealii::SymmetricTensor<2, dim>>
     node_stress(const std::vector<dealii::SymmetricTensor<2, dim>> &cell_stress) const;
 
+    /** @brief What is written into a file. */
+    struct Written;
+
+    /** @name Add a field to a file, with the rest of its numbers where the format has doubles */
+    /** @{ */
+    void
+    add_field(const std::string         &name,
+              bool                       at_nodes,
+              unsigned int               n_components,
+              const std::vector<double> &values,
+              Written                   &written) const;
+    void
+    add_scalar(const std::string         &name,
+               bool                       at_nodes,
+               const std::vector<double> &values,
+               Written                   &written) const;
+    void
+    add_vector(const std::string &name, const std::vector<double> &values, Written &written) const;
+    /** @} */
+
     /** @brief Whether the components of this tensor are fields of their own. */
     bool
     has_components(const std::string &tensor) const;

@@ -38,6 +38,12 @@ namespace Touchstone
       return true;
     }
 
+    bool
+    has_doubles() const override
+    {
+      return false;
+    }
+
   private:
     template <int patch_dim>
     void

@@ -13,8 +13,9 @@ namespace Touchstone
    * @brief The files of a sequence of HDF5 files, NAME_0007.h5, which all ranks write together,
    * and NAME.xdmf, which says where in them the mesh and the fields of each time are.
    *
-   * Numbers have double precision. deal.II writes scalars and vectors, of tensors only the first
-   * three components, and cells of degree 2 as eight of degree 1.
+   * Numbers have double precision, put together from what patches hold of them (14 digits);
+   * positions of nodes that are no vertices, single. deal.II writes scalars and vectors, of tensors
+   * only the first three components, and cells of degree 2 as eight of degree 1.
    */
   class XdmfSeries : public FileSeries
   {
@@ -34,6 +35,12 @@ namespace Touchstone
     has_tensors() const override
     {
       return false;
+    }
+
+    bool
+    has_doubles() const override
+    {
+      return true;
     }
 
   private:
