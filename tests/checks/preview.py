@@ -53,7 +53,11 @@ for file in sorted(cone.iterdir()):
 # An image where there is a program for it, else its name.
 if shutil.which("rsvg-convert"):
     check((cone / "preview.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", "preview.png is no image")
-os.environ["PATH"] = str(pathlib.Path("nothing").resolve())
+broken = pathlib.Path("broken/rsvg-convert").resolve()
+broken.parent.mkdir(exist_ok=True)
+broken.write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")
+broken.chmod(0o755)
+os.environ["PATH"] = f"{broken.parent}:{os.environ['PATH']}"
 plain = launch("--preview", "--output", "plain", tests / "cone_obstacle.prm")
 check(plain.returncode == 0 and "apt-get install librsvg2-bin" in plain.stdout and
       not pathlib.Path("plain/preview.png").exists(), f"without rsvg-convert: {plain.stdout}")
