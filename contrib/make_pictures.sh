@@ -6,7 +6,7 @@
 #
 # Usage: contrib/make_pictures.sh [PROGRAM [NAME...]]      (build/touchstone, all)
 #
-# NAME is that of a picture of a scene (press_fit, twist, ...), or ironing_forces, partial_slip,
+# NAME is that of a picture of a scene (press_fit, twist, ...) or of a test, or ironing_forces, partial_slip,
 # bar_impact, plate_drop_energies. Runs are kept in $TOUCHSTONE_RUNS (output/pictures) and not
 # repeated; plate_drop takes minutes, ironing ten.
 set -eu
@@ -39,6 +39,18 @@ run()
     "$program" --output "$runs/$scene" "$@" "prm/$scene.prm" >"$runs/$scene.log"
 }
 
+# render_test NAME OPTION...: the same of a scene of tests/.
+render_test()
+{
+  wants "$1" || return 0
+  name=$1
+  shift
+  mkdir -p "$runs/tests"
+  [ -f "$runs/tests/$name/summary.json" ] ||
+    "$program" --output "$runs/tests/$name" --set "Output/VTU interval=1" "tests/$name.prm" >"$runs/tests/$name.log"
+  /usr/bin/python3 contrib/render.py "$runs/tests/$name" "$pictures/$name.png" --unit MPa "$@"
+}
+
 # render SCENE OPTION...: run it and make a picture with contrib/render.py.
 render()
 {
@@ -69,7 +81,18 @@ render benchmarks/cattaneo_mindlin --size "$small" --camera "0.3 -1 0.25" --focu
 render benchmarks/cook --size "$small" --no-contact --camera "0.15 0.1 1" --up "0 1 0"
 render benchmarks/hill_tube --size "$small" --field equivalent_plastic_strain --unit "" --contact-unit MPa \
   --camera "0.35 -0.6 1" --up "0 1 0" --no-contact
+render lug --size "$small" --camera "0.3 -0.6 1" --up "0 1 0" --contact-camera "0.5 -1 0.6" --contact-up "0 0 1" --no-edges
+render seal --size "$small" --camera "0.3 -1 0.25" --mirror "x" --contact-camera "0.3 -0.6 1" --field stress_zz
+render bolt_pretension --size "$small" --camera "-1 -1.2 0.6" --scale 20 --no-contact
+render stress_wave --size "$small" --no-contact --field stress_xx --camera "1 -1 0.4"
+render benchmarks/hertz_rings --size "$small" --camera "-1 -0.6 0.35" --focus "0.1 0.1 -0.02" --width 0.5 \
+  --contact-camera "-0.4 -0.8 1.6" --contact-width 0.45 --no-outline
 render bolted_joint --camera "-0.7 -1 0.7" --contact-camera "0.2 -1 1.6"
+render self_contact --size "$small" --camera "0.2 -1 0.2" --mirror "x" --no-contact
+render_test cone_obstacle --size "$small" --camera "1 -1.4 0.9" --width 4 --focus "0.7 0.7 -0.5" --contact-camera "0.3 -0.6 1.4" --contact-width 3
+render_test pressed_sphere --size "$small" --camera "1 -1.4 0.9" --contact-camera "0.3 -0.6 1.4"
+render_test turning_roller --size "$small" --camera "0.5 -1.4 0.5" --contact traction_x --contact-camera "0.3 -0.6 1.4"
+render_test springs_and_moments --size "$small" --camera "0.5 -1.4 0.5" --no-contact
 render benchmarks/ironing --size "760 400" --camera "0 -1 0" --no-contact
 render benchmarks/sliding_block --size "$small" --camera "1 -1.4 0.7" --contact traction_x \
   --contact-camera "0.6 -1 -1.2"

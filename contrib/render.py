@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Render a run: the bodies beside the slave surfaces of their contact.
 
-Usage: xvfb-run -a /usr/bin/python3 contrib/render.py FOLDER IMAGE.png
+Usage: /usr/bin/python3 contrib/render.py FOLDER IMAGE.png
           [--field NAME] [--contact NAME] [--no-contact] [--no-bodies] [--unit TEXT] [--contact-unit TEXT]
           [--scale S] [--time T] [--range "LOW HIGH"] [--contact-range "LOW HIGH"]
           [--camera "X Y Z"] [--up "X Y Z"] [--focus "X Y Z"] [--width W]
@@ -9,7 +9,8 @@ Usage: xvfb-run -a /usr/bin/python3 contrib/render.py FOLDER IMAGE.png
           [--hide "BODY NUMBER ..."] [--mirror "x y"] [--no-edges] [--no-outline]
           [--size "WIDTH HEIGHT"] [--points FILE.txt]
 
-Needs VTK 9 for Python and a display (apt-get install python3-vtk9 python3-numpy xvfb xauth).
+Needs VTK 9 for Python (apt-get install python3-vtk9 python3-numpy xvfb xauth); on a machine without a
+screen it starts itself under xvfb-run.
 
 FOLDER is the output folder of a run; the last time is shown (or the one next to T), deformed S
 times (1). On the left solution.pvd with the field von_mises, on the right contact.pvd with the
@@ -24,8 +25,10 @@ The images of the documentation are made by contrib/make_pictures.sh.
 """
 
 import argparse
+import os
 import pathlib
 import re
+import shutil
 import sys
 import xml.etree.ElementTree
 
@@ -36,6 +39,13 @@ try:
 except ImportError as error:
     sys.exit(f"contrib/render.py needs VTK 9 and numpy for Python ({error}): apt-get install python3-vtk9 "
              "python3-numpy xvfb xauth, and start it with Debian's own /usr/bin/python3")
+
+# VTK would end the program if there is no screen.
+if not os.environ.get("DISPLAY"):
+    if not shutil.which("xvfb-run"):
+        sys.exit("contrib/render.py needs a screen, or xvfb-run in place of one: apt-get install xvfb xauth")
+    # A display of its own, whose server needs a moment to start.
+    os.execvp("xvfb-run", ["xvfb-run", "-n", str(100 + os.getpid() % 900), "-w", "5", sys.executable, *sys.argv])
 
 MARGIN, TEXT, SMALL = 16, 27, 23
 # From low to high; every colour is light enough to show the edges of cells.

@@ -92,7 +92,10 @@ namespace
               std::cout << text << '\n';
             std::cout << "Wall time " << readable_duration(summary.seconds.wall) << ". Results in "
                       << scene.output.directory
-                      << ": solution.pvd, contact.pvd, statistics, summary.json\n";
+                      << (scene.output.format == ResultFormat::xdmf
+                            ? ": solution.xdmf, contact.xdmf"
+                            : ": solution.pvd, contact.pvd")
+                      << ", statistics, summary.json\n";
           }
         // In one piece, or mpirun mixes it with the standard output.
         if (!summary.converged)

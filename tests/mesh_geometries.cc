@@ -93,6 +93,23 @@ namespace
 
 
 
+  /** Volumes and areas of quarters of round blocks with rings of cells. */
+  void
+  round_caps()
+  {
+    const std::string rings =
+      "set Edges = 0.5\nset Edge size = 0.1\nset Largest size = 0.2\nset Growth = 2\n"
+      "set Outer growth = 2\nset Layer growth = 3\nset Core radius = 0.15\nset Cells = 2\n";
+    print_geometry("flat round cap: 0.785398; contact and far 0.785398, side 1.570796",
+                   "round cap",
+                   rings + "set Apex = 1, 2, 3");
+    print_geometry("round cap, facing up: 0.765697; contact 0.787372, far 0.785398, side 1.492059",
+                   "round cap",
+                   rings + "set Radius = 10\nset Contact side = top");
+  }
+
+
+
   /** Volumes and areas of blocks with oblique faces and of plates with rounded corners. */
   void
   blocks_and_rounded_plates()
@@ -147,6 +164,9 @@ namespace
            {"cap", "set Shape = cylinder"},
            {"cap", "set Shape = cylinder\nset Part = whole\nset Depth = 0"},
            {"cap", "set Shape = cylinder\nset Part = whole\nset Radius = 1"},
+           {"round cap", "set Radius = 0.9"},
+           {"round cap", "set Edges = 0.5, 0.25"},
+           {"round cap", "set Core radius = 0.3"},
            {"block", "set Corners = 0, 0, 0; 1, 0, 0; 1, 1, 0; 0, 1, 0; 0, 0, 1"},
            {"block", "set Corners = 0, 0, 0; 0, 1, 0; 1, 1, 0; 1, 0, 0"},
            {"block", "set Corners = 0, 0, 0; 2, 0, 0; 0.5, 0.5, 0; 0, 2, 0"},
@@ -171,6 +191,7 @@ main()
   boxes_and_tubes();
   cylinders_and_balls();
   caps();
+  round_caps();
   blocks_and_rounded_plates();
   refused_parameters();
   return 0;

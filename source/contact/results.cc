@@ -22,42 +22,39 @@ namespace Touchstone
   // A row yields force, area and gap of its slave node; with neighbours in its stencil the force on
   // all slave nodes together is `share` times that, and so is the area. The pressure lambda / A
   // needs no conversion, for the share cancels.
-  namespace
+  ContactPoint
+  contact_point(const Contact &contact, const ContactRow &row, const Vector &u)
   {
-    ContactPoint
-    contact_point(const Contact &contact, const ContactRow &row, const Vector &u)
-    {
-      const RowState       &state = contact.state(row);
-      const Tensor<1, dim> &extra = contact.impulse_force(row);
-      ContactPoint          point;
-      point.pair               = row.pair;
-      point.node               = row.slave;
-      point.reference_position = row.reference;
-      for (unsigned int d = 0; d < dim; ++d)
-        point.displacement[d] = u(dim * row.slave + d);
-      point.normal = row.normal;
-      // A gap of the size of round-off is reported as zero, so that results compare.
-      point.gap  = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
-      point.area = row.area * row.share;
-      // Rows between nodes touch in a point: they have a force, but no pressure.
-      point.force = row.share * (state.force + extra);
-      if (!row.between_nodes)
-        {
-          point.pressure = (state.lambda + extra * row.normal) / row.area;
-          point.traction = (state.force + extra) / row.area;
-          point.force    = point.area * point.traction;
-        }
-      point.lever  = row.lever;
-      point.status = state.status;
-      if (row.friction)
-        {
-          point.slip          = row.friction->kinematics.slip;
-          point.slip_length   = row.friction->history.slip_length;
-          point.friction_work = row.friction->history.work;
-        }
-      return point;
-    }
-  } // namespace
+    const RowState       &state = contact.state(row);
+    const Tensor<1, dim> &extra = contact.impulse_force(row);
+    ContactPoint          point;
+    point.pair               = row.pair;
+    point.node               = row.slave;
+    point.reference_position = row.reference;
+    for (unsigned int d = 0; d < dim; ++d)
+      point.displacement[d] = u(dim * row.slave + d);
+    point.normal = row.normal;
+    // A gap of the size of round-off is reported as zero, so that results compare.
+    point.gap  = std::abs(row.gap) > 1e-14 * row.size ? row.gap / row.share : 0.;
+    point.area = row.area * row.share;
+    // Rows between nodes touch in a point: they have a force, but no pressure.
+    point.force = row.share * (state.force + extra);
+    if (!row.between_nodes)
+      {
+        point.pressure = (state.lambda + extra * row.normal) / row.area;
+        point.traction = (state.force + extra) / row.area;
+        point.force    = point.area * point.traction;
+      }
+    point.lever  = row.lever;
+    point.status = state.status;
+    if (row.friction)
+      {
+        point.slip          = row.friction->kinematics.slip;
+        point.slip_length   = row.friction->history.slip_length;
+        point.friction_work = row.friction->history.work;
+      }
+    return point;
+  }
 
 
 
@@ -84,27 +81,47 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    void
+    add_faces(const Surface &surface, const unsigned int pair, std::vector<ContactFace> &result)
+    {
+      for (const Face &face : surface.owned_faces())
+        {
+          result.push_back({pair, face.degree, face.nodes});
+          // A hanging node has no result: its values follow from the nodes of the larger face
+          // (doc/theory.md 11, "Hanging nodes").
+          if (const TraceBasis *basis = surface.trace(face))
+            for (unsigned int m = 0; m < face.n_nodes(); ++m)
+              {
+                const Stencil follows = basis->stencil(m);
+                if (follows.size() != 1 || follows[0].node != face.nodes[m])
+                  result.back().hanging.push_back({face.nodes[m], face.reference[m], follows});
+              }
+        }
+    }
+  } // namespace
+
+
+
   std::vector<ContactFace>
   contact_faces(const Contact &contact)
   {
     std::vector<ContactFace> result;
     for (unsigned int p = 0; p < contact.n_pairs(); ++p)
-      {
-        const Surface &slave = contact.pair(p).slave();
-        for (const Face &face : slave.owned_faces())
-          {
-            result.push_back({p, face.degree, face.nodes});
-            // A hanging node has no row: its values follow from the nodes of the larger face
-            // (doc/theory.md 11, "Hanging nodes").
-            if (const TraceBasis *basis = slave.trace(face))
-              for (unsigned int m = 0; m < face.n_nodes(); ++m)
-                {
-                  const Stencil follows = basis->stencil(m);
-                  if (follows.size() != 1 || follows[0].node != face.nodes[m])
-                    result.back().hanging.push_back({face.nodes[m], face.reference[m], follows});
-                }
-          }
-      }
+      add_faces(contact.pair(p).slave(), p, result);
+    return result;
+  }
+
+
+
+  std::vector<ContactFace>
+  master_faces(const Contact &contact)
+  {
+    std::vector<ContactFace> result;
+    for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+      if (const Surface *master = contact.pair(p).master())
+        add_faces(*master, p, result);
     return result;
   }
 

@@ -61,8 +61,14 @@ namespace Touchstone
           TimerOutput::Scope scope(timer, "refinement");
           const double       error = refinement.estimate(*problem);
           summary.meshes.push_back({step, summary.cells, summary.unknowns, error});
-          if (cycle == cycles || error < scene.refinement.tolerance ||
-              !refinement.mark(*problem, time))
+          if (cycle == cycles || error < scene.refinement.tolerance)
+            return newton;
+          const bool marked = refinement.mark(*problem, time);
+          if (refinement.limited())
+            warnings.add("the mesh is not refined, for it would have more cells than "
+                         "\"Refinement/Maximum cells\", which are " +
+                         std::to_string(scene.refinement.maximum_cells));
+          if (!marked)
             return newton;
           // Both states go over: the committed one as the beginning of the step, the present one as
           // initial guess. The old problem still refers to the dofs of the old mesh and is replaced

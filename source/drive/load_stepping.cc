@@ -90,6 +90,11 @@ namespace Touchstone
         stop(reason, at);
         return;
       }
+    if (const std::string reason = too_soft_springs(); !reason.empty())
+      {
+        stop(reason, at);
+        return;
+      }
     write_last_checkpoint(at);
     summary.converged = true;
   }

@@ -93,7 +93,7 @@ namespace Touchstone
 
 
   unsigned int
-  Newton::solve(NonlinearProblem &problem, const Observer &observer) const
+  Newton::solve(NonlinearProblem &problem, const Observer &observer, const unsigned int least) const
   {
     std::set<std::uint64_t> seen;
     unsigned int            damping = 0;
@@ -117,8 +117,8 @@ namespace Touchstone
         // NaN compares as false and would pass for convergence or iterate to the limit.
         if (!std::isfinite(state.residual) || !std::isfinite(state.gap))
           throw NewtonFailure("the residual is not finite");
-        if (state.changes == 0 && state.prescribed && balanced(state, parameters) &&
-            state.gap <= parameters.gap_tolerance)
+        if (iteration >= least && state.changes == 0 && state.prescribed &&
+            balanced(state, parameters) && state.gap <= parameters.gap_tolerance)
           return iteration;
         // Round-off can keep the residual a little above the tolerance (large penalties, slivers
         // of overlap): a residual within 100 times its tolerance is accepted if everything else is

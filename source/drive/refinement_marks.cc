@@ -140,8 +140,10 @@ namespace Touchstone
         finer += cell->refine_flag_set();
     // Each refined cell becomes eight, seven more. If that exceeds the limit no cell is refined at
     // all, since any choice of a part would be arbitrary; coarsening remains.
-    finer = Utilities::MPI::sum(finer, solid.communicator);
-    if (mesh.n_global_active_cells() + 7 * std::uint64_t(finer) > parameters.maximum_cells)
+    finer         = Utilities::MPI::sum(finer, solid.communicator);
+    no_more_cells = finer > 0 && mesh.n_global_active_cells() + 7 * std::uint64_t(finer) >
+                                   parameters.maximum_cells;
+    if (no_more_cells)
       {
         for (const auto &cell : mesh.active_cell_iterators())
           cell->clear_refine_flag();

@@ -66,6 +66,17 @@ namespace Touchstone
 
 
 
+  std::vector<std::pair<std::string, std::reference_wrapper<FileSeries>>>
+  Simulation::picture_series()
+  {
+    return {{"volume", volume_output.series()},
+            {"points", point_output.series()},
+            {"contact", contact_output.series()},
+            {"contact master", master_output.series()}};
+  }
+
+
+
   void
   Simulation::write_checkpoint(const Position &position)
   {
@@ -90,8 +101,9 @@ namespace Touchstone
     archive.put("probes", probes.histories());
     archive.put("quantities", statistics.memories());
     archive.put("last quantities", statistics.for_summary());
-    archive.put("volume pictures", volume_output.series().list());
-    archive.put("contact pictures", contact_output.series().list());
+    archive.put("format of pictures", scene.output.format.word());
+    for (const auto &[name, series] : picture_series())
+      archive.put(name + " pictures", series.get().list());
     archive.put("last picture", last_vtu_step);
     archive.put("cycles", summary.cycles);
     archive.put("contact work", summary.contact_work);
@@ -204,8 +216,14 @@ namespace Touchstone
                                       : std::vector<StepValue>());
     if (archive.has("probes"))
       probes.restore(archive.get<Probes::Histories>("probes"));
-    volume_output.series().restore(archive.get<VtuSeries::List>("volume pictures"));
-    contact_output.series().restore(archive.get<VtuSeries::List>("contact pictures"));
+    // In another format a series begins anew; checkpoints of earlier versions know one format and
+    // two series.
+    if (scene.output.format.word() == (archive.has("format of pictures")
+                                         ? archive.get<std::string>("format of pictures")
+                                         : "vtu"))
+      for (const auto &[name, series] : picture_series())
+        if (archive.has(name + " pictures"))
+          series.get().restore(archive.get<FileSeries::List>(name + " pictures"));
     last_vtu_step = archive.get<unsigned int>("last picture");
     if (archive.has("warnings")) // not in checkpoints of earlier versions
       {

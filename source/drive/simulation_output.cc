@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/contact_counts.h>
 #include <touchstone/contact/overlapping_bodies.h>
 #include <touchstone/contact/results.h>
@@ -8,6 +9,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,10 +35,11 @@ namespace Touchstone
       velocity = solid.ghosted(*rates.front());
     const Vector reaction = solid.ghosted(problem->state().nodal_reactions());
     volume_output.write(u, rates.empty() ? nullptr : &velocity, step, time, &reaction);
-    contact_output.write(contact_faces(problem->state().contact),
-                         contact_points(problem->state().contact, u),
-                         step,
-                         time);
+    if (scene.output.point_values())
+      point_output.write(u, step, time);
+    const Contact &contact = problem->state().contact;
+    contact_output.write(contact_faces(contact), contact_points(contact, u), step, time);
+    master_output.write(master_faces(contact), master_points(contact, u), step, time);
   }
 
 
@@ -78,6 +81,41 @@ namespace Touchstone
     for (const auto &[pair, result] : summary.contact)
       if (result.active == 0 && had_contact.count(pair) == 0)
         log.line("contact pair '" + pair + "' had no contact in any step");
+  }
+
+
+
+  std::string
+  Simulation::too_soft_springs()
+  {
+    // Explicit steps have a look of their own, at what presses on them.
+    if (problem->cycle_counts() != nullptr)
+      return "";
+    // Springs that hold more energy than the bodies are what gives way; with a twentieth of it they
+    // change forces by some percent. In dynamics energies say nothing at any one time.
+    constexpr double most = 1., noticeable = 0.05, deepest = 1.;
+    const auto      &energies = problem->state().time_integration.committed_energies();
+    const double     bodies   = energies.strain + energies.plastic;
+    for (const auto &[pair, left] : left_penetration(problem->state().contact))
+      {
+        const bool   statics = !scene.time_integration.dynamic();
+        const double part    = statics ? left.energy / bodies : 0.;
+        char         text[400];
+        std::snprintf(text,
+                      sizeof(text),
+                      "contact pair '%s': springs leave a penetration of %.3g, %.2g times the size "
+                      "of the slave faces%s. Take a larger \"Contact/Penalty factor\" (1 is the "
+                      "automatic choice), or another \"Contact/Enforcement\"",
+                      pair.c_str(),
+                      left.length,
+                      left.relative,
+                      part > noticeable ? ", and hold energy beside that of the bodies" : "");
+        if (part > most || left.relative > deepest)
+          return text;
+        if (part > noticeable)
+          warnings.add(text);
+      }
+    return "";
   }
 
 

@@ -155,8 +155,10 @@ namespace Touchstone
     begin_step(t);
     const Newton newton(parameters);
     unsigned int n_iterations = newton.solve(*this, observer);
+    // A correction may be smaller than the tolerance of gaps: without a solve the forces would stay
+    // as they were, and the next correction would be made for them once more.
     while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
-      n_iterations += newton.solve(*this, observer);
+      n_iterations += newton.solve(*this, observer, /*least=*/1);
     return n_iterations;
   }
 

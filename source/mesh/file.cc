@@ -39,7 +39,8 @@ namespace Touchstone
                       boundary_arrays,
                       "Boundaries of a .vtu file by arrays of one component that have these "
                       "names: 'contact, bottom'. A face belongs to each whose value is not zero "
-                      "in it, if it is a cell of the file, or at all of its corners.");
+                      "in it, if it is a cell of the file, or at all of its corners. An "
+                      "array that marks points but no whole face names a set of nodes.");
     prm.add_parameter("Exact surfaces",
                       exact,
                       std::string("The shapes that boundaries of the mesh stand for; "

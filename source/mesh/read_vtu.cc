@@ -10,6 +10,7 @@
 #include <istream>
 #include <limits>
 #include <map>
+#include <set>
 #include <sstream>
 
 // Meshes from VTK's XML files (.vtu): hexahedra become cells and quadrilaterals faces, numbered by
@@ -68,6 +69,8 @@ namespace Touchstone
       add_named_boundaries();
       void
       add_boundary_of_points(const std::vector<double> &marks, MeshFile::Group &group);
+      bool
+      add_node_set(const std::vector<double> &marks, const std::string &name);
     };
 
 
@@ -168,6 +171,22 @@ namespace Touchstone
 
 
 
+    /** The marked points, of which no four are a face: nodes of an edge, for example. @return
+     * whether there are any. */
+    bool
+    VtuReader::add_node_set(const std::vector<double> &marks, const std::string &name)
+    {
+      std::set<unsigned int> nodes;
+      for (unsigned int v = 0; v < marks.size(); ++v)
+        if (marks[v] != 0.)
+          nodes.insert(v);
+      if (!nodes.empty())
+        mesh.node_sets[name] = nodes;
+      return !nodes.empty();
+    }
+
+
+
     void
     VtuReader::add_named_boundaries()
     {
@@ -179,7 +198,12 @@ namespace Touchstone
         {
           MeshFile::Group group{next++, name, {}};
           if (arrays.find("PointData", name) != nullptr)
-            add_boundary_of_points(get("PointData", name, arrays.n_points()), group);
+            {
+              const std::vector<double> marks = get("PointData", name, arrays.n_points());
+              add_boundary_of_points(marks, group);
+              if (group.members.empty() && add_node_set(marks, name))
+                continue;
+            }
           else if (arrays.find("CellData", name) != nullptr)
             {
               const std::vector<double> marks = get("CellData", name, arrays.n_cells());
@@ -194,8 +218,8 @@ namespace Touchstone
                                   arrays.names() + ".");
           if (group.members.empty())
             throw MeshFileError(
-              "The array '" + name + "' marks no face.",
-              "give it other values than 0 at all corners of faces, or in quadrilateral cells");
+              "The array '" + name + "' marks no face and no point.",
+              "give it other values than 0 at all corners of faces, at points, or in quadrilateral cells");
           // A face that a named array marks leaves the numbers of the fields.
           for (MeshFile::Group &other : mesh.surfaces)
             if (other.name.empty())

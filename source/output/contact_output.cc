@@ -9,7 +9,7 @@
 
 /**
  * @file
- * VTU output of the slave surfaces with the contact results of their nodes. Results belong to rows,
+ * Output of the contact surfaces with the results at their nodes. Results of slaves belong to rows,
  * which live on the rank that owns the slave node, while faces live on the rank that owns the cell:
  * values of nodes at the border of partitions are fetched first, then each rank writes the faces
  * that it owns.
@@ -118,11 +118,14 @@ namespace Touchstone
 
   ContactSurfaceData::ContactSurfaceData(const ContactFieldList         &fields,
                                          const std::vector<ContactFace> &faces,
-                                         const ContactNodeMap           &all_nodes)
+                                         const ContactNodeMap           &all_nodes,
+                                         const bool                      with_rests)
     : fields(fields)
+    , with_rests(with_rests)
   {
-    const unsigned int n_values = fields.n_values();
-    bool               curved   = false;
+    // Values, then the rests of all of them.
+    const unsigned int n_values = fields.n_values(), n_rows = (with_rests ? 2 : 1) * n_values;
+    bool               curved = false;
     for (const ContactFace &face : faces)
       {
         const unsigned int               n = face.degree + 1;
@@ -153,14 +156,15 @@ namespace Touchstone
         // Curved faces of degree 2 need the positions of all nodes: deal.II takes them from the
         // last rows of the data table. Positions are those of the reference state; the displacement
         // is a field.
-        patch.data.reinit(n_values + (patch.points_are_available ? dim : 0), n * n);
+        patch.data.reinit(n_rows + (patch.points_are_available ? dim : 0), n * n);
         for (unsigned int i = 0; i < n * n; ++i)
           {
-            for (unsigned int c = 0; c < n_values; ++c)
-              patch.data(c, i) = nodes[i]->values[c];
+            for (unsigned int c = 0; c < n_rows; ++c)
+              patch.data(c, i) = c < n_values ? nodes[i]->values[c]
+                                              : FileSeries::rest(nodes[i]->values[c - n_values]);
             if (patch.points_are_available)
               for (unsigned int d = 0; d < dim; ++d)
-                patch.data(n_values + d, i) = nodes[i]->reference_position[d];
+                patch.data(n_rows + d, i) = nodes[i]->reference_position[d];
           }
         patches.push_back(patch);
       }
@@ -190,6 +194,9 @@ namespace Touchstone
     for (const ContactFieldList::Entry &entry : fields.entries())
       // deal.II wants a name for each component; those of a vector are the same.
       all.insert(all.end(), entry.field->n_components(), entry.name);
+    if (with_rests)
+      for (const ContactFieldList::Entry &entry : fields.entries())
+        all.insert(all.end(), entry.field->n_components(), FileSeries::rest_name(entry.name));
     return all;
   }
 
@@ -218,9 +225,11 @@ namespace Touchstone
 
 
 
-  ContactOutput::ContactOutput(const OutputFolder &folder)
+  ContactOutput::ContactOutput(const OutputFolder &folder,
+                               const ResultFormat  format,
+                               const std::string  &name)
     : folder(folder)
-    , files(folder, "contact")
+    , files(FileSeries::make(format, folder, name))
   {
   }
 
@@ -233,12 +242,12 @@ namespace Touchstone
                        const double                     time)
   {
     const ContactNodeMap nodes = collect_contact_nodes(fields, faces, points, folder.communicator);
-    const ContactSurfaceData data(fields, faces, nodes);
+    const ContactSurfaceData data(fields, faces, nodes, files->has_doubles());
     // No file if no rank has a face, e.g. without contact pairs; the decision must be the same on
     // all ranks.
     const std::size_t n_patches =
       dealii::Utilities::MPI::sum(data.get_patches().size(), folder.communicator);
     if (n_patches > 0)
-      files.write(data, step, time);
+      files->write(data, step, time);
   }
 } // namespace Touchstone

@@ -20,6 +20,17 @@ namespace Touchstone
                       "Pictures (solution.pvd, contact.pvd) every so many steps and "
                       "at the end; 0: never.",
                       Patterns::Integer(0));
+    format.declare(prm,
+                   "Format",
+                   "Files of these pictures. 'vtu': a file for each rank, numbers in single "
+                   "precision. 'xdmf': one HDF5 file for all ranks (solution.xdmf, contact.xdmf), "
+                   "numbers in double precision, for large runs and for further computations.");
+    unsmoothed.declare(prm,
+                       "Unsmoothed values",
+                       "Stresses as they are in the cells, beside the averages at nodes. 'cells': "
+                       "the mean of each cell (cell_stress and cell_von_mises in solution.pvd). "
+                       "'points': at the quadrature points, as a cloud of points (points.pvd). "
+                       "'both': these two.");
   }
 
 

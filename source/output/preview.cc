@@ -255,6 +255,11 @@ namespace Touchstone
                                      draw_preview(scene.title.empty() ? "Preview" : scene.title,
                                                   parts));
         result.push_back(folder.path("preview.svg") + ": the same as a drawing");
+        if (folder.rank == 0)
+          result.push_back(
+            draw_image(folder.path("preview.svg"), folder.path("preview.png"))
+              ? folder.path("preview.png") + ": the drawing as an image"
+              : "no image preview.png: this needs rsvg-convert (apt-get install librsvg2-bin)");
       }
     else
       result.push_back("no drawing of " + std::to_string(faces) + " faces; it has at most " +

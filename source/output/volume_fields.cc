@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/output/volume_field.h>
+#include <touchstone/output/von_mises.h>
 #include <touchstone/solid/solid.h>
-
-#include <cmath>
 
 /**
  * @file
@@ -165,13 +164,12 @@ namespace Touchstone
       }
     };
 
-    // Equivalent stress of von Mises, sqrt(3/2) |dev sigma|.
     class VonMisesStress : public StressField<6>
     {
       double
       of(const SymmetricTensor<2, dim> &stress) const override
       {
-        return std::sqrt(1.5) * dealii::deviator(stress).norm();
+        return von_mises(stress);
       }
     };
 

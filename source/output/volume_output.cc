@@ -11,7 +11,7 @@
 
 /**
  * @file
- * VTU output of the bodies. Scalar nodal fields have a numbering of their own, with one dof per
+ * Output of the bodies. Scalar nodal fields have a numbering of their own, with one dof per
  * node. It is made at the first output after each change of the mesh (reinit()). Only owned cells
  * are written by a rank.
  */
@@ -52,14 +52,60 @@ namespace Touchstone
         return ranges;
       }
     };
+
+
+
+    /** What single precision leaves of numbers. */
+    std::vector<double>
+    rests(std::vector<double> values)
+    {
+      for (double &value : values)
+        value = FileSeries::rest(value);
+      return values;
+    }
+
+
+
+    /** "xy" for the component of a tensor that is its second number. */
+    std::string
+    component_name(const unsigned int c)
+    {
+      constexpr char axes[] = "xyz";
+      return {axes[c / dim], axes[c % dim]};
+    }
   } // namespace
 
 
 
-  VolumeOutput::VolumeOutput(const Solid &solid, const OutputFolder &folder)
+  bool
+  VolumeOutput::has_components(const std::string &tensor) const
+  {
+    return std::any_of(fields.begin(), fields.end(), [&tensor](const auto &field) {
+      return field.first == tensor + "_" + component_name(0);
+    });
+  }
+
+
+
+  /** The fields of a file; elements of a list do not move when further ones are added: DataOut
+   * keeps pointers to the vectors until the patches are built. */
+  struct VolumeOutput::Written
+  {
+    std::list<NodeField>              scalars;
+    std::list<Vector>                 vectors;
+    std::list<dealii::Vector<double>> cells;
+    TensorDataOut                     data_out;
+  };
+
+
+
+  VolumeOutput::VolumeOutput(const Solid            &solid,
+                             const OutputFolder     &folder,
+                             const OutputParameters &parameters)
     : solid(solid)
     , node_fe(solid.fe.degree)
-    , files(folder, "solution")
+    , files(FileSeries::make(parameters.format, folder, "solution"))
+    , cell_values(parameters.cell_values())
   {
     // Stable sorting: fields of equal order stay sorted by name, as the registry gives them.
     for (const std::string &name : VolumeFieldRegistry::names())
@@ -122,7 +168,7 @@ namespace Touchstone
 
 
   std::vector<dealii::SymmetricTensor<2, dim>>
-  VolumeOutput::node_stress(const Vector &displacement) const
+  VolumeOutput::node_stress(const std::vector<dealii::SymmetricTensor<2, dim>> &cell_stress) const
   {
     constexpr unsigned int n = dealii::SymmetricTensor<2, dim>::n_independent_components;
 
@@ -131,7 +177,6 @@ namespace Touchstone
       sum = make_node_field();
     // Nodal stress as the mean of the cells at the node, weighted with their volumes: for one node
     // sum_K V_K sigma_K / sum_K V_K.
-    const auto         cell_stress = solid.cell_stress(displacement);
     std::vector<Index> nodes(node_fe.n_dofs_per_cell());
     for (const auto &cell : node_dofs.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -162,7 +207,7 @@ namespace Touchstone
   {
     if (!node_dofs.has_active_dofs())
       number_nodes();
-    const auto          stress = node_stress(displacement);
+    const auto          stress = node_stress(solid.cell_stress(displacement));
     std::vector<double> normal, shear;
     for (const dealii::SymmetricTensor<2, dim> &one : stress)
       {
@@ -198,6 +243,85 @@ namespace Touchstone
 
 
   void
+  VolumeOutput::add_scalar(const std::string         &name,
+                           const bool                 at_nodes,
+                           const std::vector<double> &values,
+                           Written                   &written) const
+  {
+    const auto add = [&](const std::string &title, const std::vector<double> &numbers) {
+      if (at_nodes)
+        {
+          written.scalars.push_back(scalar_field(numbers));
+          written.data_out.add_data_vector(node_dofs, written.scalars.back(), title);
+        }
+      else
+        {
+          written.cells.emplace_back(numbers.begin(), numbers.end());
+          written.data_out.add_data_vector(written.cells.back(),
+                                           title,
+                                           dealii::DataOut<dim>::type_cell_data);
+        }
+    };
+    add(name, values);
+    if (files->has_doubles())
+      add(FileSeries::rest_name(name), rests(values));
+  }
+
+
+
+  void
+  VolumeOutput::add_vector(const std::string         &name,
+                           const std::vector<double> &values,
+                           Written                   &written) const
+  {
+    namespace Interpretation = dealii::DataComponentInterpretation;
+    const auto add           = [&](const std::string &title, const std::vector<double> &numbers) {
+      written.vectors.push_back(vector_field(numbers));
+      written.data_out.add_data_vector(solid.dof_handler,
+                                       written.vectors.back(),
+                                       std::vector<std::string>(dim, title),
+                                       std::vector<Interpretation::DataComponentInterpretation>(
+                                         dim, Interpretation::component_is_part_of_vector));
+    };
+    add(name, values);
+    if (files->has_doubles())
+      add(FileSeries::rest_name(name), rests(values));
+  }
+
+
+
+  void
+  VolumeOutput::add_field(const std::string         &name,
+                          const bool                 at_nodes,
+                          const unsigned int         n_components,
+                          const std::vector<double> &values,
+                          Written                   &written) const
+  {
+    if (n_components == 1)
+      add_scalar(name, at_nodes, values, written);
+    else if (n_components == dim)
+      add_vector(name, values, written);
+    else if (files->has_tensors() || !has_components(name))
+      {
+        // A scalar for each component, which together are a tensor to the viewer.
+        if (files->has_tensors())
+          written.data_out.tensors.push_back(name);
+        std::vector<double> component(values.size() / n_components);
+        for (unsigned int c = 0; c < n_components; ++c)
+          {
+            for (std::size_t i = 0; i < component.size(); ++i)
+              component[i] = values[n_components * i + c];
+            add_scalar(name + "_" + (files->has_tensors() ? std::to_string(c) : component_name(c)),
+                       at_nodes,
+                       component,
+                       written);
+          }
+      }
+  }
+
+
+
+  void
   VolumeOutput::write(const Vector      &displacement,
                       const Vector      *velocity,
                       const unsigned int step,
@@ -206,63 +330,26 @@ namespace Touchstone
   {
     if (!node_dofs.has_active_dofs())
       number_nodes();
-    const auto        stress = node_stress(displacement);
-    const VolumeState state{solid, displacement, velocity, reaction, time, stress};
+    const auto        cell_stress = solid.cell_stress(displacement);
+    const auto        stress      = node_stress(cell_stress);
+    const VolumeState state{
+      solid, displacement, velocity, reaction, time, stress, cell_stress, cell_values};
     const std::size_t n_nodes = node_in_solid.size();
     // Cell fields have entries for ghost cells, too, since deal.II indexes them by active cell;
     // those are not written.
     const std::size_t n_cells = node_dofs.get_triangulation().n_active_cells();
 
-    // DataOut keeps pointers to the vectors until the patches are built; the elements of a list do
-    // not move when further ones are added.
-    std::list<NodeField>              scalars;
-    std::list<Vector>                 vectors;
-    std::list<dealii::Vector<double>> cells;
-    TensorDataOut                     data_out;
+    Written written;
     for (const auto &[name, field] : fields)
       if (field->available(state))
         {
           const bool          at_nodes = field->location() == VolumeField::Location::nodes;
-          std::vector<double> values(at_nodes ? n_nodes * field->n_components() : n_cells);
+          std::vector<double> values((at_nodes ? n_nodes : n_cells) * field->n_components());
           field->evaluate(state, values);
-          if (!at_nodes)
-            {
-              cells.emplace_back(values.begin(), values.end());
-              data_out.add_data_vector(cells.back(), name, dealii::DataOut<dim>::type_cell_data);
-            }
-          else if (field->n_components() == 1)
-            {
-              scalars.push_back(scalar_field(values));
-              data_out.add_data_vector(node_dofs, scalars.back(), name);
-            }
-          else if (field->n_components() == dim * dim)
-            {
-              // A scalar for each component, which together are a tensor to the viewer.
-              const std::size_t   n = dim * dim;
-              std::vector<double> component(n_nodes);
-              for (std::size_t c = 0; c < n; ++c)
-                {
-                  for (std::size_t i = 0; i < n_nodes; ++i)
-                    component[i] = values[n * i + c];
-                  scalars.push_back(scalar_field(component));
-                  data_out.add_data_vector(node_dofs,
-                                           scalars.back(),
-                                           name + "_" + std::to_string(c));
-                }
-              data_out.tensors.push_back(name);
-            }
-          else
-            {
-              namespace Interpretation = dealii::DataComponentInterpretation;
-              vectors.push_back(vector_field(values));
-              data_out.add_data_vector(solid.dof_handler,
-                                       vectors.back(),
-                                       std::vector<std::string>(dim, name),
-                                       std::vector<Interpretation::DataComponentInterpretation>(
-                                         dim, Interpretation::component_is_part_of_vector));
-            }
+          add_field(name, at_nodes, field->n_components(), values, written);
         }
 
+    TensorDataOut                &data_out = written.data_out;
     dealii::DataOutBase::VtkFlags flags;
     flags.time  = time;
     flags.cycle = step;
@@ -276,6 +363,6 @@ namespace Touchstone
                            solid.fe.degree,
                            dealii::DataOut<dim>::curved_inner_cells);
 
-    files.write(data_out, step, time);
+    files->write(data_out, step, time);
   }
 } // namespace Touchstone

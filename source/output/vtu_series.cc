@@ -2,22 +2,13 @@
 
 #include <touchstone/output/vtu_series.h>
 
-#include <deal.II/base/utilities.h>
+#include <sstream>
 
 namespace Touchstone
 {
   VtuSeries::VtuSeries(const OutputFolder &folder, const std::string &name)
-    : folder(folder)
-    , name(name)
+    : FileSeries(folder, name)
   {
-  }
-
-
-
-  std::string
-  VtuSeries::stem(const unsigned int step) const
-  {
-    return name + "_" + dealii::Utilities::int_to_string(step, 4);
   }
 
 
@@ -35,10 +26,55 @@ namespace Touchstone
 
 
   void
-  VtuSeries::write(const std::string &piece,
-                   const std::string &record,
-                   const unsigned int step,
-                   const double       time)
+  VtuSeries::write(const dealii::DataOutInterface<3, 3> &data,
+                   const unsigned int                    step,
+                   const double                          time)
+  {
+    write_patches(data, step, time);
+  }
+
+
+
+  void
+  VtuSeries::write(const dealii::DataOutInterface<2, 3> &data,
+                   const unsigned int                    step,
+                   const double                          time)
+  {
+    write_patches(data, step, time);
+  }
+
+
+
+  void
+  VtuSeries::write(const dealii::DataOutInterface<0, 3> &data,
+                   const unsigned int                    step,
+                   const double                          time)
+  {
+    write_patches(data, step, time);
+  }
+
+
+
+  template <int patch_dim>
+  void
+  VtuSeries::write_patches(const dealii::DataOutInterface<patch_dim, 3> &data,
+                           const unsigned int                            step,
+                           const double                                  time)
+  {
+    std::ostringstream piece, record;
+    data.write_vtu(piece);
+    if (folder.rank == 0)
+      data.write_pvtu_record(record, piece_names(step));
+    write_texts(piece.str(), record.str(), step, time);
+  }
+
+
+
+  void
+  VtuSeries::write_texts(const std::string &piece,
+                         const std::string &record,
+                         const unsigned int step,
+                         const double       time)
   {
     // One rank writes one .vtu file; several write one piece each, and rank 0 the .pvtu record that
     // names them.
@@ -48,23 +84,7 @@ namespace Touchstone
     folder.write_pieces_atomically(serial ? file : piece_names(step)[folder.rank], piece);
     if (!serial)
       folder.write_file_atomically(file, record);
-
-    // The list of the series comes last, so that it names only files that exist, also if the run
-    // dies here.
-    times_and_names.emplace_back(time, file);
-    write_list();
-  }
-
-
-
-  void
-  VtuSeries::restore(const List &before)
-  {
-    // A resumed run continues the series: steps after the checkpoint are written again and not
-    // listed twice.
-    times_and_names = before;
-    if (!before.empty())
-      write_list();
+    add(time, file);
   }
 
 
@@ -72,8 +92,8 @@ namespace Touchstone
   void
   VtuSeries::write_list() const
   {
-    std::ostringstream list;
-    dealii::DataOutBase::write_pvd_record(list, times_and_names);
-    folder.write_file_atomically(name + ".pvd", list.str());
+    std::ostringstream text;
+    dealii::DataOutBase::write_pvd_record(text, list());
+    folder.write_file_atomically(name + ".pvd", text.str());
   }
 } // namespace Touchstone

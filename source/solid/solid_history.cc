@@ -113,6 +113,31 @@ namespace Touchstone
 
 
 
+  std::vector<double>
+  Solid::point_plastic_strain() const
+  {
+    if (!plastic())
+      return {};
+    // Where the points of each cell begin, and how many of them have been visited.
+    const std::size_t        n_points = Utilities::pow(fe.degree + 1, dim);
+    std::vector<std::size_t> next(dof_handler.get_triangulation().n_active_cells());
+    std::size_t              size = 0;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          next[cell->active_cell_index()] = size;
+          size += n_points;
+        }
+    std::vector<double> result(size);
+    nonlinear->for_each_state(
+      [&](const unsigned int body, const unsigned int cell, double, const double *state) {
+        result[next[cell]++] = history_law(body)->plastic_strain(state);
+      });
+    return result;
+  }
+
+
+
   std::map<unsigned int, double>
   Solid::largest_plastic_strain() const
   {

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # ctest: label = quick
-"""Sets of nodes of mesh files: supports and forces on edges and points, Abaqus and Gmsh. Reactions of a
+"""Sets of nodes of mesh files: supports and forces on edges and points, Abaqus, Gmsh and VTU. Reactions of a
 block that three points hold, and of a beam on two edges, follow from statics, whatever the element, the
 refinement, the solver and the ranks; a force on an edge is the same per length on cells of different length;
 momentum in explicit dynamics; what needs faces is refused."""
@@ -55,8 +55,27 @@ def gmsh():
                       "$EndElements"]) + "\n"
 
 
+def vtu():
+    """The same with an array of the points for each set."""
+    def array(kind, name, values, components=1):
+        return (f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" format="ascii">'
+                f'{" ".join(map(str, values))}</DataArray>')
+
+    marks = [array("Int32", name, [int(place in members) for place in NODES])
+             for name, members in {**EDGES, **POINTS}.items()]
+    return "\n".join([
+        '<VTKFile type="UnstructuredGrid" version="0.1" byte_order="LittleEndian">', "<UnstructuredGrid>",
+        f'<Piece NumberOfPoints="{len(NODES)}" NumberOfCells="{len(CELLS)}">', "<PointData>", *marks, "</PointData>",
+        "<Points>", array("Float64", "Points", (x for i, j, k in NODES for x in (X[i], Y[j], Z[k])), 3), "</Points>",
+        "<Cells>", array("Int32", "connectivity", (n - 1 for cell in CELLS for n in cell)),
+        array("Int32", "offsets", range(8, 8 * len(CELLS) + 1, 8)), array("UInt8", "types", [12] * len(CELLS)),
+        "</Cells>", "</Piece>", "</UnstructuredGrid>", "</VTKFile>"]) + "\n"
+
+
 pathlib.Path(folder / "beam.inp").write_text(abaqus(), encoding="utf-8")
 pathlib.Path(folder / "beam.msh").write_text(gmsh(), encoding="utf-8")
+pathlib.Path(folder / "beam.vtu").write_text(vtu(), encoding="utf-8")
+ARRAYS = f"\n    set Boundary arrays = {', '.join([*EDGES, *POINTS])}"
 HEAD = """set Title  = Sets of nodes
 set Bodies = beam
 subsection Body beam
@@ -83,7 +102,7 @@ end
 def scene(name, file, *lines):
     """A scene with these lines in the body."""
     path = folder / f"{name}.prm"
-    path.write_text(HEAD.format(file=file) + "\n".join(lines) + "\n" + TAIL, encoding="utf-8")
+    path.write_text(HEAD.format(file=file + (ARRAYS if file.endswith("vtu") else "")) + "\n".join(lines) + "\n" + TAIL, encoding="utf-8")
     return path
 
 
@@ -95,8 +114,8 @@ def boundary(name, *entries):
 BEAM = ["  set Boundary conditions = left, right, top, one",
         *boundary("left", "Displacement z = 0", "Displacement x = 0"), *boundary("right", "Displacement z = 0"),
         *boundary("one", "Displacement y = 0"), *boundary("top", "Force z = -2*t")]
-bent = {name: scene(f"beam_{name}", f"beam.{name}", *BEAM) for name in ("inp", "msh")}
-for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1), ("ranks", "inp", {}, 2),
+bent = {name: scene(f"beam_{name}", f"beam.{name}", *BEAM) for name in ("inp", "msh", "vtu")}
+for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1), ("vtu", "vtu", {}, 1), ("ranks", "inp", {}, 2),
                                     ("fine", "inp", {FACTOR: 2}, 2), ("degree", "msh", {DEGREE: 2}, 1),
                                     ("both", "msh", {DEGREE: 2, FACTOR: 2}, 2), ("cg", "inp", CG, 1),
                                     ("adaptive", "inp", {"Refinement/Estimator": "recovered stress",

@@ -32,7 +32,8 @@ run("two", SCENE, {STEPS: 4}, ranks=2, vtu=1)
 
 def curves(kind, name="one", **options):
     """Curves by their labels, and the names of the axes."""
-    settings = {"column": None, "over": None, "axis": "x", "width": 1e-3, "steps": 6, **options}
+    settings = {"column": None, "over": None, "axis": "x", "width": 1e-3, "steps": 6,
+                "runs": [name], **options}
     found, *axes = plot.curves(kind, folder / name, argparse.Namespace(**settings))
     return {label: (list(x), list(y)) for label, x, y in found}, axes
 
@@ -41,6 +42,8 @@ force, axes = curves("force")
 time, pressed = force["contact.force_z"]
 check(axes == ["time [time]", "force [force]"] and time == [0.] + one.column("time"), f"{axes}")
 check(pressed == [0.] + one.column("contact: force z") and pressed[-1] > 0, f"force {pressed}")
+of_four = curves("force", runs=["one"] * 4)[0]
+check(len(force) > 3 == len(of_four) and "contact.force_z" in of_four, f"curves of four runs {list(of_four)}")
 over, axes = curves("force", over="top:displacement_z", column="contact.force_z")
 check(list(over) == ["contact.force_z"] and axes[0] == "displacement_z [length]", f"{axes}")
 check(math.isclose(over["contact.force_z"][0][-1], -0.037), f"{over}")

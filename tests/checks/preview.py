@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """--preview: a block for the cells of each body, each boundary and obstacle with its name and its faces,
-the same files on two ranks, and a drawing with all names."""
+the same files on two ranks, and a drawing with all names, also as an image."""
 
+import os
 import pathlib
 import re
+import shutil
 import xml.etree.ElementTree as xml
 
 from touchstone_test import check, finish, launch, tests
@@ -47,6 +49,18 @@ check(svg.count("<path") > 6 * 81, "the drawing has too few faces")
 two = preview("two", tests / "cone_obstacle.prm", ranks=2)
 for file in sorted(cone.iterdir()):
     check(file.read_bytes() == (two / file.name).read_bytes(), f"{file.name} differs on two ranks")
+
+# An image where there is a program for it, else its name.
+if shutil.which("rsvg-convert"):
+    check((cone / "preview.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n", "preview.png is no image")
+broken = pathlib.Path("broken/rsvg-convert").resolve()
+broken.parent.mkdir(exist_ok=True)
+broken.write_text("#!/bin/sh\nexit 1\n", encoding="utf-8")
+broken.chmod(0o755)
+os.environ["PATH"] = f"{broken.parent}:{os.environ['PATH']}"
+plain = launch("--preview", "--output", "plain", tests / "cone_obstacle.prm")
+check(plain.returncode == 0 and "apt-get install librsvg2-bin" in plain.stdout and
+      not pathlib.Path("plain/preview.png").exists(), f"without rsvg-convert: {plain.stdout}")
 
 # Faces of degree 2 have four parts.
 fine = preview("fine", tests / "cone_obstacle.prm", settings=("--set", "Discretisation/Degree=2"))

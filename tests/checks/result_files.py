@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Result files: VTU series and statistics.csv begin with t = 0; the stress tensor is that of its
-components; nodal reactions add up to the reactions of the boundaries; statistics.csv has the values
+components; nodal reactions add up to the reactions of the boundaries; forces on the master side are those
+on the slave side, and pressure times area adds up to the same; stresses of cells and quadrature points, not
+smoothed; XDMF files go on after a restart; statistics.csv has the values
 of 'statistics' under names of one word; probes have prescribed displacements and the stress of the
 VTU files; on two ranks and after a restart as well."""
 
@@ -129,10 +131,76 @@ def summed(result, pair, *, scale=1e-5):
     check(sum(areas.values()) >= result.contact(pair, "area") * (1 - scale) > 0, f"{result}: areas")
 
 
+def sides(result):
+    """Area, pressure times area and force on either side, each node once, and nodes by pair."""
+    both = []
+    for name in ("contact", "master_contact"):
+        nodes = {}
+        files = sorted(result.folder.glob(f"{name}_[0-9]*.vtu"))
+        newest = files[-1].name[:len(name) + 5]
+        for file in (f for f in files if f.name.startswith(newest)):
+            for arrays in vtu.pieces(file):
+                for i, area in enumerate(arrays["area"]):
+                    place = tuple(arrays["position"][3 * i:3 * i + 3]) + (arrays["pair"][i],)
+                    nodes[place] = (area, area * arrays["pressure"][i], *arrays["force"][3 * i:3 * i + 3])
+        both.append([sum(column) for column in zip(*nodes.values())])
+    return both
+
+
+def action_is_reaction(result):
+    """Both sides have the same area and normal force, and opposite forces."""
+    slave, master = sides(result)
+    size = max(abs(x) for x in slave[2:])
+    check(size > 0, f"{result}: no force")
+    for a, b in zip(slave, [*master[:2], *(-x for x in master[2:])]):
+        check(math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-5 * size),
+              f"{result}: slave side {slave}, master side {master}")
+
+
 summed(one, "contact")
-# With hanging nodes on the slave surface.
-summed(run("hanging", prm / "hertz_sphere_adaptive.prm",
-           {STEPS: 1, "Discretisation/Refinement factor": 0.5}, vtu=1), "contact")
+action_is_reaction(one)
+# With hanging nodes on both sides.
+hanging = run("hanging", prm / "hertz_sphere_adaptive.prm",
+              {STEPS: 1, "Discretisation/Refinement factor": 0.5}, vtu=1)
+summed(hanging, "contact")
+action_is_reaction(hanging)
+# Nodes of a side on several ranks; meshes that do not match, both pairings, friction and degree 2.
+for name, settings in (
+        ("averaged", {}), ("pointwise", {"Contact pair interface/Pairing": "pointwise"}),
+        ("quadratic", {"Discretisation/Degree": 2})):
+    action_is_reaction(run(name, prm / "patch_test.prm", settings, ranks=2, vtu=1))
+
+# Stresses that are not smoothed: those of the cells average to those of their points.
+rough = run("rough", prm / "patch_test.prm", {
+    "Contact pair interface/Pairing": "pointwise", "Output/Unsmoothed values": "both"}, vtu=1)
+cells = next(vtu.pieces(rough.folder / "solution_0001.vtu"))
+cloud = next(vtu.pieces(rough.folder / "points_0001.vtu"))
+check(times(rough.folder / "points.pvd") == [0, 1], "times of points.pvd")
+n_cells = len(cells["body"]) // 8
+check(len(cloud["body"]) == 8 * n_cells > 0, f"{len(cloud['body'])} points in {n_cells} cells")
+for c in range(n_cells):
+    for k in range(9):
+        mean = sum(cloud["stress"][9 * (8 * c + q) + k] for q in range(8)) / 8
+        check(math.isclose(mean, cells["cell_stress"][9 * 8 * c + k], rel_tol=1e-4, abs_tol=1e-3),
+              f"cell {c}: stress {cells['cell_stress'][9 * 8 * c + k]}, mean of its points {mean}")
+nodal, of_points = (max(data["von_mises"]) for data in (cells, cloud))
+check(max(cells["cell_von_mises"]) > 1.02 * nodal > 0 and of_points > max(cells["cell_von_mises"]),
+      f"von Mises: nodes {nodal}, cells {max(cells['cell_von_mises'])}, points {of_points}")
+
+# XDMF: all steps from t = 0 on, also of a run in two parts, and nothing of the other format.
+XDMF = {**parts, "Output/Format": "xdmf"}
+run("xdmf", SCENE, {**XDMF, "Load stepping/End time": rows[2]["time"], STEPS: 2}, vtu=1)
+done = launch("--resume", "--output", "xdmf", *settings_options(XDMF), SCENE)
+check(done.returncode == 0, done.stdout)
+for name in ("solution", "contact", "master_contact"):
+    text = (folder / f"xdmf/{name}.xdmf").read_text(encoding="utf-8")
+    found = [float(grid.get("Value")) for grid in xml.fromstring(text).iter("Time")]
+    check(found == [row["time"] for row in rows], f"times of {name}.xdmf {found}")
+    for step in range(len(rows)):
+        check((folder / f"xdmf/{name}_{step:04}.h5").stat().st_size > 1000 and
+              f"{name}_{step:04}.h5:/displacement" in text, f"{name}.xdmf, step {step}")
+check(not list((folder / "xdmf").glob("*.vtu")) and not list((folder / "xdmf").glob("*.part")),
+      "other files beside those of XDMF")
 
 # Prescribed at the tip, and in the mean over the side; no balance at t = 0.
 for name, x, y in (("probe_tip", 1.1, 1.2), ("probe_top_side", 0.7, 0.7)):

@@ -57,6 +57,20 @@ namespace Touchstone
   std::map<std::string, MissedByRows>
   missed_contact(const Contact &contact);
 
+  /** @brief Penetration that springs have left in a pair. */
+  struct LeftPenetration
+  {
+    /** The largest, length, and by the size of the slave faces, no unit. */
+    double length = 0., relative = 0.;
+    /** Energy of the springs, force times length. */
+    double energy = 0.;
+  };
+
+  /** @brief What springs have left, by the names of the pairs; pairs that are closed as far as
+   * tolerances go are left out. Collective. */
+  std::map<std::string, LeftPenetration>
+  left_penetration(const Contact &contact);
+
   /** @brief Whether a pair has a contact force that is far from normal to the slave surface, the
    * other part of unresolved_contact(). Collective. */
   bool

@@ -16,8 +16,10 @@
 namespace Touchstone
 {
   class Contact;
+  struct ContactRow;
 
-  /** @brief Result at one slave node; each rank has those it owns. */
+  /** @brief Result at one node of a slave surface, or of a master surface; each rank has those it
+   * owns. */
   struct ContactPoint
   {
     unsigned int           pair;
@@ -45,7 +47,7 @@ namespace Touchstone
     ContactStatus status;
   };
 
-  /** @brief A slave face as polygon for VTU output: nodes in lexicographic order,
+  /** @brief A slave or master face as polygon for VTU output: nodes in lexicographic order,
    * 4 for degree 1 and 9 for degree 2. */
   struct ContactFace
   {
@@ -100,6 +102,10 @@ namespace Touchstone
     std::set<dealii::types::boundary_id> slave, master;
   };
 
+  /** @brief Result at the slave node of a row. */
+  ContactPoint
+  contact_point(const Contact &contact, const ContactRow &row, const Vector &u);
+
   /** @brief Results at this rank's slave nodes in displacement @p u. */
   std::vector<ContactPoint>
   contact_points(const Contact &contact, const Vector &u);
@@ -107,6 +113,17 @@ namespace Touchstone
   /** @brief Slave faces of this rank, for VTU output. */
   std::vector<ContactFace>
   contact_faces(const Contact &contact);
+
+  /** @brief Contact at this rank's nodes of the master surfaces in displacement @p u: what the rows
+   * do to them, so that forces of both sides add up to zero, and those of a side to the force of
+   * its pair. Area, pressure and gap are the means of the rows that have the node in their stencil;
+   * `normal` is that of the master surface. Obstacles have no nodes. Collective. */
+  std::vector<ContactPoint>
+  master_points(const Contact &contact, const Vector &u);
+
+  /** @brief Master faces of this rank. */
+  std::vector<ContactFace>
+  master_faces(const Contact &contact);
 
   /** @brief Sums per pair over all ranks. Collective. */
   std::vector<PairResult>

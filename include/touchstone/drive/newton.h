@@ -101,10 +101,11 @@ namespace Touchstone
     {
     }
 
-    /** @return the number of linear solves.
+    /** @param least Make at least so many linear solves.
+     * @return the number of linear solves.
      * @throws NewtonFailure, ActiveSetCycle, and what the problem throws. */
     unsigned int
-    solve(NonlinearProblem &problem, const Observer &observer) const;
+    solve(NonlinearProblem &problem, const Observer &observer, unsigned int least = 0) const;
 
   private:
     const NewtonParameters &parameters;

@@ -47,6 +47,14 @@ namespace Touchstone
       return forces;
     }
 
+    /** @brief Whether the last mark() refined no cell because "Maximum cells" would be exceeded;
+     * the same on all ranks. */
+    bool
+    limited() const
+    {
+      return no_more_cells;
+    }
+
     /**
      * @brief Mark cells by what estimate() found in the same state.
      * @return whether the mesh is going to change. Collective.
@@ -69,6 +77,7 @@ namespace Touchstone
     Forest                        &forest;
     Solid                         &solid;
     Formulas                       formulas;
+    bool                           no_more_cells = false;
     std::shared_ptr<const Formula> region;
     /** Of the last estimate(), by cells: squared error, and the squared variation of
      * the pressure over their slave faces. */

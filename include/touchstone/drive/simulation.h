@@ -11,6 +11,7 @@
 #include <touchstone/output/contact_output.h>
 #include <touchstone/output/converged_step.h>
 #include <touchstone/output/log.h>
+#include <touchstone/output/point_output.h>
 #include <touchstone/output/probes.h>
 #include <touchstone/output/progress.h>
 #include <touchstone/output/statistics.h>
@@ -84,8 +85,9 @@ namespace Touchstone
     Progress                           progress;
     Statistics                         statistics;
     VolumeOutput                       volume_output;
+    PointOutput                        point_output;
     Probes                             probes;
-    ContactOutput                      contact_output;
+    ContactOutput                      contact_output, master_output;
     std::shared_ptr<ReferenceSolution> reference;
     Checkpoints                        checkpoints;
     RunSummary                         summary;
@@ -169,6 +171,13 @@ namespace Touchstone
                 unsigned int phase);
     void
     write_vtu(unsigned int step, double time);
+    /** @brief Why springs of contact are too soft for the result to mean anything; empty if they
+     * are not. Warns where they are merely soft. Collective. */
+    std::string
+    too_soft_springs();
+    /** @brief All series of files, by their names in checkpoints. */
+    std::vector<std::pair<std::string, std::reference_wrapper<FileSeries>>>
+    picture_series();
     void
     load_stepping();
     /**

@@ -5,16 +5,17 @@
 
 #include <touchstone/contact/results.h>
 #include <touchstone/output/contact_field.h>
-#include <touchstone/output/vtu_series.h>
+#include <touchstone/output/file_series.h>
 
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace Touchstone
 {
-  /** @brief What the VTU files show at a node of a slave face. */
+  /** @brief What the files show at a node of a contact surface. */
   struct ContactNode
   {
     dealii::Point<dim> reference_position;
@@ -35,8 +36,8 @@ namespace Touchstone
   /**
    * @brief The values of @p fields at all nodes of this rank's @p faces, wherever the nodes
    * are owned. Collective.
-   * @param faces  Slave faces of this rank.
-   * @param points Results at the slave nodes that this rank owns.
+   * @param faces  Slave or master faces of this rank.
+   * @param points Results at the nodes of this side that this rank owns.
    */
   ContactNodeMap
   collect_contact_nodes(const ContactFieldList          &fields,
@@ -44,14 +45,16 @@ namespace Touchstone
                         const std::vector<ContactPoint> &points,
                         MPI_Comm                         communicator);
 
-  /** @brief One set of slave faces in the form that deal.II's writers take. */
+  /** @brief One set of faces in the form that deal.II's writers take. */
   class ContactSurfaceData : public dealii::DataOutInterface<2, 3>
   {
   public:
-    /** @brief Faces with a node that is missing from @p nodes are left out. */
+    /** @brief Faces with a node that is missing from @p nodes are left out.
+     * @param with_rests Add what single precision leaves of the numbers, see FileSeries. */
     ContactSurfaceData(const ContactFieldList         &fields,
                        const std::vector<ContactFace> &faces,
-                       const ContactNodeMap           &nodes);
+                       const ContactNodeMap           &nodes,
+                       bool                            with_rests = false);
 
     const std::vector<dealii::DataOutBase::Patch<2, 3>> &
     get_patches() const override;
@@ -67,16 +70,20 @@ namespace Touchstone
 
   private:
     const ContactFieldList                       &fields;
+    const bool                                    with_rests;
     std::vector<dealii::DataOutBase::Patch<2, 3>> patches;
   };
 
-  /** @brief VTU output of the contact surfaces: contact.pvd, with all registered
-   * ContactField classes on the undeformed slave faces. */
+  /** @brief Output of one side of the contact surfaces: contact.pvd or master_contact.pvd, with all
+   * registered ContactField classes on the undeformed faces. */
   class ContactOutput
   {
   public:
-    /** @param folder Must outlive this object. */
-    explicit ContactOutput(const OutputFolder &folder);
+    /** @param folder Must outlive this object.
+     * @param name   Common beginning of the file names. */
+    explicit ContactOutput(const OutputFolder &folder,
+                           ResultFormat        format = ResultFormat::vtu,
+                           const std::string  &name   = "contact");
 
     /** @brief Write the file of one step, unless no rank has any face.
      * Collective. @throws OutputError on all ranks. */
@@ -87,16 +94,16 @@ namespace Touchstone
           double                           time);
 
     /** @brief The files so far, which a resumed run adds to. */
-    VtuSeries &
+    FileSeries &
     series()
     {
-      return files;
+      return *files;
     }
 
   private:
-    const OutputFolder    &folder;
-    const ContactFieldList fields;
-    VtuSeries              files;
+    const OutputFolder         &folder;
+    const ContactFieldList      fields;
+    std::unique_ptr<FileSeries> files;
   };
 } // namespace Touchstone
 

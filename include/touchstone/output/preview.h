@@ -34,10 +34,16 @@ namespace Touchstone
   std::string
   draw_preview(const std::string &title, const std::vector<PreviewPart> &parts);
 
+  /** @brief Turn the file @p drawing (SVG) into the file @p image (PNG) by the program
+   * rsvg-convert.
+   * @return whether it is there and did. */
+  bool
+  draw_image(const std::string &drawing, const std::string &image);
+
   /**
    * @brief Option --preview: the meshes at t = 0 with the names of boundaries, into the output
    * folder: preview.vtm with a block for the cells of each body, each boundary and each
-   * obstacle, and the drawing preview.svg.
+   * obstacle, the drawing preview.svg and, where rsvg-convert is installed, the image preview.png.
    *
    * Each rank makes the whole mesh, and the first one writes.
    *

@@ -29,6 +29,11 @@ namespace Touchstone
     /** Cauchy stress at the owned nodes in the order of their numbers, averaged over the
      * cells around with their volumes as weights; force per area. */
     const std::vector<dealii::SymmetricTensor<2, dim>> &node_stress;
+    /** Mean Cauchy stress of the active cells, of which those of owned cells count; force per
+     * area. */
+    const std::vector<dealii::SymmetricTensor<2, dim>> &cell_stress;
+    /** Whether fields of stresses that are not averaged at nodes are asked for. */
+    bool cell_values;
   };
 
   /**
@@ -52,7 +57,7 @@ namespace Touchstone
       return Location::nodes;
     }
 
-    /** @brief 1, or 3 for a vector or 9 for a tensor (its rows one after the other), which only
+    /** @brief 1, or 9 for a tensor (its rows one after the other), or 3 for a vector, which only
      * nodes can have. */
     virtual unsigned int
     n_components() const
@@ -70,7 +75,7 @@ namespace Touchstone
     /**
      * @brief Evaluate the field. Called on all ranks.
      * @param values Zeros of the right size. Nodes: n_components() numbers of each owned
-     *               node, in the order of node numbers. Cells: a number for each active
+     *               node, in the order of node numbers. Cells: those of each active
      *               cell of the triangulation, of which those of owned cells count.
      */
     virtual void

@@ -3,8 +3,8 @@
 #ifndef touchstone_output_volume_output_h
 #define touchstone_output_volume_output_h
 
+#include <touchstone/output/file_series.h>
 #include <touchstone/output/volume_field.h>
-#include <touchstone/output/vtu_series.h>
 #include <touchstone/solid/solid.h>
 
 #include <deal.II/fe/fe_q.h>
@@ -19,7 +19,7 @@
 namespace Touchstone
 {
   /**
-   * @brief VTU output of the bodies, solution.pvd, with all registered VolumeField classes.
+   * @brief Output of the bodies, solution.pvd, with all registered VolumeField classes.
    *
    * The geometry is the undeformed one; the displacement is there to warp it by.
    * Stresses are those of the cells averaged to the nodes with the volumes as
@@ -29,7 +29,9 @@ namespace Touchstone
   {
   public:
     /** @param solid, folder Must outlive this object. */
-    VolumeOutput(const Solid &solid, const OutputFolder &folder);
+    VolumeOutput(const Solid            &solid,
+                 const OutputFolder     &folder,
+                 const OutputParameters &parameters = OutputParameters());
 
     /** @brief The mesh has changed. */
     void
@@ -56,10 +58,10 @@ namespace Touchstone
     nodal_stress(const Vector &displacement);
 
     /** @brief The files so far, which a resumed run adds to. */
-    VtuSeries &
+    FileSeries &
     series()
     {
-      return files;
+      return *files;
     }
 
   private:
@@ -72,8 +74,10 @@ namespace Touchstone
      * solid. */
     std::vector<std::size_t> node_in_solid;
     /** Sum of the volumes of the cells around each node. */
-    NodeField node_volume;
-    VtuSeries files;
+    NodeField                   node_volume;
+    std::unique_ptr<FileSeries> files;
+    /** Write stresses as they are in the cells, too. */
+    const bool cell_values;
     /** By name, in the order of the file. */
     std::vector<std::pair<std::string, std::shared_ptr<VolumeField>>> fields;
 
@@ -87,7 +91,31 @@ namespace Touchstone
 
     /** @brief Averaged stress at the owned nodes of the solid; force per area. */
     std::vector<dealii::SymmetricTensor<2, dim>>
-    node_stress(const Vector &displacement) const;
+    node_stress(const std::vector<dealii::SymmetricTensor<2, dim>> &cell_stress) const;
+
+    /** @brief What is written into a file. */
+    struct Written;
+
+    /** @name Add a field to a file, with the rest of its numbers where the format has doubles */
+    /** @{ */
+    void
+    add_field(const std::string         &name,
+              bool                       at_nodes,
+              unsigned int               n_components,
+              const std::vector<double> &values,
+              Written                   &written) const;
+    void
+    add_scalar(const std::string         &name,
+               bool                       at_nodes,
+               const std::vector<double> &values,
+               Written                   &written) const;
+    void
+    add_vector(const std::string &name, const std::vector<double> &values, Written &written) const;
+    /** @} */
+
+    /** @brief Whether the components of this tensor are fields of their own. */
+    bool
+    has_components(const std::string &tensor) const;
 
     /** @brief The values of a field of one component at nodes, with ghosts. */
     NodeField

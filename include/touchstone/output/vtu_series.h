@@ -3,13 +3,9 @@
 #ifndef touchstone_output_vtu_series_h
 #define touchstone_output_vtu_series_h
 
-#include <touchstone/base/folder.h>
+#include <touchstone/output/file_series.h>
 
-#include <deal.II/base/data_out_base.h>
-
-#include <sstream>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -22,58 +18,50 @@ namespace Touchstone
    * deal.II's own write_vtu_with_pvtu_record() leaves the other ranks waiting if
    * the disk is full for one of them.
    */
-  class VtuSeries
+  class VtuSeries : public FileSeries
   {
   public:
     /** @param folder Must outlive this object.
      * @param name   Common beginning of the file names. */
     VtuSeries(const OutputFolder &folder, const std::string &name);
 
-    /** @brief Write the file of one step; its flags are set by the caller.
-     * Collective. @throws OutputError */
-    template <int patch_dim>
     void
-    write(const dealii::DataOutInterface<patch_dim, 3> &data,
-          const unsigned int                            step,
-          const double                                  time)
+    write(const dealii::DataOutInterface<3, 3> &data, unsigned int step, double time) override;
+    void
+    write(const dealii::DataOutInterface<2, 3> &data, unsigned int step, double time) override;
+    void
+    write(const dealii::DataOutInterface<0, 3> &data, unsigned int step, double time) override;
+
+    bool
+    has_tensors() const override
     {
-      std::ostringstream piece, record;
-      data.write_vtu(piece);
-      if (folder.rank == 0)
-        data.write_pvtu_record(record, piece_names(step));
-      write(piece.str(), record.str(), step, time);
+      return true;
     }
 
-    /** @brief Times and file names so far. */
-    using List = std::vector<std::pair<double, std::string>>;
-
-    const List &
-    list() const
+    bool
+    has_doubles() const override
     {
-      return times_and_names;
+      return false;
     }
-
-    /** @brief Continue after files that were written before. Collective.
-     * @throws OutputError */
-    void
-    restore(const List &before);
 
   private:
-    const OutputFolder &folder;
-    const std::string   name;
-    List                times_and_names;
+    template <int patch_dim>
+    void
+    write_patches(const dealii::DataOutInterface<patch_dim, 3> &data,
+                  unsigned int                                  step,
+                  double                                        time);
 
     void
-    write_list() const;
-
-    std::string
-    stem(unsigned int step) const;
+    write_list() const override;
 
     std::vector<std::string>
     piece_names(unsigned int step) const;
 
     void
-    write(const std::string &piece, const std::string &record, unsigned int step, double time);
+    write_texts(const std::string &piece,
+                const std::string &record,
+                unsigned int       step,
+                double             time);
   };
 } // namespace Touchstone
 

@@ -247,6 +247,11 @@ namespace Touchstone
     dealii::Vector<double>
     cell_plastic_strain() const;
 
+    /** @brief Equivalent plastic strain at all quadrature points in the order of
+     * for_each_stress(), zero where there is no plastic flow; empty without any. */
+    std::vector<double>
+    point_plastic_strain() const;
+
     /** @brief Largest equivalent plastic strain at a quadrature point by body number, of
      * bodies with plastic flow. Collective. */
     std::map<unsigned int, double>
