@@ -7,7 +7,8 @@ import statistics
 
 # Choices that are columns of the CSV file, of any program.
 CHOICES = ("degree", "element", "pairing", "normal", "geometry", "enforcement", "linearisation",
-           "friction", "contact", "penalty", "increments", "solver", "ranks")
+           "friction", "contact", "penalty", "increments", "sliding", "augmentation", "multiplier",
+           "parts", "solver", "ranks")
 FIGURES = ("nodes", "unknowns", "steps", "newton", "linear_mean")
 
 
