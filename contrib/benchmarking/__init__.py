@@ -10,6 +10,8 @@ with_getfem     the same for GetFEM, getfem_program its program
 surfaces   areas of slave nodes, which CalculiX does not give
 fields     tractions as fields, and their distance from exact ones
 measures   errors against exact solutions, as the program itself computes them
+runner     all runs of a campaign
+scoreboard the page of contrib/scoreboard
 table      medians, CSV, Markdown, best settings
 diagrams   work-precision diagrams with gnuplot
 """

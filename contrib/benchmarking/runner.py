@@ -20,30 +20,43 @@ def leave_out_missing(campaign):
         campaign.cases = [c for c in campaign.cases if c.program != name]
 
 
-def run_all(campaign, program, folder):
-    """All runs of a campaign, round after round. @return rows of the table."""
+def execute(program, case, campaign, own, models):
+    """One run, which is told of. @return See touchstone.execute()"""
+    if case.program in OTHERS:
+        run = OTHERS[case.program][0].execute(program, case, campaign, own, models)
+    else:
+        run = touchstone.execute(program, case, campaign, own)
+    (own / "command").write_text(shlex.join(run["command"]) + "\n", encoding="utf-8")
+    return run
+
+
+def run_all(campaign, program, folder, known):
+    """All runs of a campaign, round after round. @return rows of the table.
+    @param known Rows by contender and mesh that are taken as they are."""
     runs, models = {}, {}
+
+    def rows():
+        return [known.get((case.line, case.mesh)) or
+                table.median_row(case, runs[case.folder], campaign) for case in campaign.cases
+                if (case.line, case.mesh) in known or case.folder in runs]
+
     # Mesh after mesh, so that contenders alternate.
     order = sorted(campaign.cases, key=lambda case: campaign.meshes.index(case.mesh))
     for turn in range(campaign.repeat):
         for case in order:
+            if (case.line, case.mesh) in known:
+                continue
             done = runs.setdefault(case.folder, [])
             if any(run["reason"] for run in done):
                 continue  # it would fail again
-            own = folder / "runs" / case.folder
-            if case.program in OTHERS:
-                run = OTHERS[case.program][0].execute(program, case, campaign, own, models)
-            else:
-                run = touchstone.execute(program, case, campaign, own)
-            if turn == 0:
-                (own / "command").write_text(shlex.join(run["command"]) + "\n", encoding="utf-8")
+            run = execute(program, case, campaign, folder / "runs" / case.folder, models)
             result = run["reason"] or ", ".join(f"{n} {e:.1e}" for n, e in run["errors"].items()
                                                 if n in campaign.errors and e is not None)
             print(f"  {turn + 1}/{campaign.repeat}  {run['user_seconds']:7.2f} s  {case.name}: "
                   f"{result}", flush=True)
             done.append(run)
-    rows = [table.median_row(case, runs[case.folder], campaign) for case in campaign.cases]
-    return check_meshes(rows)
+            table.write_csv(folder / "results.csv", campaign, rows())
+    return check_meshes(rows())
 
 
 def check_meshes(rows):
@@ -70,15 +83,18 @@ def report(campaign, rows, folder):
     print(f"Results in {folder}: results.csv, table.md")
 
 
-def run(campaign, program, output, redraw=False):
-    """Run a campaign, or read what it has left, and report. @return its rows"""
+def run(campaign, program, output, redraw=False, keep=False):
+    """Run a campaign, or read what it has left, and report. @return its rows
+    @param keep Run only what is missing in the results of an earlier time."""
     folder = output / campaign.name
     folder.mkdir(parents=True, exist_ok=True)
     print(f"{campaign.title} ({campaign.name})", flush=True)
+    file = folder / "results.csv"
+    earlier = table.read_csv(file) if file.exists() and (keep or redraw) else []
     if redraw:
-        rows = table.read_csv(folder / "results.csv")
+        rows = earlier
     else:
         leave_out_missing(campaign)
-        rows = run_all(campaign, program, folder)
+        rows = run_all(campaign, program, folder, {(r["contender"], r["mesh"]): r for r in earlier})
     report(campaign, rows, folder)
     return rows

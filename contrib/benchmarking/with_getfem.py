@@ -100,7 +100,7 @@ def errors(model, answer, multiplier):
     points = []
     for node, area in areas.items():
         pressure, shear = known.get(node, (0.0, 0.0))
-        active = pressure > 1e-9 * highest
+        active = pressure > 1e-3 * highest
         points.append(measures.Point(tuple(nodes[node]), area, pressure, shear, active,
                                      active and mu > 0 and abs(shear) < 0.999 * mu * pressure))
     of = {name: fields.Field(pair["slave"], nodes, degree,
