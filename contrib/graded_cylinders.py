@@ -8,8 +8,8 @@ Usage: contrib/graded_cylinders.py FILE.msh EDGES SIZE LARGEST GROWTH [key=value
   SIZE     of the cells there, and thickness of the layer at the contact
   LARGEST  size within the last edge
   GROWTH   factor from one cell to the next
-Keys: radius (100), width and height (20), depth (0.25), outer (growth beyond, 1.4), layer (growth
-away from the contact, 1.4).
+Keys: radius (100), width and height (20), depth (0.25), outer (growth beyond the last edge and,
+away from the contact, twice its distance; 1.4), layer (growth away from the contact before, 1.4).
 
 Bodies are the volumes upper and lower of a file of Gmsh 2.2; boundaries are NAME_contact, NAME_far,
 NAME_side, NAME_cut and NAME_end (the ends of the slice).
@@ -20,12 +20,13 @@ import pathlib
 import sys
 
 
-def growing(length, first, growth, largest):
-    """Distances from 0 to length, first intervals of the size first."""
+def growing(length, first, growth, largest, beyond=(math.inf, 1.0)):
+    """Distances from 0 to length, first intervals of the size first; beyond a distance they grow
+    by another factor."""
     result, size = [0.0], first
     while result[-1] < (1 - 1e-10) * length:
         result.append(result[-1] + size)
-        size = min(growth * size, largest)
+        size = min((growth if result[-1] < beyond[0] else beyond[1]) * size, largest)
     return [x * length / result[-1] for x in result]
 
 
@@ -104,7 +105,8 @@ def main():
     size, largest, growth = map(float, sys.argv[3:6])
     right = half_width(edges, size, largest, growth, options)
     xs = [-x for x in reversed(right[1:])] + right
-    layers = growing(options["height"], size, options["layer"], math.inf)
+    layers = growing(options["height"], size, options["layer"], math.inf,
+                     (2 * edges[-1], options["outer"]))
     write(pathlib.Path(sys.argv[1]), xs, layers, options)
 
 

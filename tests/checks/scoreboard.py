@@ -84,10 +84,12 @@ if not with_getfem.installed():
 TINY = """title = "Tiny"
 scene = "prm/press_fit.prm"
 errors = ["contact_pressure_mean", "contact_pressure_max_deviation", "pull"]
+repeat = 1
 time_limit = 60
+# Pressure times radius times depth: the pull at the cut.
 [quantities.pull]
 path = ["results", "reactions", "outer tube", "second cut", 0]
-exact = -13.75
+exact = -13.527
 [meshes.6]
 "Body inner tube/Geometry/Cells" = "2, 6, 1"
 "Body outer tube/Geometry/Cells" = "2, 6, 1"
@@ -103,7 +105,6 @@ slidings = ["large", "small"]
 rows = runner.run(campaign.load(folder / "tiny.toml", source), program, folder / "board")
 ours = rows[0]
 for row in rows:
-    print({k: row[k] for k in ("contender", "nodes", "user_seconds", *ours) if k.startswith("cont")})
     # Degree 1 does not know the arc between the nodes: 2 % of this interference.
     for name, bound in (("contact_pressure_mean", 0.02), ("contact_pressure_max_deviation", 0.03),
                         ("pull", 0.03)):
