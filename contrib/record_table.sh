@@ -4,7 +4,8 @@
 # the contact (prm/benchmarks/hertz_rings.prm), as a Markdown table: unknowns, CPU seconds and
 # relative L2 errors of the contact pressure. The first run is made on a coarse mesh around the
 # edge of half spaces; the others follow the edge that it finds, and their CPU seconds
-# include those of the first.
+# include those of the first. A second table is of partial slip after Cattaneo and Mindlin
+# (contrib/record_partial_slip.prm), whose meshes follow the edges of stick and contact.
 set -eu
 root=$(CDPATH= cd -- "$(dirname -- "$0")/.." && pwd)
 program=${1:-$root/build/touchstone}
@@ -40,3 +41,33 @@ row "$edge" "n = 6, h = 0.001, s = 0.008, c = 0.03"
 row "$edge" "n = 8, h = 0.0003, s = 0.005, c = 0.02"
 row "$edge" "n = 12, h = 0.0003, s = 0.005, c = 0.03"
 row "$edge" "n = 12, h = 0.0002, s = 0.004, c = 0.025, k = 1.35"
+
+# slip EDGES SIZE LARGEST GROWTH LAYER: the same for partial slip; finds the edges.
+slip() {
+  python3 "$root/contrib/graded_cylinders.py" "$folder/cylinders.msh" "$1" "$2" "$3" "$4" \
+    layer="$5" outer=2 radius=10000 width=200 height=200
+  rm -rf "$folder/run"
+  /usr/bin/time -f %U -o "$folder/time" "$program" --output "$folder/run" \
+    --set "Output/VTU interval=0" "$folder/partial_slip.prm" >"$folder/text" 2>&1 ||
+    { cat "$folder/text" >&2; exit 1; }
+  cpu=$(echo "$(tail -n 1 "$folder/time") ${first:-0}" | awk '{ printf "%.2f", $1 + $2 }')
+  printf '| h = %s, s = %s, g = %s, k = %s | %s | %s | %s | %.2e | %.2e | %.1e |\n' "$2" "$3" "$4" \
+    "$5" "$(number unknowns)" "$(number newton)" "$cpu" "$(number shear_traction_field_l2)" \
+    "$(number pressure_field_l2)" "$(number stick_half_width)"
+  # a^2 = 4 P R / (pi E*) and c = a (1 - Q / (mu P))^(1/2), with 1/R = 2/10000 and E* of two bodies.
+  edges=$(sed -n 's/.*P \([^,]*\), Q [^,]*, Q\/(mu P) \(.*\)$/\1 \2/p' "$folder/text" | tail -n 1 |
+    awk '{ a = sqrt(4 * $1 * 5000 * 2 * (1 - 0.09) / (atan2(0, -1) * 210000))
+           printf "%.5f,%.5f", a * sqrt(1 - $2), a }')
+}
+
+first=0
+cp "$root/contrib/record_partial_slip.prm" "$folder/partial_slip.prm"
+echo
+echo "| mesh | unknowns | Newton | CPU s | shear traction, L2 of the field | pressure | stick half-width |"
+echo "|---|---|---|---|---|---|---|"
+slip 0.5,0.75 0.02 0.1 1.5 1.4
+first=$cpu
+slip "$edges" 0.01 0.05 1.3 1.3
+slip "$edges" 0.005 0.03 1.25 1.25
+slip "$edges" 0.003 0.03 1.25 1.25
+slip "$edges" 0.0015 0.02 1.2 1.2

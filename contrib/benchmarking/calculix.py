@@ -11,25 +11,21 @@ deck. Differences that remain:
 * Contact is a penalty: its stiffness is the key 'penalty' times Young's modulus over the
   size of a slave face.
 * Small strain, as in the program's linear elastic bodies; contact follows the displaced
-  nodes in both.
+  nodes in both. Neo-Hookean bodies: NLGEOM, and a slightly different law, see material().
 """
 
-import json
 import math
 import shutil
 
-from . import measures, processes, surfaces
+from . import exported, fields, measures, processes, surfaces
 
+LAWS = ("linear elastic", "neo-Hookean")
 # Corners in the order of CalculiX from the lexicographic one, as steps along x, y, z.
 CORNERS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
 EDGES = ((0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6),
          (3, 7))
 # Corners of the sides S1 to S6 of an element.
 SIDES = ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
-
-
-class DeckError(Exception):
-    """The scene has something that this translation does not know."""
 
 
 def installed():
@@ -52,21 +48,16 @@ def element_nodes(cell, degree):
 class Model:
     """The exported problem, in the terms of CalculiX."""
 
-    def __init__(self, exported):
-        self.degree = exported["degree"]
-        self.positions = exported["nodes"]
-        self.bodies = exported["bodies"]
-        self.steps = exported["steps"]
-        if len(exported["pairs"]) != 1 or not exported["pairs"][0]["master"]:
-            raise DeckError("only scenes with one contact pair of two bodies can be translated")
-        self.pair = exported["pairs"][0]
-        if self.pair["behaviour"] not in ("frictionless", "coulomb"):
-            raise DeckError(f"contact that is '{self.pair['behaviour']}' is not translated")
-        self.reference = exported["reference"]
+    def __init__(self, model):
+        self.degree = model["degree"]
+        self.positions = model["nodes"]
+        self.bodies = model["bodies"]
+        self.steps = model["steps"]
+        self.pair = exported.only_pair(model, LAWS)
+        self.large_strain = any(b["law"] != "linear elastic" for b in self.bodies)
+        self.reference = model["reference"]
         self.elements, self.side_of = [], {}
         for number, body in enumerate(self.bodies):
-            if body["law"] != "linear elastic":
-                raise DeckError(f"the material law '{body['law']}' is not translated")
             for cell in body["cells"]:
                 nodes = element_nodes(cell, self.degree)
                 self.elements.append((number, nodes))
@@ -112,6 +103,12 @@ class Model:
                     known[d] += share * force[d]
         return result
 
+    def supports(self):
+        """Nodes by name of the support, of which each may prescribe several components."""
+        known = set(self.nodes)
+        return {name: list(dict.fromkeys(entry[0] for entry in entries if entry[0] in known))
+                for name, entries in self.steps[0]["displacements"].items()}
+
     def displacements(self, step):
         """Prescribed components (node, axis) of a step and their values."""
         result = {}
@@ -120,10 +117,20 @@ class Model:
             for node, *direction, value in entries:
                 axis = max(range(3), key=lambda d: abs(direction[d]))
                 if abs(abs(direction[axis]) - 1) > 1e-12:
-                    raise DeckError(f"the support {support} is not along an axis")
+                    raise exported.ModelError(f"the support {support} is not along an axis")
                 if node in known:
                     result[(node, axis)] = value / direction[axis]
         return result
+
+
+def material(body):
+    """Lines of a material. The energy of volume of CalculiX' neo-Hookean law is that of
+    (J - 1)^2, the program's that of (J^2 - 1)/2 - ln J: the same to second order."""
+    young, nu = body["young_modulus"], body["poisson_ratio"]
+    if body["law"] == "linear elastic":
+        return ["*ELASTIC", f"{young:.12g}, {nu:.12g}"]
+    shear, bulk = young / (2 * (1 + nu)), young / (3 * (1 - 2 * nu))
+    return ["*HYPERELASTIC, NEO HOOKE", f"{shear / 2:.12g}, {2 / bulk:.12g}"]
 
 
 def deck(model, choices, tension, with_stress):
@@ -140,8 +147,7 @@ def deck(model, choices, tension, with_stress):
                 # At most 16 entries stand in a line.
                 lines += [", ".join(words[i:i + 11]) + ("," if i + 11 < len(words) else "")
                           for i in range(0, len(words), 11)]
-        lines += [f"*MATERIAL, NAME=MATERIAL{number}", "*ELASTIC",
-                  f"{body['young_modulus']:.12g}, {body['poisson_ratio']:.12g}",
+        lines += [f"*MATERIAL, NAME=MATERIAL{number}", *material(body),
                   f"*SOLID SECTION, ELSET=BODY{number}, MATERIAL=MATERIAL{number}"]
     for name in ("slave", "master"):
         lines.append(f"*SURFACE, NAME={name.upper()}, TYPE=ELEMENT")
@@ -155,11 +161,13 @@ def deck(model, choices, tension, with_stress):
         lines += ["*FRICTION", f"{model.pair['friction_coefficient']:.9g}, {0.1 * stiffness:.9g}"]
     kind = choices["contact"].upper()
     lines += [f"*CONTACT PAIR, INTERACTION=CONTACT, TYPE={kind}", "SLAVE, MASTER"]
+    for number, nodes in enumerate(model.supports().values()):
+        lines += [f"*NSET, NSET=SUPPORT{number}"] + [f"{n + 1}," for n in nodes]
     start = 0.0
     for step in model.steps:
         period = step["time"] - start
         start = step["time"]
-        lines += ["*STEP, INC=1000", f"*STATIC, SOLVER={choices['solver'].upper()}",
+        lines += ["*STEP, INC=1000" + (", NLGEOM" if model.large_strain else ""), f"*STATIC, SOLVER={choices['solver'].upper()}",
                   f"{period / choices['increments']:.9g}, {period:.9g}", "*BOUNDARY"]
         lines += [f"{node + 1}, {axis + 1}, {axis + 1}, {value:.12g}"
                   for (node, axis), value in sorted(model.displacements(step).items())]
@@ -171,6 +179,8 @@ def deck(model, choices, tension, with_stress):
         last = step is model.steps[-1]
         lines += ["*NODE FILE" + ("" if last else ", FREQUENCY=100000"), "U, RF",
                   "*CONTACT FILE" + ("" if last else ", FREQUENCY=100000"), "CDIS, CSTR"]
+        for number in range(len(model.supports())):
+            lines += [f"*NODE PRINT, NSET=SUPPORT{number}, TOTALS=ONLY, FREQUENCY=100000", "RF"]
         if with_stress and last:
             for number in range(len(model.bodies)):
                 lines += [f"*EL PRINT, ELSET=BODY{number}", "S"]
@@ -203,6 +213,25 @@ def read_stresses(path):
     return result
 
 
+def read_reactions(model, path):
+    """Reactions at the end of each step: see exported.quantities()."""
+    names, history = list(model.supports()), {}
+    lines = iter(path.read_text(encoding="ascii", errors="replace").splitlines())
+    for line in lines:
+        words = line.split()
+        if words[:2] == ["total", "force"]:
+            next(lines)
+            number = int(words[words.index("set") + 1].removeprefix("SUPPORT"))
+            history.setdefault(float(words[-1]), {})[names[number]] = [
+                float(w) for w in next(lines).split()]
+    # Supports share nodes, but each prescribes components of its own.
+    own = {name: {max(range(3), key=lambda d, e=entry: abs(e[d + 1])) for entry in entries}
+           for name, entries in model.steps[0]["displacements"].items()}
+    return [{"time": time, "reactions": {
+        name: [f if d in own[name] else 0.0 for d, f in enumerate(force)]
+        for name, force in reactions.items()}} for time, reactions in history.items()]
+
+
 def contact_points(model, blocks):
     """Results at the slave nodes, with the areas that the program gives them."""
     values = blocks.get("CONTACT", {})
@@ -229,20 +258,37 @@ def mean_pressure(model, force):
     return -sum(f * a for f, a in zip(force, area)) / size
 
 
-def errors(model, folder):
+def contact_fields(model, points, kind):
+    """Tractions as fields. Those of node-to-surface contact are means around the nodes like
+    the program's, and are recovered like these."""
+    shapes = "eight" if model.degree == 2 else "all"
+    result = {}
+    for name in ("pressure", "shear"):
+        values = {node: getattr(p, name) for node, p in zip(model.areas, points)}
+        result[name] = fields.Field(model.pair["slave"], model.positions, model.degree, values,
+                                    shapes)
+        if kind == "node to surface" and model.degree == 1:
+            result[name] = result[name].recovered()
+    return result
+
+
+def errors(model, folder, contact):
     """The same errors as those of the program's summary."""
     values = measures.reference_values(model.reference["values"])
     kind = model.reference["type"]
+    if kind == "none":
+        return {}
     if kind == "uniform stress":
         return measures.uniform_stress(read_stresses(folder / "deck.dat"), values)
     if kind not in measures.OF_CONTACT:
-        raise DeckError(f"there is no measure for the reference solution '{kind}'")
+        raise exported.ModelError(f"there is no measure for the reference solution '{kind}'")
     blocks = read_frd(folder / "deck.frd")
     # What holds the slave body is balanced by the contact force on it.
     force = [-sum(f[d] for n, f in blocks["FORC"].items() if n in model.slave_body_nodes)
              for d in range(3)]
     points = contact_points(model, blocks)
-    result = measures.OF_CONTACT[kind](points, force, values)
+    result = measures.OF_CONTACT[kind](points, force, values,
+                                       contact_fields(model, points, contact))
     if kind == "interference fit":
         # Pressures that CalculiX extrapolates to nodes do not add up to the force, those of
         # the program do: its mean is force over area.
@@ -253,21 +299,22 @@ def errors(model, folder):
 
 
 def prepare(program, case, campaign, folder):
-    """Export the model and write the deck. @throws DeckError"""
-    folder.mkdir(parents=True, exist_ok=True)
-    file = folder / "model.json"
-    words = [str(program), str(campaign.scene), "--export-model", str(file)]
-    for key, value in case.settings.items():
-        words += ["--set", f"{key}={value}"]
-    usage = processes.run(words, campaign.scene.parent, folder / "export", campaign.time_limit)
-    if usage.failure():
-        text = (folder / "export").read_text(encoding="utf-8", errors="replace").strip()
-        raise DeckError(f"export: {usage.failure()}: {text}")
-    model = Model(json.loads(file.read_text(encoding="utf-8")))
+    """Export the model and write the deck. @throws exported.ModelError"""
+    model = Model(exported.export(program, case, campaign, folder))
     with_stress = model.reference["type"] == "uniform stress"
     (folder / "deck.inp").write_text(deck(model, case.choices, case.tension, with_stress),
                                      encoding="ascii")
     return model
+
+
+def results(model, case, campaign, folder):
+    """Errors of a run that ended well, or why there are none."""
+    try:
+        history = read_reactions(model, folder / "deck.dat")
+        return {"errors": errors(model, folder, case.choices["contact"]) |
+                exported.quantities(campaign, history)}
+    except exported.ModelError as error:
+        return {"reason": str(error)}
 
 
 def execute(program, case, campaign, folder, models):
@@ -278,7 +325,7 @@ def execute(program, case, campaign, folder, models):
         if case.folder not in models:
             models[case.folder] = prepare(program, case, campaign, folder)
         model = models[case.folder]
-    except DeckError as error:
+    except exported.ModelError as error:
         return row | {"reason": str(error)}
     for suffix in ("frd", "dat"):
         (folder / f"deck.{suffix}").unlink(missing_ok=True)
@@ -296,7 +343,7 @@ def execute(program, case, campaign, folder, models):
             complaints = [line.strip() for line in text.splitlines() if "*ERROR" in line]
             row["reason"] = complaints[-1] if complaints else "did not finish"
         else:
-            row["errors"] = errors(model, folder)
+            row |= results(model, case, campaign, folder)
     elif usage.exit_code and "*ERROR" in text:
         row["reason"] += ": " + [line.strip() for line in text.splitlines() if "*ERROR" in line][-1]
     return row

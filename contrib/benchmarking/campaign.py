@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Campaign files: what is run. Their format is documented in contrib/benchmark --help."""
 
+import csv
 import dataclasses
 import difflib
 import itertools
+import math
 import pathlib
 import re
 import tomllib
@@ -35,24 +37,40 @@ AXES = {
         "increments": None,
         "solver": None,
     },
+    "getfem": {
+        "degree": "Discretisation/Degree",
+        "sliding": None,
+        "augmentation": None,
+        "multiplier": None,
+        "parts": None,
+    },
 }
-CALCULIX = {
-    "degree": 1,
-    "element": "C3D8I",
-    "contact": "surface to surface",
-    "penalty": 50.0,
-    "increments": 1,
-    "solver": "spooles",
+# What other programs take where a contender does not choose.
+DEFAULTS = {
+    "calculix": {
+        "degree": 1,
+        "element": "C3D8I",
+        "contact": "surface to surface",
+        "penalty": 50.0,
+        "increments": 1,
+        "solver": "spooles",
+    },
+    "getfem": {"degree": 1, "sliding": "large", "augmentation": 1.0, "multiplier": 1,
+               "parts": 1},
 }
-CALCULIX_CHOICES = {
-    "element": ("C3D8", "C3D8I", "C3D8R", "C3D20", "C3D20R"),
-    "contact": ("surface to surface", "node to surface"),
-    "solver": ("spooles", "iterative scaling", "iterative cholesky"),
+CHOICES = {
+    "calculix": {
+        "element": ("C3D8", "C3D8I", "C3D8R", "C3D20", "C3D20R"),
+        "contact": ("surface to surface", "node to surface"),
+        "solver": ("spooles", "iterative scaling", "iterative cholesky"),
+    },
+    "getfem": {"degree": (1, 2), "sliding": ("large", "small"), "multiplier": (1, 2)},
 }
+NAMES = {"touchstone": "Touchstone", "calculix": "CalculiX", "getfem": "GetFEM"}
 PLURALS = {"ranks": "ranks", "increments": "increments", "geometry": "geometries",
-           "penalty": "penalties"}
+           "penalty": "penalties", "sliding": "slidings", "parts": "parts"}
 TOP = ("title", "scene", "errors", "repeat", "time_limit", "settings", "meshes", "contender",
-       "quick", "quantities", "tolerances", "columns")
+       "quick", "quantities", "curves", "tolerances", "columns")
 QUICK = ("meshes", "repeat", "contenders")
 CONTENDER = ("name", "program", "meshes", "settings", "tension")
 
@@ -62,6 +80,28 @@ class Quantity:
     """A result whose relative difference from a known value is an error."""
     path: list
     exact: float
+
+
+@dataclasses.dataclass
+class Curve:
+    """A reaction over time that is compared with a known one, in the square mean."""
+    support: str
+    axis: int
+    # Time and value.
+    known: list
+
+    def error(self, computed):
+        """@param computed Pairs of time and value, in order; linear between them.
+        @throws ValueError if they end before the known ones"""
+        error = 0.0
+        for time, value in self.known:
+            after = next((k for k, (t, _) in enumerate(computed) if t >= time - 1e-6), None)
+            if after is None:
+                raise ValueError(f"there is no value at time {time:g}")
+            (t0, v0), (t1, v1) = computed[max(after - 1, 0)], computed[after]
+            part = min((time - t0) / (t1 - t0), 1.0) if t1 > t0 else 1.0
+            error += (v0 + part * (v1 - v0) - value) ** 2
+        return math.sqrt(error / sum(v * v for _, v in self.known))
 
 
 @dataclasses.dataclass
@@ -98,6 +138,7 @@ class Campaign:
     # Names, from coarse to fine.
     meshes: list
     cases: list
+    curves: dict = dataclasses.field(default_factory=dict)
 
 
 def plural(axis):
@@ -170,11 +211,11 @@ def _axes(path, where, contender, program):
         values = value if isinstance(value, list) else [value]
         if not values:
             _fail(path, f"{where}, key '{plural(axis)}': the list is empty.")
-        if program == "calculix" and axis in CALCULIX_CHOICES:
-            for v in values:
-                if v not in CALCULIX_CHOICES[axis]:
-                    _fail(path, f"{where}, key '{axis}': there is no '{v}'. There are "
-                                f"{', '.join(CALCULIX_CHOICES[axis])}.")
+        allowed = CHOICES.get(program, {}).get(axis)
+        for v in values if allowed else ():
+            if v not in allowed:
+                _fail(path, f"{where}, key '{axis}': there is no '{v}'. There are "
+                            f"{', '.join(map(str, allowed))}.")
         result[axis] = values
     return result
 
@@ -203,8 +244,8 @@ def _contender_cases(path, number, contender, meshes, lists, common):
         varied = [str(v) if isinstance(v, str) else f"{axis} {v}"
                   for axis, v in choices.items() if len(axes[axis]) > 1]
         line = ", ".join([name] + varied)
+        choices = DEFAULTS.get(program, {}) | choices
         if program == "calculix":
-            choices = CALCULIX | choices
             if (choices["degree"] == 2) != choices["element"].startswith("C3D20"):
                 _fail(path, f"{where}: degree 2 goes with the elements C3D20 and C3D20R, "
                             "degree 1 with the others.")
@@ -216,6 +257,25 @@ def _contender_cases(path, number, contender, meshes, lists, common):
             cases.append(Case(line, mesh, program, choices,
                               common | meshes[mesh] | settings | of_axes, tension))
     return cases
+
+
+def _curves(path, table):
+    """The known curves: columns of a CSV file beside the campaign."""
+    result = {}
+    for name, entry in _typed(path, "the campaign", table, "curves", dict, {}).items():
+        where = f"curve '{name}'"
+        _known(path, where, entry, ("support", "axis", "file", "column"))
+        file = path.parent / _typed(path, where, entry, "file", str)
+        column = _typed(path, where, entry, "column", str)
+        try:
+            with open(file, encoding="utf-8", newline="") as lines:
+                rows = csv.DictReader(line for line in lines if not line.startswith("#"))
+                known = [(float(row["time"]), float(row[column])) for row in rows]
+        except (OSError, KeyError, ValueError) as error:
+            _fail(path, f"{where}: '{file}' has no columns 'time' and '{column}': {error}")
+        result[name] = Curve(_typed(path, where, entry, "support", str),
+                             _typed(path, where, entry, "axis", int), known)
+    return result
 
 
 def load(path, root, quick=False):
@@ -271,4 +331,4 @@ def load(path, root, quick=False):
         quantities=quantities,
         tolerances=_typed(path, "the campaign", table, "tolerances", list, [0.05, 0.01, 0.001]),
         columns=_typed(path, "the campaign", table, "columns", dict, {}), meshes=list(meshes),
-        cases=cases)
+        cases=cases, curves=_curves(path, table))

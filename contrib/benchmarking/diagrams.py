@@ -7,6 +7,7 @@ import subprocess
 from . import table
 
 COLOURS = ("#1f4fa0", "#c03028", "#2a8f4a", "#c07a10", "#7a3fa0", "#208f9f", "#8a5a33", "#606060")
+DASHES = {"touchstone": 1, "calculix": 2, "getfem": 3}
 # Errors below are round-off and would only stretch the axis.
 FLOOR = 1e-7
 
@@ -28,10 +29,10 @@ def script(campaign, rows, error, stem):
                   and row[error] != "" and row["user_seconds"] > 0]
         if not points:
             continue
-        # Dashed and with hollow symbols: another program.
-        foreign = line[0]["program"] != "touchstone"
-        style = (f"dt 2 pt {(4, 6, 8, 10, 12)[number % 5]}" if foreign
-                 else f"dt 1 pt {(5, 7, 9, 11, 13)[number % 5]}")
+        # Dashed or dotted and with hollow symbols: another program.
+        dashes = DASHES[line[0]["program"]]
+        symbols = (5, 7, 9, 11, 13) if dashes == 1 else (4, 6, 8, 10, 12)
+        style = f"dt {dashes} pt {symbols[number % 5]}"
         plots.append(f"$D{number} using 1:2 with linespoints lw 2 ps 1 {style} "
                      f"lc rgb {_quoted(COLOURS[number % len(COLOURS)])} "
                      f"title {_quoted(contender)}")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Errors against exact solutions from the contact results of any program.
 
-The same measures as those of source/output/{interference_fit,hertz,cattaneo_mindlin,
+The same measures as those of source/verification/{interference_fit,hertz,cattaneo_mindlin,
 uniform_stress}.cc, where their formulas and sources stand; tests/checks/benchmark.py
 holds the two against each other.
 """
@@ -71,7 +71,7 @@ def fit_pressure(values):
     return (inner - outer) / compliance / values["slave radius"]
 
 
-def interference_fit(points, _force, values):
+def interference_fit(points, _force, values, _fields=None):
     exact = fit_pressure(values)
     active = [p for p in points if p.active]
     area = sum(p.area for p in active)
@@ -81,7 +81,7 @@ def interference_fit(points, _force, values):
                 max(abs(p.pressure - exact) for p in points) / exact}
 
 
-def hertz(points, force, values):
+def hertz(points, force, values, fields=None):
     compliance = (1 - values["poisson ratio"] ** 2) / values["young modulus"]
     if "second young modulus" in values:
         compliance += ((1 - values.get("second poisson ratio", 0) ** 2) /
@@ -99,12 +99,17 @@ def hertz(points, force, values):
     edge = fitted_edge([(p.area, x, p.pressure) for p, x in zip(points, r)
                         if p.active and x < 0.98 * a],
                        math.sqrt(symmetry * active_area / math.pi))
-    return {"peak_pressure": abs(max(p.pressure for p in points) / peak - 1),
-            "contact_radius": abs(edge / a - 1),
-            "pressure_l2": profile_error(points, [p.pressure for p in points], exact)}
+    result = {"peak_pressure": abs(max(p.pressure for p in points) / peak - 1),
+              "contact_radius": abs(edge / a - 1),
+              "pressure_l2": profile_error(points, [p.pressure for p in points], exact)}
+    if fields:
+        result["pressure_field_l2"] = fields["pressure"].relative_error(
+            lambda x: peak * half_ellipse(math.sqrt(sum(
+                (x[d] - centre[d]) ** 2 for d in range(3) if d != axis)), a))
+    return result
 
 
-def cattaneo_mindlin(points, force, values):
+def cattaneo_mindlin(points, force, values, fields=None):
     """Of the first loading only: the tangential force is at its peak."""
     young, nu = values["young modulus"], values["poisson ratio"]
     mu, depth = values["friction coefficient"], values["depth"]
@@ -114,10 +119,16 @@ def cattaneo_mindlin(points, force, values):
     a = math.sqrt(4 * normal * values["radius"] / (math.pi * modulus))
     p0 = 2 * normal / (math.pi * a)
     c = a * math.sqrt(max(1 - abs(tangential) / (mu * normal), 0.0))
-    x = [p.position[0] - values.get("centre x", 0.0) for p in points]
-    p_exact = [p0 * half_ellipse(t, a) for t in x]
-    q_exact = [mu * p0 * (half_ellipse(t, a) - (c / a * half_ellipse(t, c) if c > 0 else 0))
-               for t in x]
+    centre = values.get("centre x", 0.0)
+
+    def pressure(t):
+        return p0 * half_ellipse(t, a)
+
+    def traction(t):
+        return mu * p0 * (half_ellipse(t, a) - (c / a * half_ellipse(t, c) if c > 0 else 0))
+
+    x = [p.position[0] - centre for p in points]
+    p_exact, q_exact = [pressure(t) for t in x], [traction(t) for t in x]
     shear = [-sign * p.shear for p in points]
     active = sum(p.area for p in points if p.active)
     stick = sum(p.area for p in points if p.stick)
@@ -125,10 +136,16 @@ def cattaneo_mindlin(points, force, values):
                          if p.active and abs(t) < 0.98 * a], active / (2 * depth))
     strip = fitted_edge([(p.area, t, mu * p.pressure - q) for p, t, q in zip(points, x, shear)
                          if p.stick], stick / (2 * depth))
-    return {"contact_half_width": abs(width / a - 1),
-            "stick_half_width": abs(strip / c - 1) if c > 0 else math.nan,
-            "pressure_l2": profile_error(points, [p.pressure for p in points], p_exact),
-            "shear_traction_l2": profile_error(points, shear, q_exact)}
+    result = {"contact_half_width": abs(width / a - 1),
+              "stick_half_width": abs(strip / c - 1) if c > 0 else math.nan,
+              "pressure_l2": profile_error(points, [p.pressure for p in points], p_exact),
+              "shear_traction_l2": profile_error(points, shear, q_exact)}
+    if fields:
+        result["pressure_field_l2"] = fields["pressure"].relative_error(
+            lambda y: pressure(y[0] - centre))
+        result["shear_traction_field_l2"] = fields["shear"].relative_error(
+            lambda y: -sign * traction(y[0] - centre))
+    return result
 
 
 def uniform_stress(stresses, values):

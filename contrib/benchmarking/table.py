@@ -7,7 +7,8 @@ import statistics
 
 # Choices that are columns of the CSV file, of any program.
 CHOICES = ("degree", "element", "pairing", "normal", "geometry", "enforcement", "linearisation",
-           "friction", "contact", "penalty", "increments", "solver", "ranks")
+           "friction", "contact", "penalty", "increments", "sliding", "augmentation", "multiplier",
+           "parts", "solver", "ranks")
 FIGURES = ("nodes", "unknowns", "steps", "newton", "linear_mean")
 
 
@@ -45,7 +46,7 @@ def median_row(case, runs, campaign):
 
 def write_csv(path, campaign, rows):
     with open(path, "w", encoding="utf-8", newline="") as file:
-        writer = csv.DictWriter(file, column_names(campaign))
+        writer = csv.DictWriter(file, column_names(campaign), extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
 
@@ -68,7 +69,8 @@ def _number(value, form):
     return format(value, form) if isinstance(value, (int, float)) and value == value else "–"
 
 
-def _lines(header, rows):
+def markdown_lines(header, rows):
+    """A table."""
     lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
     return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows]) + "\n"
 
@@ -89,7 +91,7 @@ def markdown(campaign, rows):
         else:
             cells += [_number(row[name], ".1e") for name in campaign.errors]
         body.append(cells)
-    return _lines(header, body)
+    return markdown_lines(header, body)
 
 
 def lines_of(rows):
@@ -102,13 +104,16 @@ def lines_of(rows):
 
 def best(rows, error, tolerance):
     """The cheapest row whose @p error is within the tolerance and stays there on all finer
-    meshes of its contender, for an error may pass through zero; None if there is none."""
+    meshes of its contender that have a result, for an error may pass through zero; None if
+    there is none."""
     found = None
     for line in lines_of(rows).values():
         within = None
         # From the finest mesh down.
         for row in sorted(line, key=lambda r: -float(r["nodes"] or 0)):
-            if row["status"] == "failed" or not row[error] <= tolerance:
+            if row["status"] == "failed":
+                continue
+            if not row[error] <= tolerance:
                 break
             within = row
         if within and (found is None or within["user_seconds"] < found["user_seconds"]):
@@ -131,4 +136,4 @@ def best_settings(campaign, rows):
                 cells += [f"{row['contender']}, mesh {row['mesh']}",
                           _number(row["user_seconds"], ".2f")] if row else ["–", "–"]
             body.append(cells)
-    return _lines(header, body)
+    return markdown_lines(header, body)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Run this program and read its summary."""
 
+import csv
 import json
 
 from . import processes
@@ -31,6 +32,17 @@ def dig(summary, path):
     return value
 
 
+def reaction(folder, curve):
+    """Pairs of time and reaction of the support of a curve, from statistics.csv."""
+    with open(folder / "statistics.csv", encoding="utf-8", newline="") as file:
+        rows = [{name.split("[")[0]: value for name, value in row.items()}
+                for row in csv.DictReader(file)]
+    column = f"{curve.support.replace('/', '.').replace(' ', '_')}.reaction_{'xyz'[curve.axis]}"
+    if column not in rows[0]:
+        raise MissingResult(f"statistics.csv has no {column}")
+    return [(float(row["time"]), float(row[column])) for row in rows]
+
+
 def execute(program, case, campaign, folder):
     """Run the case once. @return a dictionary of columns; 'reason' says what failed."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -59,7 +71,9 @@ def execute(program, case, campaign, folder):
     try:
         for name, quantity in campaign.quantities.items():
             row["errors"][name] = abs(dig(summary, quantity.path) / quantity.exact - 1)
+        for name, curve in campaign.curves.items():
+            row["errors"][name] = curve.error(reaction(folder, curve))
         row["columns"] = {name: dig(summary, path) for name, path in campaign.columns.items()}
-    except MissingResult as error:
+    except (MissingResult, ValueError) as error:
         row["reason"] = str(error)
     return row

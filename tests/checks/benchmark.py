@@ -20,7 +20,7 @@ if sys.version_info < (3, 11):
     sys.exit(0)
 
 # pylint: disable=wrong-import-position,import-error
-from benchmarking import calculix, campaign, measures, processes, surfaces, table
+from benchmarking import calculix, campaign, fields, measures, processes, surfaces, table
 
 TINY = """title = "Tiny"
 scene = "prm/patch_test.prm"
@@ -208,7 +208,7 @@ def same_measures(name, scene, settings):
         return
     model = json.loads(pathlib.Path(f"{name}.json").read_text(encoding="utf-8"))
     areas = surfaces.node_areas(model["pairs"][0]["slave"], model["nodes"], model["degree"])
-    points, force = [], [0.0] * 3
+    points, force, known = [], [0.0] * 3, {}
     for node in result.contact_nodes():
         # VTU files have positions in single precision, and no numbers of nodes.
         number = min(areas, key=lambda m, x=node.position: math.dist(model["nodes"][m], x))
@@ -216,9 +216,15 @@ def same_measures(name, scene, settings):
         points.append(measures.Point(tuple(node.position), area, node.pressure, node.traction[0],
                                      node.status >= 1, node.status == 2))
         force = [f + area * t for f, t in zip(force, node.traction)]
+        known[number] = node.traction
     check(not areas, f"{name}: {len(areas)} slave nodes are not in the VTU file")
     values = measures.reference_values(model["reference"]["values"])
-    computed = measures.OF_CONTACT[model["reference"]["type"]](points, force, values)
+    of = {what: fields.Field(model["pairs"][0]["slave"], model["nodes"], model["degree"],
+                             {n: sign * t[axis] for n, t in known.items()})
+          for what, axis, sign in (("pressure", 2, 1), ("shear", 0, 1))}
+    if model["degree"] == 1:
+        of = {what: field.recovered() for what, field in of.items()}
+    computed = measures.OF_CONTACT[model["reference"]["type"]](points, force, values, of)
     check(set(computed) == set(result.summary["errors"]), f"{name}: other errors")
     for error, value in computed.items():
         print(f"{error}: program {result.error(error):.8f}, harness {value:.8f}", flush=True)
