@@ -20,6 +20,9 @@ namespace Touchstone
      * smallest face. A cycle whose impulses make more than so many times of its motion is halved.
      */
     constexpr double cycles_ahead = 40., most_margin = 0.5, of_impulses = 2.2;
+
+    /** For sums and products of lengths that have to be bounds. */
+    constexpr double above_round_off = 1. + 1e-9;
   } // namespace
 
 
@@ -66,31 +69,39 @@ namespace Touchstone
   GeneralContact::Range
   GeneralContact::range(const NodeField &u, const NodeField &v, const double step) const
   {
-    // Largest motions along the axes and against them: before, and in the cycle.
-    std::array<double, 4 * dim> most, all;
+    // Largest motions along the axes and against them: since the candidates were made, since the
+    // cycle before began, and in the cycle.
+    std::array<double, 6 * dim> most, all;
     most.fill(-std::numeric_limits<double>::max());
     const auto widen = [&](const unsigned int i, const double motion) {
       most[i]       = std::max(most[i], motion);
       most[i + dim] = std::max(most[i + dim], -motion);
     };
+    const NodeField &before = normal_now.empty() ? u : begun_at;
     for (const unsigned int node : surface.owned_nodes())
       for (unsigned int d = 0; d < dim; ++d)
         {
           widen(d, u[node][d] - made_at[node][d]);
-          widen(2 * dim + d, step * v[node][d]);
+          widen(2 * dim + d, u[node][d] - before[node][d]);
+          widen(4 * dim + d, step * v[node][d]);
           // Comparisons do not see it.
           if (!std::isfinite(v[node][d]))
-            most[2 * dim + d] = std::numeric_limits<double>::infinity();
+            most[4 * dim + d] = std::numeric_limits<double>::infinity();
         }
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
                         nodes.communicator(),
                         ArrayView<double>(all.data(), all.size()));
-    Range result{0., 0.};
+    Range          result{0., 0., 0., 0.};
+    Tensor<1, dim> before_cycle, in_cycle;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        before_cycle[d] = all[2 * dim + d] + all[3 * dim + d];
+        in_cycle[d]     = all[4 * dim + d] + all[5 * dim + d];
         result.before   = std::max(result.before, all[d] + all[dim + d]);
-        result.in_cycle = std::max(result.in_cycle, all[2 * dim + d] + all[3 * dim + d]);
+        result.in_cycle = std::max(result.in_cycle, in_cycle[d]);
       }
+    result.far_before   = above_round_off * before_cycle.norm();
+    result.far_in_cycle = above_round_off * in_cycle.norm();
     return result;
   }
 
@@ -109,6 +120,9 @@ namespace Touchstone
     margin = most_in_cycle + (wanted > 0. ? wanted : automatic);
     candidates.find(u, v, step, margin);
     motion.resize(candidates.at_slots.n());
+    apart_faces.assign(candidates.face_pairs.size(), {});
+    apart_nodes.assign(candidates.node_faces.size(), {});
+    apart_edges.assign(candidates.edge_pairs.size(), {});
     rows.clear();
     numbers.clear();
     new_rows = true;
@@ -194,6 +208,8 @@ namespace Touchstone
     const Range moved = range(u, v, step);
     if (!std::isfinite(moved.in_cycle))
       return; // what is wrong with the velocities is told where the cycle is checked
+    travelled += moved.far_before;
+    travels = moved.far_in_cycle;
     // What impulses may make of the motion: of the state alone, not of when candidates were made.
     most_in_cycle = std::max(of_impulses * moved.in_cycle, least_margin * smallest);
     if (renew || moved.before + most_in_cycle > margin)
@@ -202,6 +218,7 @@ namespace Touchstone
     if (!candidates.any())
       return;
     import(u, v);
+    find_near(std::sqrt(double(dim)) * above_round_off * most_in_cycle);
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
@@ -215,11 +232,12 @@ namespace Touchstone
   GeneralContact::Crossings
   GeneralContact::find_crossings(const NodeField &u, const NodeField &v, const double step)
   {
-    const double in_cycle = range(u, v, step).in_cycle;
-    if (!candidates.any() || !std::isfinite(in_cycle))
+    const Range moves = range(u, v, step);
+    if (!candidates.any() || !std::isfinite(moves.in_cycle))
       return Crossings::none;
-    if (in_cycle > most_in_cycle)
+    if (moves.in_cycle > most_in_cycle)
       return Crossings::too_far;
+    travels = moves.far_in_cycle;
     import(u, v);
     return check_motion() ? Crossings::rows : Crossings::none;
   }
@@ -234,15 +252,8 @@ namespace Touchstone
   {
     set_inner_positions();
     found.clear();
-    for (const ContactCandidates::NodeFace &pair : candidates.node_faces)
-      check_node({pair.node, false},
-                 pair.face,
-                 is_slave(pair.node, pair.face) ? Kind::slave_node : Kind::node);
-    for (const ContactCandidates::EdgePair &pair : candidates.edge_pairs)
-      if (edge_boxes[pair.one].meets(edge_boxes[pair.other]))
-        check_edges(ends_of(pair), Kind::edges);
-    for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
-      check_inner_edges(pair.one, pair.other);
+    for (const unsigned int pair : near_pairs)
+      check_faces(pair);
     // The first kind with a row that is not there yet; whether there is anything; rows to lay out.
     int least[2] = {int(Kind::none), found.empty()};
     for (const auto &[kind, row] : found)

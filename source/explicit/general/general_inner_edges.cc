@@ -32,33 +32,52 @@ namespace Touchstone
   // The middle of a warped face can reach further than its edges, and so can the edges from there
   // to the corners. Of a plane face nothing meets them before it meets the face or its edges.
   void
-  GeneralContact::check_inner_edges(const unsigned int one, const unsigned int other)
+  GeneralContact::check_inner_edges(const unsigned int  one,
+                                    const unsigned int  other,
+                                    const TurningFrame &frame)
   {
-    if (!face_boxes[one].meets(face_boxes[other]))
-      return;
-    const bool of_one = warped[one], of_other = warped[other];
+    const bool of_one = is_warped(one), of_other = is_warped(other);
     if (!of_one && !of_other)
       return;
-    const auto edge = [&](const unsigned int face, const unsigned int a, const bool inner) {
-      const SurfacePoint begin = corner(face, a);
-      return inner ? std::array<SurfacePoint, 2>{{begin, middle(face)}} : ends_of(begin.slot);
+    // Edges of the face, and from its corners to the middle, with their boxes.
+    struct Edge
+    {
+      std::array<SurfacePoint, 2> ends;
+      MotionBox                   box;
     };
+    const auto edges_of = [&](const unsigned int face, const bool inner) {
+      std::array<Edge, 4> edges;
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const SurfacePoint begin = corner(face, a);
+          edges[a].ends =
+            inner ? std::array<SurfacePoint, 2>{{begin, middle(face)}} : ends_of(begin.slot);
+          edges[a].box =
+            MotionBox(inner_edge(edges[a].ends, false), inner_edge(edges[a].ends, true));
+        }
+      return edges;
+    };
+    const std::array<std::array<Edge, 4>, 2> edges_of_one{
+      {edges_of(one, false), edges_of(one, true)}},
+      edges_of_other{{edges_of(other, false), edges_of(other, true)}};
     for (const bool inner_one : {false, true})
       for (const bool inner_other : {false, true})
         if ((inner_one || inner_other) && (!inner_one || of_one) && (!inner_other || of_other))
-          for (unsigned int a = 0; a < 4; ++a)
-            for (unsigned int b = 0; b < 4; ++b)
-              {
-                const std::size_t p = 4 * std::size_t(one) + a, q = 4 * std::size_t(other) + b;
-                if (!(inner_one ? inner_boxes : edge_boxes)[p].meets(
-                      (inner_other ? inner_boxes : edge_boxes)[q]))
-                  continue;
-                const auto e = edge(one, a, inner_one), f = edge(other, b, inner_other);
-                check_edges({{e[0], e[1], f[0], f[1]}}, Kind::inner);
-              }
+          for (const Edge &e : edges_of_one[inner_one])
+            for (const Edge &f : edges_of_other[inner_other])
+              if (e.box.meets(f.box))
+                {
+                  Separation unknown;
+                  check_edges({{e.ends[0], e.ends[1], f.ends[0], f.ends[1]}},
+                              Kind::inner,
+                              frame,
+                              0.,
+                              unknown);
+                }
+    Separation unknown[2];
     if (of_one)
-      check_node(middle(one), other, Kind::inner);
+      check_node(middle(one), other, Kind::inner, frame, 0., unknown[0]);
     if (of_other)
-      check_node(middle(other), one, Kind::inner);
+      check_node(middle(other), one, Kind::inner, frame, 0., unknown[1]);
   }
 } // namespace Touchstone

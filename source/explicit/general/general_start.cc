@@ -77,6 +77,9 @@ namespace Touchstone
     set_normals(u);
     import(u, at_rest);
     cycle = 0.;
+    apart_faces.assign(candidates.face_pairs.size(), {});
+    apart_nodes.assign(candidates.node_faces.size(), {});
+    find_near(0.);
     set_inner_positions(inwards);
     std::vector<Place> places;
     const auto         check = [&](const unsigned int of, const unsigned int face) {
@@ -109,10 +112,11 @@ namespace Touchstone
         }
     };
     for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
-      {
-        check(pair.one, pair.other);
-        check(pair.other, pair.one);
-      }
+      if (pair.inner_edges)
+        {
+          check(pair.one, pair.other);
+          check(pair.other, pair.one);
+        }
     renew             = true;
     const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
     std::sort(places.begin(), places.end(), by_key);

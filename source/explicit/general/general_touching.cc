@@ -181,15 +181,20 @@ namespace Touchstone
   void
   GeneralContact::find_touching_nodes()
   {
-    const auto      &pairs = candidates.node_faces;
-    std::vector<Hit> hits, kept;
-    for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end)
+    const auto pair = [&](const std::size_t i) -> const ContactCandidates::NodeFace & {
+      return candidates.node_faces[near_nodes_and_faces[i]];
+    };
+    const std::size_t n = near_nodes_and_faces.size();
+    std::vector<Hit>  hits, kept;
+    for (std::size_t begin = 0, end = 0; begin < n; begin = end)
       {
-        const std::size_t node = pairs[begin].node;
+        // The same node may be called by the slots of several faces.
+        const std::size_t   node = pair(begin).node;
+        const std::uint64_t of   = candidates.key(node);
         hits.clear();
         kept.clear();
-        for (end = begin; end < pairs.size() && pairs[end].node == node; ++end)
-          add_hit(node, pairs[end].face, hits);
+        for (end = begin; end < n && candidates.key(pair(end).node) == of; ++end)
+          add_hit(node, pair(end).face, hits);
         // The face that is most opposed comes first, of equal ones that of the lowest key.
         std::stable_sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
           return a.opposed < b.opposed;

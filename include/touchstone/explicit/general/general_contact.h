@@ -10,6 +10,7 @@
 #include <touchstone/explicit/general/moving_points.h>
 #include <touchstone/explicit/impulse_solver.h>
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -206,17 +207,33 @@ namespace Touchstone
     double    margin = 0., most_in_cycle = 0.;
     bool      renew = true;
     /** By node of the candidates, at the start of the cycle. */
-    std::vector<NodeMotion>         motion;
-    double                          cycle = 0.;
-    std::vector<dealii::Point<dim>> inner_from, inner_to;
-    /** Middles of faces, and boxes through the cycle of faces, and by slot of edges and of those
-     * from corners to the middle. */
-    std::vector<dealii::Point<dim>> middle_from, middle_to;
-    std::vector<MotionBox>          face_boxes, edge_boxes, inner_boxes;
-    std::vector<bool>               warped;
-    std::vector<Row>                rows;
-    std::map<RowKey, std::size_t>   numbers;
-    bool                            new_rows = false;
+    std::vector<NodeMotion> motion;
+    double                  cycle = 0.;
+    /** Positions of nodes and of middles of faces on surfaces that are moved inwards, at the start
+     * and at the end; of #near_faces. */
+    std::vector<dealii::Point<dim>> inner_from, inner_to, middle_from, middle_to;
+    /** What is known of a candidate from earlier looks: that nothing of it crosses or touches
+     * before nodes have #travelled so far, length, and the direction that told its points apart, in
+     * the TurningFrame of the first of the pair of faces that it belongs to, if one did. */
+    struct Separation
+    {
+      double                 until = -std::numeric_limits<double>::max();
+      dealii::Tensor<1, dim> direction;
+      bool                   known = false;
+      /** It is not worth to look for a direction in so many further looks. */
+      unsigned int hopeless = 0;
+    };
+    /** By pair of faces, by pair of a node and a face, and of edges. */
+    std::vector<Separation> apart_faces, apart_nodes, apart_edges;
+    /** Bounds of how far any two nodes have moved relative to each other in all cycles so far, and
+     * of the motion to be checked; length. */
+    double travelled = 0., travels = 0.;
+    /** Pairs of faces whose nodes may come together in the present cycle, and what they refer to:
+     * pairs of nodes and faces by their numbers, in ascending order, faces, and nodes. */
+    std::vector<unsigned int>     near_pairs, near_nodes_and_faces, near_faces, near_nodes;
+    std::vector<Row>              rows;
+    std::map<RowKey, std::size_t> numbers;
+    bool                          new_rows = false;
     /** Of the cycle before, by row: impulses, and whether it slides; by slave: whether it slides;
      * and nodes and pairs of edges that pressed. */
     struct Pressed
@@ -234,10 +251,11 @@ namespace Touchstone
     Energy                    energies;
 
     /** By how much nodes have moved relative to each other since the candidates were made, and do
-     * so in the cycle; length. The latter is infinite if a velocity is not finite. Collective. */
+     * so in the cycle, along an axis, length. The latter is infinite if a velocity is not finite.
+     * And bounds of the distances: since the cycle before began, and in the cycle. Collective. */
     struct Range
     {
-      double before, in_cycle;
+      double before, in_cycle, far_before, far_in_cycle;
     };
     Range
     range(const NodeField &u, const NodeField &v, double step) const;
@@ -266,10 +284,16 @@ namespace Touchstone
     /** Where a point of the surface, moved inwards, is at the start or end of the cycle. */
     dealii::Point<dim>
     inner_position(const SurfacePoint &point, bool at_end) const;
+    /** The ends of an edge there, a little longer, so that edges that meet at their ends do so
+     * whatever round-off is. */
+    std::array<dealii::Point<dim>, 2>
+    inner_edge(const std::array<SurfacePoint, 2> &ends, bool at_end) const;
     void
     set_inner_positions(double part = inset);
+    /** Which pairs of faces have nodes that may come together before they have moved by
+     * @p distance: sets #near_pairs and what goes with it. */
     void
-    set_boxes(unsigned int face);
+    find_near(double distance);
     dealii::Tensor<1, dim>
     mean(const SurfacePoint &point, dealii::Tensor<1, dim> NodeMotion::*quantity) const;
     std::uint64_t
@@ -346,9 +370,25 @@ namespace Touchstone
      * ranks then. @return whether rows have been added or changed, on any rank. Collective. */
     bool
     check_motion();
-    /** Its parts, which add to #found. */
+    /** Its parts, which add to #found: for all that belongs to a pair of faces, for a node and a
+     * face, for two edges. */
     void
-    check_node(const SurfacePoint &node, unsigned int face, Kind kind);
+    check_faces(unsigned int pair);
+    template <std::size_t m, std::size_t n>
+    bool
+    stay_apart(const std::array<dealii::Point<dim>, n> &from,
+               const std::array<dealii::Point<dim>, n> &to,
+               const TurningFrame                      &frame,
+               double                                   size,
+               unsigned int                             patience,
+               Separation                              &known) const;
+    void
+    check_node(const SurfacePoint &node,
+               unsigned int        face,
+               Kind                kind,
+               const TurningFrame &frame,
+               double              size,
+               Separation         &known);
     FourPoints
     node_and_triangle(const SurfacePoint &node,
                       unsigned int        face,
@@ -361,9 +401,13 @@ namespace Touchstone
              const Crossing     &crossing,
              Kind                kind);
     void
-    check_edges(const Points &ends, Kind kind);
+    check_edges(const Points       &ends,
+                Kind                kind,
+                const TurningFrame &frame,
+                double              size,
+                Separation         &known);
     void
-    check_inner_edges(unsigned int one, unsigned int other);
+    check_inner_edges(unsigned int one, unsigned int other, const TurningFrame &frame);
     bool
     is_warped(unsigned int face) const;
     dealii::Tensor<1, dim>
