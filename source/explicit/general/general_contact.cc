@@ -19,7 +19,7 @@ namespace Touchstone
     /** The margin beyond the present cycle: the motion of so many cycles, up to this part of the
      * smallest face. A cycle whose impulses make more than so many times of its motion is halved.
      */
-    constexpr double cycles_ahead = 40., most_margin = 0.5, of_impulses = 2.2;
+    constexpr double cycles_ahead = 80., most_margin = 0.5, of_impulses = 2.2;
 
     /** For sums and products of lengths that have to be bounds. */
     constexpr double above_round_off = 1. + 1e-9;
@@ -119,15 +119,27 @@ namespace Touchstone
       std::clamp(cycles_ahead * in_cycle, least_margin * smallest, most_margin * smallest);
     margin = most_in_cycle + (wanted > 0. ? wanted : automatic);
     candidates.find(u, v, step, margin);
-    motion.resize(candidates.at_slots.n());
-    apart_faces.assign(candidates.face_pairs.size(), {});
-    apart_nodes.assign(candidates.node_faces.size(), {});
-    apart_edges.assign(candidates.edge_pairs.size(), {});
+    begin_candidates();
     rows.clear();
     numbers.clear();
     new_rows = true;
     renew    = false;
     carry_over();
+  }
+
+
+
+  void
+  GeneralContact::begin_candidates()
+  {
+    motion.resize(candidates.at_slots.n());
+    local.resize(candidates.at_slots.n_owned());
+    for (unsigned int node = 0; node < local.size(); ++node)
+      local[node] = nodes.local(candidates.at_slots.dof(node));
+    apart_faces.assign(candidates.face_pairs.size(), {});
+    apart_nodes.assign(candidates.node_faces.size(), {});
+    apart_edges.assign(candidates.edge_pairs.size(), {});
+    apart_inner.assign(candidates.face_pairs.size(), {});
   }
 
 
@@ -160,17 +172,13 @@ namespace Touchstone
   void
   GeneralContact::import(const NodeField &u, const NodeField &v)
   {
-    const RowNodes &on = candidates.at_slots;
-    for (unsigned int node = 0; node < on.n_owned(); ++node)
-      {
-        const unsigned int local = nodes.local(on.dof(node));
-        motion[node]             = {surface.position(local, u),
-                                    v[local],
-                                    normal_now[local],
-                                    normal_before[local],
-                                    surface.size(local)};
-      }
-    on.forward(motion);
+    for (unsigned int node = 0; node < local.size(); ++node)
+      motion[node] = {surface.position(local[node], u),
+                      v[local[node]],
+                      normal_now[local[node]],
+                      normal_before[local[node]],
+                      surface.size(local[node])};
+    candidates.at_slots.forward(motion);
   }
 
 
@@ -222,7 +230,7 @@ namespace Touchstone
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
-      check_motion();
+      check_motion(/*ahead=*/true);
     else
       new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
   }
@@ -239,33 +247,47 @@ namespace Touchstone
       return Crossings::too_far;
     travels = moves.far_in_cycle;
     import(u, v);
-    return check_motion() ? Crossings::rows : Crossings::none;
+    return check_motion(/*ahead=*/false) ? Crossings::rows : Crossings::none;
   }
 
 
 
   // Rows of nodes of the finer side alone mostly keep surfaces apart. Those of the other side, and
   // of edges, say nearly the same where surfaces are flat, which makes sweeps slow: they come only
-  // if something still crosses.
+  // if something still crosses. With free velocities all that is pressed together crosses, and
+  // touches already: only what is new there is worth a look.
   bool
-  GeneralContact::check_motion()
+  GeneralContact::check_motion(const bool ahead)
   {
+    looks_ahead = ahead;
     set_inner_positions();
+    find_open_faces();
     found.clear();
-    for (const unsigned int pair : near_pairs)
-      check_faces(pair);
-    // The first kind with a row that is not there yet; whether there is anything; rows to lay out.
-    int least[2] = {int(Kind::none), found.empty()};
-    for (const auto &[kind, row] : found)
-      if (const auto there = numbers.find(row.key);
-          there == numbers.end() || !rows[there->second].used)
-        least[0] = std::min(least[0], int(kind));
-    Utilities::MPI::min(least, nodes.communicator(), least);
-    for (const auto &[kind, row] : found)
-      if (int(kind) <= least[0])
-        use(row);
-    new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
-    return least[1] == 0;
+    std::size_t known   = 0;
+    bool        goes_on = true;
+    for (const Kind kind : {Kind::slave_node, Kind::node, Kind::edges, Kind::inner})
+      if (goes_on && (!ahead || kind == Kind::slave_node))
+        {
+          for (const OpenFaces &faces : open_faces)
+            check_faces(faces, kind);
+          // A row that is not there yet.
+          int is_new = 0;
+          for (; known < found.size(); ++known)
+            {
+              const auto there = numbers.find(found[known].key);
+              is_new |= there == numbers.end() || !rows[there->second].used;
+            }
+          goes_on = Utilities::MPI::max(is_new, nodes.communicator()) == 0;
+        }
+    if (goes_on && !ahead)
+      for (const OpenFaces &faces : open_faces)
+        keep_until(faces);
+    for (const Row &row : found)
+      use(row);
+    int last[2] = {new_rows, !found.empty()};
+    Utilities::MPI::max(last, nodes.communicator(), last);
+    new_rows = last[0] > 0;
+    return last[1] > 0;
   }
 
 

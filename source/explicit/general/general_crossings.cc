@@ -15,10 +15,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Edges are parallel if the sine of their angle is below this: they have no normal of their
-     * own. */
-    constexpr double parallel = 1e-6;
-
     /** Relative to the points: parts of faces and edges that are larger than these are within this,
      * once for each of two partners. */
     constexpr double enlarged = 8. * GeneralContact::tie;
@@ -29,11 +25,29 @@ namespace Touchstone
 
     /** Hulls of warped faces can overlap where faces do not cross. This is looked at again after so
      * many times. */
-    constexpr unsigned int some_patience = 7;
+    constexpr unsigned int some_patience = 30;
+
+    /** Edges are parallel if the sine of their angle is below this: they have no normal of their
+     * own. */
+    constexpr double parallel = 1e-6;
 
     /** Sides that come together are on the outside of each other; only what points inwards by more
      * than this leaves a body that it is in. */
     constexpr double inwards = 0.1;
+
+    /** Whether a node stays on one side of a triangle, by the normal of that. */
+    bool
+    on_one_side(const FourPoints &from, const FourPoints &to)
+    {
+      const auto normal = [](const FourPoints &x) {
+        return cross_product_3d(x[2] - x[1], x[3] - x[1]);
+      };
+      const double side = normal(from) * (from[0] - from[1]) < 0. ? -1. : 1.;
+      return distance_in_front<1>(from, to, {side * normal(from), side * normal(to)}, enlarged) >
+             0.;
+    }
+
+
 
     Point<dim>
     between(const Point<dim> &from, const Point<dim> &to, const double part)
@@ -58,7 +72,8 @@ namespace Touchstone
     double distance = -1.;
     if (known.known)
       distance = distance_in_front<m>(from, to, frame.turning(known.direction), enlarged);
-    if (!(distance > 0.))
+    // With free velocities what is pressed together crosses: that says nothing of its direction.
+    if (!(distance > 0.) && !(looks_ahead && known.known))
       {
         if (known.hopeless > 0)
           {
@@ -74,7 +89,7 @@ namespace Touchstone
                                           {shortest, shortest_difference(to.data(), m, n)},
                                           enlarged);
         known.known = distance > 0.;
-        if (!known.known)
+        if (!known.known && !looks_ahead)
           known.hopeless = patience;
       }
     if (!(distance > 0.))
@@ -86,53 +101,75 @@ namespace Touchstone
 
 
   void
-  GeneralContact::check_faces(const unsigned int number)
+  GeneralContact::find_open_faces()
   {
-    const ContactCandidates::FacePair &pair  = candidates.face_pairs[number];
-    Separation                        &faces = apart_faces[number];
-    if (faces.until > travelled + travels)
-      return;
+    open_faces.clear();
     std::array<Point<dim>, 8> from, to;
-    double                    size = 0.;
-    for (unsigned int i = 0; i < 8; ++i)
+    for (const unsigned int number : near_pairs)
       {
-        const SurfacePoint point = corner(i < 4 ? pair.one : pair.other, i % 4);
-        from[i]                  = inner_position(point, false);
-        to[i]                    = inner_position(point, true);
-        size                     = std::max(size, this->size(point));
+        const ContactCandidates::FacePair &pair  = candidates.face_pairs[number];
+        Separation                        &known = apart_faces[number];
+        if (known.until > travelled + travels)
+          continue;
+        double size = 0.;
+        for (unsigned int i = 0; i < 8; ++i)
+          {
+            const SurfacePoint point = corner(i < 4 ? pair.one : pair.other, i % 4);
+            from[i]                  = inner_position(point, false);
+            to[i]                    = inner_position(point, true);
+            size                     = std::max(size, this->size(point));
+          }
+        const TurningFrame frame(from.data(), to.data());
+        if (pair.share_node || !stay_apart<4>(from, to, frame, size, some_patience, known))
+          open_faces.push_back({number, size, frame});
       }
-    const TurningFrame frame(from.data(), to.data());
-    if (!pair.share_node && stay_apart<4>(from, to, frame, size, some_patience, faces))
-      return;
-    // What belongs to them, and how long all of that stays apart.
-    double     until = std::numeric_limits<double>::max();
-    const auto each  = [&](const ContactCandidates::ByFaces &by_faces,
+  }
+
+
+
+  void
+  GeneralContact::check_faces(const OpenFaces &faces, const Kind kind)
+  {
+    const auto each = [&](const ContactCandidates::ByFaces &by_faces,
                           std::vector<Separation>          &known,
                           const auto                       &check) {
-      for (unsigned int i = by_faces.begin[number]; i < by_faces.begin[number + 1]; ++i)
-        {
-          Separation &of = known[by_faces.numbers[i]];
-          if (!(of.until > travelled + travels))
-            check(by_faces.numbers[i], of);
-          until = std::min(until, of.until);
-        }
+      for (unsigned int i = by_faces.begin[faces.pair]; i < by_faces.begin[faces.pair + 1]; ++i)
+        if (Separation &of = known[by_faces.numbers[i]]; !(of.until > travelled + travels))
+          check(by_faces.numbers[i], of);
     };
-    each(candidates.nodes_by_faces, apart_nodes, [&](const unsigned int i, Separation &of) {
-      const ContactCandidates::NodeFace &one = candidates.node_faces[i];
-      check_node({one.node, false},
-                 one.face,
-                 is_slave(one.node, one.face) ? Kind::slave_node : Kind::node,
-                 frame,
-                 size,
-                 of);
-    });
-    each(candidates.edges_by_faces, apart_edges, [&](const unsigned int i, Separation &of) {
-      check_edges(ends_of(candidates.edge_pairs[i]), Kind::edges, frame, size, of);
-    });
-    if (pair.inner_edges)
-      check_inner_edges(pair.one, pair.other, frame);
-    else
-      faces.until = until;
+    const ContactCandidates::FacePair &pair = candidates.face_pairs[faces.pair];
+    if (kind == Kind::edges)
+      each(candidates.edges_by_faces, apart_edges, [&](const unsigned int i, Separation &known) {
+        check_edges(ends_of(candidates.edge_pairs[i]), faces, known);
+      });
+    else if (kind == Kind::inner && pair.inner_edges)
+      check_inner_edges(pair.one, pair.other, faces);
+    else if (kind == Kind::slave_node || kind == Kind::node)
+      each(candidates.nodes_by_faces, apart_nodes, [&](const unsigned int i, Separation &known) {
+        const ContactCandidates::NodeFace &one = candidates.node_faces[i];
+        if (is_slave(one.node, one.face) == (kind == Kind::slave_node) &&
+            !(looks_ahead && touches[i]))
+          check_node({one.node, false}, one.face, faces, known);
+      });
+  }
+
+
+
+  // All that belongs to the pair has been looked at: how long it stays apart.
+  void
+  GeneralContact::keep_until(const OpenFaces &faces)
+  {
+    if (candidates.face_pairs[faces.pair].inner_edges)
+      return;
+    double     until = std::numeric_limits<double>::max();
+    const auto least = [&](const ContactCandidates::ByFaces &by_faces,
+                           const std::vector<Separation>    &known) {
+      for (unsigned int i = by_faces.begin[faces.pair]; i < by_faces.begin[faces.pair + 1]; ++i)
+        until = std::min(until, known[by_faces.numbers[i]].until);
+    };
+    least(candidates.nodes_by_faces, apart_nodes);
+    least(candidates.edges_by_faces, apart_edges);
+    apart_faces[faces.pair].until = until;
   }
 
 
@@ -187,9 +224,7 @@ namespace Touchstone
   void
   GeneralContact::check_node(const SurfacePoint &node,
                              const unsigned int  face,
-                             const Kind          kind,
-                             const TurningFrame &frame,
-                             const double        size,
+                             const OpenFaces    &faces,
                              Separation         &known)
   {
     std::array<Point<dim>, 5> from, to;
@@ -199,7 +234,7 @@ namespace Touchstone
         from[i]                  = inner_position(point, false);
         to[i]                    = inner_position(point, true);
       }
-    if (stay_apart<1>(from, to, frame, size, some_patience, known))
+    if (stay_apart<1>(from, to, faces.frame, faces.size, some_patience, known))
       return;
     // Where several triangles are crossed at once, as on the line between them, each has its row:
     // otherwise round-off would choose.
@@ -210,7 +245,7 @@ namespace Touchstone
         const FourPoints a = node_and_triangle(node, face, t, false),
                          b = node_and_triangle(node, face, t, true);
         Separation unknown;
-        if (stay_apart<1>(a, b, frame, 0., 0, unknown))
+        if (on_one_side(a, b) || stay_apart<1>(a, b, faces.frame, 0., 0, unknown))
           continue;
         crossed[t] = first_crossing_node_triangle(a, b);
         if (crossed[t])
@@ -218,7 +253,7 @@ namespace Touchstone
       }
     for (unsigned int t = 0; t < 4; ++t)
       if (crossed[t] && crossed[t]->time <= first + tie)
-        keep_out(node, face, t, *crossed[t], kind);
+        keep_out(node, face, t, *crossed[t]);
   }
 
 
@@ -246,8 +281,7 @@ namespace Touchstone
   GeneralContact::keep_out(const SurfacePoint &node,
                            const unsigned int  face,
                            const unsigned int  triangle,
-                           const Crossing     &crossing,
-                           const Kind          kind)
+                           const Crossing     &crossing)
   {
     const FourPoints a = node_and_triangle(node, face, triangle, false),
                      b = node_and_triangle(node, face, triangle, true);
@@ -268,17 +302,13 @@ namespace Touchstone
     std::array<double, 3> weights = crossing.weights;
     for (double &weight : weights)
       weight += tie * (weight - 1. / 3.);
-    found.emplace_back(kind, node_row(node, face, triangle, weights, normal / normal.norm()));
+    found.push_back(node_row(node, face, triangle, weights, normal / normal.norm()));
   }
 
 
 
   void
-  GeneralContact::check_edges(const Points       &ends,
-                              const Kind          kind,
-                              const TurningFrame &frame,
-                              const double        size,
-                              Separation         &known)
+  GeneralContact::check_edges(const Points &ends, const OpenFaces &faces, Separation &known)
   {
     FourPoints a, b;
     for (unsigned int side = 0; side < 4; side += 2)
@@ -289,7 +319,7 @@ namespace Touchstone
           (*x)[side + 1]  = edge[1];
         }
     // Edges that rest on each other are never far apart, and what is bisected takes long.
-    if (stay_apart<2>(a, b, frame, size, 0, known))
+    if (stay_apart<2>(a, b, faces.frame, faces.size, 0, known))
       return;
     const auto crossing = first_crossing_edge_edge(a, b);
     if (!crossing)
@@ -306,7 +336,7 @@ namespace Touchstone
       return;
     for (double &at_edge : at_edges)
       at_edge += tie * (2. * at_edge - 1.);
-    found.emplace_back(kind, edge_row(ends, at_edges, normal));
+    found.push_back(edge_row(ends, at_edges, normal));
   }
 
 

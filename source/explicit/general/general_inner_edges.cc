@@ -32,9 +32,9 @@ namespace Touchstone
   // The middle of a warped face can reach further than its edges, and so can the edges from there
   // to the corners. Of a plane face nothing meets them before it meets the face or its edges.
   void
-  GeneralContact::check_inner_edges(const unsigned int  one,
-                                    const unsigned int  other,
-                                    const TurningFrame &frame)
+  GeneralContact::check_inner_edges(const unsigned int one,
+                                    const unsigned int other,
+                                    const OpenFaces   &faces)
   {
     const bool of_one = is_warped(one), of_other = is_warped(other);
     if (!of_one && !of_other)
@@ -60,24 +60,25 @@ namespace Touchstone
     const std::array<std::array<Edge, 4>, 2> edges_of_one{
       {edges_of(one, false), edges_of(one, true)}},
       edges_of_other{{edges_of(other, false), edges_of(other, true)}};
+    // What is known of each of three kinds of 16 pairs, and of the middles.
+    std::vector<Separation> &known = apart_inner[faces.pair];
+    known.resize(3 * 16 + 2);
+    const auto   far_apart = [&](const Separation &of) { return of.until > travelled + travels; };
+    unsigned int n         = 0;
     for (const bool inner_one : {false, true})
       for (const bool inner_other : {false, true})
-        if ((inner_one || inner_other) && (!inner_one || of_one) && (!inner_other || of_other))
+        if (inner_one || inner_other)
           for (const Edge &e : edges_of_one[inner_one])
             for (const Edge &f : edges_of_other[inner_other])
-              if (e.box.meets(f.box))
-                {
-                  Separation unknown;
-                  check_edges({{e.ends[0], e.ends[1], f.ends[0], f.ends[1]}},
-                              Kind::inner,
-                              frame,
-                              0.,
-                              unknown);
-                }
-    Separation unknown[2];
-    if (of_one)
-      check_node(middle(one), other, Kind::inner, frame, 0., unknown[0]);
-    if (of_other)
-      check_node(middle(other), one, Kind::inner, frame, 0., unknown[1]);
+              {
+                Separation &of = known[n++];
+                if ((!inner_one || of_one) && (!inner_other || of_other) && !far_apart(of) &&
+                    e.box.meets(f.box))
+                  check_edges({{e.ends[0], e.ends[1], f.ends[0], f.ends[1]}}, faces, of);
+              }
+    if (of_one && !far_apart(known[n]))
+      check_node(middle(one), other, faces, known[n]);
+    if (of_other && !far_apart(known[n + 1]))
+      check_node(middle(other), one, faces, known[n + 1]);
   }
 } // namespace Touchstone

@@ -72,13 +72,11 @@ namespace Touchstone
     made_at = u;
     margin  = least_margin * smallest;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
-    motion.resize(candidates.at_slots.n());
+    begin_candidates();
     normal_now.clear();
     set_normals(u);
     import(u, at_rest);
     cycle = 0.;
-    apart_faces.assign(candidates.face_pairs.size(), {});
-    apart_nodes.assign(candidates.node_faces.size(), {});
     find_near(0.);
     set_inner_positions(inwards);
     std::vector<Place> places;

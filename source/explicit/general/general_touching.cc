@@ -117,10 +117,10 @@ namespace Touchstone
 
 
   void
-  GeneralContact::add_hit(const std::size_t  node,
-                          const unsigned int face,
-                          std::vector<Hit>  &hits) const
+  GeneralContact::add_hit(const unsigned int pair, std::vector<Hit> &hits) const
   {
+    const auto &[node, face, of_faces] = candidates.node_faces[pair];
+
     // The nodes of the other side only where they had to press in the cycle before.
     if (!is_slave(node, face) && pressed_nodes.count(candidates.key(node)) == 0)
       return;
@@ -154,6 +154,7 @@ namespace Touchstone
     if (best.face == numbers::invalid_unsigned_int)
       return;
     const double h = std::min(at(node).size, size(corner(face, best.triangle)));
+    best.pair      = pair;
     best.opposed   = at(node).normal * best.normal;
     if (best.gap <= touching * h && best.gap >= -overlapping * h && best.opposed <= 0.)
       hits.push_back(best);
@@ -181,20 +182,20 @@ namespace Touchstone
   void
   GeneralContact::find_touching_nodes()
   {
-    const auto pair = [&](const std::size_t i) -> const ContactCandidates::NodeFace & {
-      return candidates.node_faces[near_nodes_and_faces[i]];
-    };
-    const std::size_t n = near_nodes_and_faces.size();
-    std::vector<Hit>  hits, kept;
-    for (std::size_t begin = 0, end = 0; begin < n; begin = end)
+    touches.assign(candidates.node_faces.size(), false);
+    const std::vector<unsigned int> &near = near_nodes_and_faces;
+    std::vector<Hit>                 hits, kept;
+    for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end)
       {
         // The same node may be called by the slots of several faces.
-        const std::size_t   node = pair(begin).node;
+        const std::size_t   node = candidates.node_faces[near[begin]].node;
         const std::uint64_t of   = candidates.key(node);
         hits.clear();
         kept.clear();
-        for (end = begin; end < n && candidates.key(pair(end).node) == of; ++end)
-          add_hit(node, pair(end).face, hits);
+        for (end = begin;
+             end < near.size() && candidates.key(candidates.node_faces[near[end]].node) == of;
+             ++end)
+          add_hit(near[end], hits);
         // The face that is most opposed comes first, of equal ones that of the lowest key.
         std::stable_sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
           return a.opposed < b.opposed;
@@ -207,7 +208,10 @@ namespace Touchstone
               }))
             kept.push_back(hit);
         for (const Hit &hit : kept)
-          use(node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal));
+          {
+            touches[hit.pair] = true;
+            use(node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal));
+          }
       }
   }
 

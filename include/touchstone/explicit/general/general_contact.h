@@ -191,6 +191,8 @@ namespace Touchstone
       std::array<double, 3>  weights{};
       dealii::Tensor<1, dim> normal, middle;
       double                 gap = 0., opposed = 0.;
+      /** Number of the candidate. */
+      unsigned int pair = 0;
     };
 
     const GeneralContactParameters &parameters;
@@ -204,8 +206,10 @@ namespace Touchstone
     /** Candidates hold as long as nodes have moved relative to each other by less than the margin
      * since they stood here. The present cycle may move them by its part of it. */
     NodeField made_at;
-    double    margin = 0., most_in_cycle = 0.;
-    bool      renew = true;
+    /** Local numbers of the owned nodes of the candidates. */
+    std::vector<unsigned int> local;
+    double                    margin = 0., most_in_cycle = 0.;
+    bool                      renew = true;
     /** By node of the candidates, at the start of the cycle. */
     std::vector<NodeMotion> motion;
     double                  cycle = 0.;
@@ -223,8 +227,12 @@ namespace Touchstone
       /** It is not worth to look for a direction in so many further looks. */
       unsigned int hopeless = 0;
     };
-    /** By pair of faces, by pair of a node and a face, and of edges. */
-    std::vector<Separation> apart_faces, apart_nodes, apart_edges;
+    /** By pair of faces, by pair of a node and a face, and of edges; and by pair of faces, those of
+     * inner edges that have been looked at. */
+    std::vector<Separation>              apart_faces, apart_nodes, apart_edges;
+    std::vector<std::vector<Separation>> apart_inner;
+    /** By pair of a node and a face: it has a row as it touches. */
+    std::vector<bool> touches;
     /** Bounds of how far any two nodes have moved relative to each other in all cycles so far, and
      * of the motion to be checked; length. */
     double travelled = 0., travels = 0.;
@@ -261,6 +269,9 @@ namespace Touchstone
     range(const NodeField &u, const NodeField &v, double step) const;
     void
     renew_candidates(const NodeField &u, const NodeField &v, double step, double in_cycle);
+    /** Nothing is known of new candidates. */
+    void
+    begin_candidates();
     void
     import(const NodeField &u, const NodeField &v);
     /** Of owned nodes of surfaces: normals at the start of this cycle, of the one before, and where
@@ -321,11 +332,10 @@ namespace Touchstone
       node,
       edges,
       /** Edges from corners of warped faces to their middle, and the middle. */
-      inner,
-      none
+      inner
     };
     /** Crossings of the last check, with the rows that prevent them. */
-    std::vector<std::pair<Kind, Row>> found;
+    std::vector<Row> found;
 
     /** The row takes part in the cycle, as it is or instead of the one of its key. */
     void
@@ -362,18 +372,36 @@ namespace Touchstone
     bool
     is_slave(std::size_t node, unsigned int face) const;
     void
-    add_hit(std::size_t node, unsigned int face, std::vector<Hit> &hits) const;
+    add_hit(unsigned int pair, std::vector<Hit> &hits) const;
     bool
     stand_together(const Hit &one, const Hit &other, std::size_t node) const;
 
+    /** Two faces that may come together in the present cycle: number of the pair, size of the
+     * larger one, length, and the frame of the first. */
+    struct OpenFaces
+    {
+      unsigned int pair;
+      double       size;
+      TurningFrame frame;
+    };
+    std::vector<OpenFaces> open_faces;
+    /** The motion that is checked is that of free velocities. */
+    bool looks_ahead = false;
+
     /** Check the motion through the cycle that import() has brought: #new_rows is the same on all
-     * ranks then. @return whether rows have been added or changed, on any rank. Collective. */
+     * ranks then. @param ahead With free velocities: only nodes of the finer side that do not
+     * touch.
+     * @return whether rows have been added or changed, on any rank. Collective. */
     bool
-    check_motion();
-    /** Its parts, which add to #found: for all that belongs to a pair of faces, for a node and a
-     * face, for two edges. */
+    check_motion(bool ahead);
+    /** Its parts: pairs of faces that no direction tells apart; what belongs to one, which is added
+     * to #found, and how long that stays apart; a node and a face, two edges, inner edges. */
     void
-    check_faces(unsigned int pair);
+    find_open_faces();
+    void
+    check_faces(const OpenFaces &faces, Kind kind);
+    void
+    keep_until(const OpenFaces &faces);
     template <std::size_t m, std::size_t n>
     bool
     stay_apart(const std::array<dealii::Point<dim>, n> &from,
@@ -385,9 +413,7 @@ namespace Touchstone
     void
     check_node(const SurfacePoint &node,
                unsigned int        face,
-               Kind                kind,
-               const TurningFrame &frame,
-               double              size,
+               const OpenFaces    &faces,
                Separation         &known);
     FourPoints
     node_and_triangle(const SurfacePoint &node,
@@ -398,16 +424,11 @@ namespace Touchstone
     keep_out(const SurfacePoint &node,
              unsigned int        face,
              unsigned int        triangle,
-             const Crossing     &crossing,
-             Kind                kind);
+             const Crossing     &crossing);
     void
-    check_edges(const Points       &ends,
-                Kind                kind,
-                const TurningFrame &frame,
-                double              size,
-                Separation         &known);
+    check_edges(const Points &ends, const OpenFaces &faces, Separation &known);
     void
-    check_inner_edges(unsigned int one, unsigned int other, const TurningFrame &frame);
+    check_inner_edges(unsigned int one, unsigned int other, const OpenFaces &faces);
     bool
     is_warped(unsigned int face) const;
     dealii::Tensor<1, dim>
