@@ -19,10 +19,6 @@ namespace Touchstone
      * once for each of two partners. */
     constexpr double enlarged = 8. * GeneralContact::tie;
 
-    /** Relative to the size of faces: what is farther apart does not touch, however surfaces that
-     * are moved inwards turn. */
-    constexpr double reserve = 0.012;
-
     /** Hulls of warped faces can overlap where faces do not cross. This is looked at again after so
      * many times. */
     constexpr unsigned int some_patience = 30;
@@ -170,15 +166,6 @@ namespace Touchstone
     least(candidates.nodes_by_faces, apart_nodes);
     least(candidates.edges_by_faces, apart_edges);
     apart_faces[faces.pair].until = until;
-  }
-
-
-
-  Point<dim>
-  GeneralContact::inner_position(const SurfacePoint &point, const bool at_end) const
-  {
-    return point.middle ? (at_end ? middle_to : middle_from)[point.slot / 4]
-                        : (at_end ? inner_to : inner_from)[candidates.at_slots.node(point.slot)];
   }
 
 

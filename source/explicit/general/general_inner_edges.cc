@@ -3,6 +3,7 @@
 #include <touchstone/explicit/general/general_contact.h>
 #include <touchstone/explicit/general/moving_points.h>
 
+#include <algorithm>
 #include <cmath>
 
 // The check of crossings of warped faces: edges from their corners to the middle, and the middle
@@ -36,6 +37,12 @@ namespace Touchstone
                                     const unsigned int other,
                                     const OpenFaces   &faces)
   {
+    // What is known of each of three kinds of 16 pairs, and of the middles.
+    std::vector<Separation> &known = apart_inner[faces.pair];
+    known.resize(3 * 16 + 2);
+    const auto far_apart = [&](const Separation &of) { return of.until > travelled + travels; };
+    if (std::all_of(known.begin(), known.end(), far_apart))
+      return;
     const bool of_one = is_warped(one), of_other = is_warped(other);
     if (!of_one && !of_other)
       return;
@@ -60,11 +67,7 @@ namespace Touchstone
     const std::array<std::array<Edge, 4>, 2> edges_of_one{
       {edges_of(one, false), edges_of(one, true)}},
       edges_of_other{{edges_of(other, false), edges_of(other, true)}};
-    // What is known of each of three kinds of 16 pairs, and of the middles.
-    std::vector<Separation> &known = apart_inner[faces.pair];
-    known.resize(3 * 16 + 2);
-    const auto   far_apart = [&](const Separation &of) { return of.until > travelled + travels; };
-    unsigned int n         = 0;
+    unsigned int n = 0;
     for (const bool inner_one : {false, true})
       for (const bool inner_other : {false, true})
         if (inner_one || inner_other)
@@ -72,8 +75,11 @@ namespace Touchstone
             for (const Edge &f : edges_of_other[inner_other])
               {
                 Separation &of = known[n++];
-                if ((!inner_one || of_one) && (!inner_other || of_other) && !far_apart(of) &&
-                    e.box.meets(f.box))
+                if ((inner_one && !of_one) || (inner_other && !of_other) || far_apart(of))
+                  continue;
+                if (const double distance = e.box.distance(f.box); distance > 0.)
+                  of.until = travelled + distance - reserve * faces.size;
+                else
                   check_edges({{e.ends[0], e.ends[1], f.ends[0], f.ends[1]}}, faces, of);
               }
     if (of_one && !far_apart(known[n]))

@@ -2,8 +2,6 @@
 
 #include <touchstone/explicit/general/general_contact.h>
 
-#include <algorithm>
-
 // Which candidates have to be looked at in a cycle (doc/general_contact.md, section 3).
 namespace Touchstone
 {
@@ -16,31 +14,35 @@ namespace Touchstone
     near_nodes_and_faces.clear();
     near_faces.clear();
     near_nodes.clear();
-    std::vector<bool> face_is_near(candidates.faces.size()), node_is_near(motion.size());
-    const double      until = travelled + distance;
+    std::vector<char> face_is_near(candidates.faces.size()), node_is_near(motion.size()),
+      is_near(apart_nodes.size());
+    const double until = travelled + distance;
+    const auto   add   = [&](const unsigned int face) {
+      if (face_is_near[face])
+        return;
+      face_is_near[face] = true;
+      near_faces.push_back(face);
+      for (unsigned int a = 0; a < 4; ++a)
+        if (const unsigned int node = candidates.at_slots.node(corner(face, a).slot);
+            !node_is_near[node])
+          {
+            node_is_near[node] = true;
+            near_nodes.push_back(node);
+          }
+    };
+    const auto &[begin, numbers] = candidates.nodes_by_faces;
     for (unsigned int k = 0; k < apart_faces.size(); ++k)
       if (!(apart_faces[k].until > until))
         {
           near_pairs.push_back(k);
-          const auto &of = candidates.nodes_by_faces;
-          for (unsigned int i = of.begin[k]; i < of.begin[k + 1]; ++i)
-            if (!(apart_nodes[of.numbers[i]].until > until))
-              near_nodes_and_faces.push_back(of.numbers[i]);
-          for (const unsigned int face :
-               {candidates.face_pairs[k].one, candidates.face_pairs[k].other})
-            if (!face_is_near[face])
-              {
-                face_is_near[face] = true;
-                near_faces.push_back(face);
-                for (unsigned int a = 0; a < 4; ++a)
-                  if (const unsigned int node = candidates.at_slots.node(corner(face, a).slot);
-                      !node_is_near[node])
-                    {
-                      node_is_near[node] = true;
-                      near_nodes.push_back(node);
-                    }
-              }
+          add(candidates.face_pairs[k].one);
+          add(candidates.face_pairs[k].other);
+          // What touches at the start does so before anything has moved.
+          for (unsigned int i = begin[k]; i < begin[k + 1]; ++i)
+            is_near[numbers[i]] = !(apart_nodes[numbers[i]].until > travelled);
         }
-    std::sort(near_nodes_and_faces.begin(), near_nodes_and_faces.end());
+    for (unsigned int i = 0; i < is_near.size(); ++i)
+      if (is_near[i])
+        near_nodes_and_faces.push_back(i);
   }
 } // namespace Touchstone

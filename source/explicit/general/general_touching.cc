@@ -124,16 +124,18 @@ namespace Touchstone
     // The nodes of the other side only where they had to press in the cycle before.
     if (!is_slave(node, face) && pressed_nodes.count(candidates.key(node)) == 0)
       return;
-    const Tensor<1, dim> &x = at(node).x;
-    Hit                   best;
-    double                inside = -tie;
+    const Tensor<1, dim>         &x = at(node).x;
+    std::array<Tensor<1, dim>, 4> corners;
+    for (unsigned int i = 0; i < 4; ++i)
+      corners[i] = at(corner(face, i).slot).x - x;
+    const Tensor<1, dim> c = mean(middle(face), &NodeMotion::x) - x;
+    Hit                  best;
+    double               inside = -tie;
     for (unsigned int t = 0; t < 4; ++t)
       {
-        const Tensor<1, dim> a          = mean(corner(face, t), &NodeMotion::x) - x,
-                             b          = mean(corner(face, t + 1), &NodeMotion::x) - x,
-                             c          = mean(middle(face), &NodeMotion::x) - x;
-        const Tensor<1, dim> twice_area = cross_product_3d(b - a, c - a);
-        const double         square     = twice_area.norm_square();
+        const Tensor<1, dim> &a = corners[t], &b = corners[(t + 1) % 4];
+        const Tensor<1, dim>  twice_area = cross_product_3d(b - a, c - a);
+        const double          square     = twice_area.norm_square();
         if (square == 0.)
           continue;
         const std::array<double, 3> weights{{cross_product_3d(b, c) * twice_area / square,

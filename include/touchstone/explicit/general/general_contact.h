@@ -151,6 +151,10 @@ namespace Touchstone
     static constexpr double tie = 1e-6;
 
   private:
+    /** Relative to the size of faces: what is farther apart does not touch, however surfaces that
+     * are moved inwards turn. */
+    static constexpr double reserve = 0.012;
+
     /** First numbers of the keys of rows, above all numbers of pairs. */
     static constexpr std::uint64_t on_faces = std::uint64_t(1) << 32, on_edges = on_faces + 1;
 
@@ -294,7 +298,11 @@ namespace Touchstone
     }
     /** Where a point of the surface, moved inwards, is at the start or end of the cycle. */
     dealii::Point<dim>
-    inner_position(const SurfacePoint &point, bool at_end) const;
+    inner_position(const SurfacePoint &point, const bool at_end) const
+    {
+      return point.middle ? (at_end ? middle_to : middle_from)[point.slot / 4]
+                          : (at_end ? inner_to : inner_from)[candidates.at_slots.node(point.slot)];
+    }
     /** The ends of an edge there, a little longer, so that edges that meet at their ends do so
      * whatever round-off is. */
     std::array<dealii::Point<dim>, 2>

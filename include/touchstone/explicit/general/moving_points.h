@@ -35,13 +35,14 @@ namespace Touchstone
         }
     }
 
-    bool
-    meets(const MotionBox &other) const
+    /** @brief By how much they are apart along an axis, length; negative if they meet. */
+    double
+    distance(const MotionBox &other) const
     {
-      bool apart = false;
-      for (unsigned int d = 0; d < dim; ++d)
-        apart |= upper[d] < other.lower[d] || other.upper[d] < lower[d];
-      return !apart;
+      double result = std::max(other.lower[0] - upper[0], lower[0] - other.upper[0]);
+      for (unsigned int d = 1; d < dim; ++d)
+        result = std::max({result, other.lower[d] - upper[d], lower[d] - other.upper[d]});
+      return result;
     }
 
   private:
