@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 // The pairs that general contact looks at in each cycle until motion asks for others
 // (doc/general_contact.md, sections 2 and 5). Which pairs there are depends on positions alone; on
@@ -109,10 +110,15 @@ namespace Touchstone
     ++work.searches;
     const std::vector<MovingFace> all = exchange_faces(u, v, step, margin);
     find_pairs(all, margin, neighbours_as_well);
+    const std::uint64_t n_inner =
+      std::count_if(face_pairs.begin(), face_pairs.end(), [](const FacePair &pair) {
+        return pair.inner_edges;
+      });
     work.candidates =
-      Utilities::MPI::sum<std::uint64_t>(node_faces.size() + edge_pairs.size() + face_pairs.size(),
+      Utilities::MPI::sum<std::uint64_t>(node_faces.size() + edge_pairs.size() + n_inner,
                                          nodes.communicator());
     keep_used_faces(all);
+    sort_by_faces();
   }
 
 
@@ -185,9 +191,13 @@ namespace Touchstone
     face_pairs.clear();
     const unsigned int            me    = Utilities::MPI::this_mpi_process(nodes.communicator());
     const double                  grown = 0.5 * margin;
-    std::vector<BoundingBox<dim>> boxes;
+    std::vector<BoundingBox<dim>> boxes, edge_boxes;
     for (const MovingFace &moving : all)
-      boxes.push_back(moving.box(grown));
+      {
+        boxes.push_back(moving.box(grown));
+        for (unsigned int a = 0; a < 4; ++a)
+          edge_boxes.push_back(moving.edge_box(a, grown));
+      }
     const auto slot_key = [&](const std::size_t slot) {
       return all[slot / 4].face.nodes[slot % 4];
     };
@@ -199,7 +209,7 @@ namespace Touchstone
       const BoundingBox<dim> box = all[of].box(a, grown);
       if (!all[f].face.of_cell(all[of].face.nodes[a]) && overlap(box, boxes[f]) &&
           mine(box.get_boundary_points().first))
-        node_faces.push_back({4 * std::size_t(of) + a, f});
+        node_faces.push_back({4 * std::size_t(of) + a, f, unsigned(face_pairs.size())});
     };
     const auto of_one_cell = [&](const std::size_t edge, const ImpactFace &face) {
       return face.of_cell(slot_key(edge)) && face.of_cell(slot_key(next(edge)));
@@ -209,6 +219,7 @@ namespace Touchstone
         const ImpactFace &a = all[i].face, &b = all[j].face;
         if (!surface.may_meet(a.boundary, b.boundary))
           continue;
+        const std::size_t before = node_faces.size() + edge_pairs.size();
         for (unsigned int c = 0; c < 4; ++c)
           {
             add_node(i, c, j);
@@ -217,19 +228,24 @@ namespace Touchstone
         for (unsigned int c = 0; c < 4; ++c)
           for (unsigned int d = 0; d < 4; ++d)
             {
-              const std::size_t one = 4 * std::size_t(i) + c, other = 4 * std::size_t(j) + d;
-              const auto        k = edge_key(one), l = edge_key(other);
+              const std::size_t       one = 4 * std::size_t(i) + c, other = 4 * std::size_t(j) + d;
+              const BoundingBox<dim> &p = edge_boxes[one], &q = edge_boxes[other];
+              if (!overlap(p, q))
+                continue;
+              const auto k = edge_key(one), l = edge_key(other);
               if (k.first == l.first || k.first == l.second || k.second == l.first ||
                   k.second == l.second || of_one_cell(one, b) || of_one_cell(other, a))
                 continue;
-              const BoundingBox<dim> p = all[i].edge_box(c, grown), q = all[j].edge_box(d, grown);
-              if (overlap(p, q) && mine(lower_corner(p, q)))
-                edge_pairs.push_back(k < l ? EdgePair{one, other} : EdgePair{other, one});
+              if (mine(lower_corner(p, q)))
+                edge_pairs.push_back(
+                  {k < l ? one : other, k < l ? other : one, unsigned(face_pairs.size())});
             }
         // Inner edges of neighbours meet nothing of each other before the faces have folded.
-        if ((neighbours_as_well || !a.shares_node(b)) && a.key >> 3 != b.key >> 3 &&
-            mine(lower_corner(boxes[i], boxes[j])))
-          face_pairs.push_back({i, j});
+        const bool share_node = a.shares_node(b);
+        const bool inner      = (neighbours_as_well || !share_node) && a.key >> 3 != b.key >> 3 &&
+                           mine(lower_corner(boxes[i], boxes[j]));
+        if (inner || node_faces.size() + edge_pairs.size() > before)
+          face_pairs.push_back({i, j, share_node, inner});
       }
     // Nodes and edges belong to several faces.
     const auto unify = [](auto &pairs, const auto &key) {
@@ -315,7 +331,29 @@ namespace Touchstone
         renumber(pair.other);
       }
     for (FacePair &pair : face_pairs)
-      pair = {number[pair.one], number[pair.other]};
+      {
+        pair.one   = number[pair.one];
+        pair.other = number[pair.other];
+      }
     at_slots.reinit(owned, slots);
+  }
+
+
+
+  void
+  ContactCandidates::sort_by_faces()
+  {
+    const auto sort = [&](const auto &pairs, ByFaces &by_faces) {
+      by_faces.begin.assign(face_pairs.size() + 1, 0);
+      for (const auto &pair : pairs)
+        ++by_faces.begin[pair.of_faces + 1];
+      std::partial_sum(by_faces.begin.begin(), by_faces.begin.end(), by_faces.begin.begin());
+      std::vector<unsigned int> next(by_faces.begin);
+      by_faces.numbers.resize(pairs.size());
+      for (unsigned int i = 0; i < pairs.size(); ++i)
+        by_faces.numbers[next[pairs[i].of_faces]++] = i;
+    };
+    sort(node_faces, nodes_by_faces);
+    sort(edge_pairs, edges_by_faces);
   }
 } // namespace Touchstone

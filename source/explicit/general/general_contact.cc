@@ -19,7 +19,10 @@ namespace Touchstone
     /** The margin beyond the present cycle: the motion of so many cycles, up to this part of the
      * smallest face. A cycle whose impulses make more than so many times of its motion is halved.
      */
-    constexpr double cycles_ahead = 40., most_margin = 0.5, of_impulses = 2.2;
+    constexpr double cycles_ahead = 80., most_margin = 0.5, of_impulses = 2.2;
+
+    /** For sums and products of lengths that have to be bounds. */
+    constexpr double above_round_off = 1. + 1e-9;
   } // namespace
 
 
@@ -66,31 +69,39 @@ namespace Touchstone
   GeneralContact::Range
   GeneralContact::range(const NodeField &u, const NodeField &v, const double step) const
   {
-    // Largest motions along the axes and against them: before, and in the cycle.
-    std::array<double, 4 * dim> most, all;
+    // Largest motions along the axes and against them: since the candidates were made, since the
+    // cycle before began, and in the cycle.
+    std::array<double, 6 * dim> most, all;
     most.fill(-std::numeric_limits<double>::max());
     const auto widen = [&](const unsigned int i, const double motion) {
       most[i]       = std::max(most[i], motion);
       most[i + dim] = std::max(most[i + dim], -motion);
     };
+    const NodeField &before = normal_now.empty() ? u : begun_at;
     for (const unsigned int node : surface.owned_nodes())
       for (unsigned int d = 0; d < dim; ++d)
         {
           widen(d, u[node][d] - made_at[node][d]);
-          widen(2 * dim + d, step * v[node][d]);
+          widen(2 * dim + d, u[node][d] - before[node][d]);
+          widen(4 * dim + d, step * v[node][d]);
           // Comparisons do not see it.
           if (!std::isfinite(v[node][d]))
-            most[2 * dim + d] = std::numeric_limits<double>::infinity();
+            most[4 * dim + d] = std::numeric_limits<double>::infinity();
         }
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
                         nodes.communicator(),
                         ArrayView<double>(all.data(), all.size()));
-    Range result{0., 0.};
+    Range          result{0., 0., 0., 0.};
+    Tensor<1, dim> before_cycle, in_cycle;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        before_cycle[d] = all[2 * dim + d] + all[3 * dim + d];
+        in_cycle[d]     = all[4 * dim + d] + all[5 * dim + d];
         result.before   = std::max(result.before, all[d] + all[dim + d]);
-        result.in_cycle = std::max(result.in_cycle, all[2 * dim + d] + all[3 * dim + d]);
+        result.in_cycle = std::max(result.in_cycle, in_cycle[d]);
       }
+    result.far_before   = above_round_off * before_cycle.norm();
+    result.far_in_cycle = above_round_off * in_cycle.norm();
     return result;
   }
 
@@ -108,12 +119,27 @@ namespace Touchstone
       std::clamp(cycles_ahead * in_cycle, least_margin * smallest, most_margin * smallest);
     margin = most_in_cycle + (wanted > 0. ? wanted : automatic);
     candidates.find(u, v, step, margin);
-    motion.resize(candidates.at_slots.n());
+    begin_candidates();
     rows.clear();
     numbers.clear();
     new_rows = true;
     renew    = false;
     carry_over();
+  }
+
+
+
+  void
+  GeneralContact::begin_candidates()
+  {
+    motion.resize(candidates.at_slots.n());
+    local.resize(candidates.at_slots.n_owned());
+    for (unsigned int node = 0; node < local.size(); ++node)
+      local[node] = nodes.local(candidates.at_slots.dof(node));
+    apart_faces.assign(candidates.face_pairs.size(), {});
+    apart_nodes.assign(candidates.node_faces.size(), {});
+    apart_edges.assign(candidates.edge_pairs.size(), {});
+    apart_inner.assign(candidates.face_pairs.size(), {});
   }
 
 
@@ -146,17 +172,13 @@ namespace Touchstone
   void
   GeneralContact::import(const NodeField &u, const NodeField &v)
   {
-    const RowNodes &on = candidates.at_slots;
-    for (unsigned int node = 0; node < on.n_owned(); ++node)
-      {
-        const unsigned int local = nodes.local(on.dof(node));
-        motion[node]             = {surface.position(local, u),
-                                    v[local],
-                                    normal_now[local],
-                                    normal_before[local],
-                                    surface.size(local)};
-      }
-    on.forward(motion);
+    for (unsigned int node = 0; node < local.size(); ++node)
+      motion[node] = {surface.position(local[node], u),
+                      v[local[node]],
+                      normal_now[local[node]],
+                      normal_before[local[node]],
+                      surface.size(local[node])};
+    candidates.at_slots.forward(motion);
   }
 
 
@@ -194,6 +216,8 @@ namespace Touchstone
     const Range moved = range(u, v, step);
     if (!std::isfinite(moved.in_cycle))
       return; // what is wrong with the velocities is told where the cycle is checked
+    travelled += moved.far_before;
+    travels = moved.far_in_cycle;
     // What impulses may make of the motion: of the state alone, not of when candidates were made.
     most_in_cycle = std::max(of_impulses * moved.in_cycle, least_margin * smallest);
     if (renew || moved.before + most_in_cycle > margin)
@@ -202,10 +226,11 @@ namespace Touchstone
     if (!candidates.any())
       return;
     import(u, v);
+    find_near(std::sqrt(double(dim)) * above_round_off * most_in_cycle);
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
-      check_motion();
+      check_motion(/*ahead=*/true);
     else
       new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
   }
@@ -215,46 +240,54 @@ namespace Touchstone
   GeneralContact::Crossings
   GeneralContact::find_crossings(const NodeField &u, const NodeField &v, const double step)
   {
-    const double in_cycle = range(u, v, step).in_cycle;
-    if (!candidates.any() || !std::isfinite(in_cycle))
+    const Range moves = range(u, v, step);
+    if (!candidates.any() || !std::isfinite(moves.in_cycle))
       return Crossings::none;
-    if (in_cycle > most_in_cycle)
+    if (moves.in_cycle > most_in_cycle)
       return Crossings::too_far;
+    travels = moves.far_in_cycle;
     import(u, v);
-    return check_motion() ? Crossings::rows : Crossings::none;
+    return check_motion(/*ahead=*/false) ? Crossings::rows : Crossings::none;
   }
 
 
 
   // Rows of nodes of the finer side alone mostly keep surfaces apart. Those of the other side, and
   // of edges, say nearly the same where surfaces are flat, which makes sweeps slow: they come only
-  // if something still crosses.
+  // if something still crosses. With free velocities all that is pressed together crosses, and
+  // touches already: only what is new there is worth a look.
   bool
-  GeneralContact::check_motion()
+  GeneralContact::check_motion(const bool ahead)
   {
+    looks_ahead = ahead;
     set_inner_positions();
+    find_open_faces();
     found.clear();
-    for (const ContactCandidates::NodeFace &pair : candidates.node_faces)
-      check_node({pair.node, false},
-                 pair.face,
-                 is_slave(pair.node, pair.face) ? Kind::slave_node : Kind::node);
-    for (const ContactCandidates::EdgePair &pair : candidates.edge_pairs)
-      if (edge_boxes[pair.one].meets(edge_boxes[pair.other]))
-        check_edges(ends_of(pair), Kind::edges);
-    for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
-      check_inner_edges(pair.one, pair.other);
-    // The first kind with a row that is not there yet; whether there is anything; rows to lay out.
-    int least[2] = {int(Kind::none), found.empty()};
-    for (const auto &[kind, row] : found)
-      if (const auto there = numbers.find(row.key);
-          there == numbers.end() || !rows[there->second].used)
-        least[0] = std::min(least[0], int(kind));
-    Utilities::MPI::min(least, nodes.communicator(), least);
-    for (const auto &[kind, row] : found)
-      if (int(kind) <= least[0])
-        use(row);
-    new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
-    return least[1] == 0;
+    std::size_t known   = 0;
+    bool        goes_on = true;
+    for (const Kind kind : {Kind::slave_node, Kind::node, Kind::edges, Kind::inner})
+      if (goes_on && (!ahead || kind == Kind::slave_node))
+        {
+          for (const OpenFaces &faces : open_faces)
+            check_faces(faces, kind);
+          // A row that is not there yet.
+          int is_new = 0;
+          for (; known < found.size(); ++known)
+            {
+              const auto there = numbers.find(found[known].key);
+              is_new |= there == numbers.end() || !rows[there->second].used;
+            }
+          goes_on = Utilities::MPI::max(is_new, nodes.communicator()) == 0;
+        }
+    if (goes_on && !ahead)
+      for (const OpenFaces &faces : open_faces)
+        keep_until(faces);
+    for (const Row &row : found)
+      use(row);
+    int last[2] = {new_rows, !found.empty()};
+    Utilities::MPI::max(last, nodes.communicator(), last);
+    new_rows = last[0] > 0;
+    return last[1] > 0;
   }
 
 

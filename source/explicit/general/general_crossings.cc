@@ -15,6 +15,14 @@ namespace Touchstone
 
   namespace
   {
+    /** Relative to the points: parts of faces and edges that are larger than these are within this,
+     * once for each of two partners. */
+    constexpr double enlarged = 8. * GeneralContact::tie;
+
+    /** Hulls of warped faces can overlap where faces do not cross. This is looked at again after so
+     * many times. */
+    constexpr unsigned int some_patience = 30;
+
     /** Edges are parallel if the sine of their angle is below this: they have no normal of their
      * own. */
     constexpr double parallel = 1e-6;
@@ -23,14 +31,19 @@ namespace Touchstone
      * than this leaves a body that it is in. */
     constexpr double inwards = 0.1;
 
-    /** The ends of an edge that is a little longer, so that edges that meet at their ends do so
-     * whatever round-off is. */
-    std::array<Point<dim>, 2>
-    lengthened(const Point<dim> &begin, const Point<dim> &end)
+    /** Whether a node stays on one side of a triangle, by the normal of that. */
+    bool
+    on_one_side(const FourPoints &from, const FourPoints &to)
     {
-      const Tensor<1, dim> more = GeneralContact::tie * (end - begin);
-      return {{begin - more, end + more}};
+      const auto normal = [](const FourPoints &x) {
+        return cross_product_3d(x[2] - x[1], x[3] - x[1]);
+      };
+      const double side = normal(from) * (from[0] - from[1]) < 0. ? -1. : 1.;
+      return distance_in_front<1>(from, to, {side * normal(from), side * normal(to)}, enlarged) >
+             0.;
     }
+
+
 
     Point<dim>
     between(const Point<dim> &from, const Point<dim> &to, const double part)
@@ -41,11 +54,128 @@ namespace Touchstone
 
 
 
-  Point<dim>
-  GeneralContact::inner_position(const SurfacePoint &point, const bool at_end) const
+  // Groups of points are mostly told apart by the direction that has done so before, as it turns
+  // with the faces; otherwise by their shortest difference at the start, and that at the end.
+  template <std::size_t m, std::size_t n>
+  bool
+  GeneralContact::stay_apart(const std::array<Point<dim>, n> &from,
+                             const std::array<Point<dim>, n> &to,
+                             const TurningFrame              &frame,
+                             const double                     size,
+                             const unsigned int               patience,
+                             Separation                      &known) const
   {
-    return point.middle ? (at_end ? middle_to : middle_from)[point.slot / 4]
-                        : (at_end ? inner_to : inner_from)[candidates.at_slots.node(point.slot)];
+    double distance = -1.;
+    if (known.known)
+      distance = distance_in_front<m>(from, to, frame.turning(known.direction), enlarged);
+    // With free velocities what is pressed together crosses: that says nothing of its direction.
+    if (!(distance > 0.) && !(looks_ahead && known.known))
+      {
+        if (known.hopeless > 0)
+          {
+            --known.hopeless;
+            return false;
+          }
+        const Tensor<1, dim> shortest = shortest_difference(from.data(), m, n);
+        known.direction               = frame.components(shortest);
+        distance = distance_in_front<m>(from, to, frame.turning(known.direction), enlarged);
+        if (!(distance > 0.))
+          distance = distance_in_front<m>(from,
+                                          to,
+                                          {shortest, shortest_difference(to.data(), m, n)},
+                                          enlarged);
+        known.known = distance > 0.;
+        if (!known.known && !looks_ahead)
+          known.hopeless = patience;
+      }
+    if (!(distance > 0.))
+      return false;
+    known.until = travelled + distance - reserve * size;
+    return true;
+  }
+
+
+
+  void
+  GeneralContact::find_open_faces()
+  {
+    open_faces.clear();
+    std::array<Point<dim>, 8> from, to;
+    for (const unsigned int number : near_pairs)
+      {
+        const ContactCandidates::FacePair &pair  = candidates.face_pairs[number];
+        Separation                        &known = apart_faces[number];
+        if (known.until > travelled + travels)
+          continue;
+        double size = 0.;
+        for (unsigned int i = 0; i < 8; ++i)
+          {
+            const SurfacePoint point = corner(i < 4 ? pair.one : pair.other, i % 4);
+            from[i]                  = inner_position(point, false);
+            to[i]                    = inner_position(point, true);
+            size                     = std::max(size, this->size(point));
+          }
+        const TurningFrame frame(from.data(), to.data());
+        if (pair.share_node || !stay_apart<4>(from, to, frame, size, some_patience, known))
+          open_faces.push_back({number, size, frame});
+      }
+  }
+
+
+
+  void
+  GeneralContact::check_faces(const OpenFaces &faces, const Kind kind)
+  {
+    const auto each = [&](const ContactCandidates::ByFaces &by_faces,
+                          std::vector<Separation>          &known,
+                          const auto                       &check) {
+      for (unsigned int i = by_faces.begin[faces.pair]; i < by_faces.begin[faces.pair + 1]; ++i)
+        if (Separation &of = known[by_faces.numbers[i]]; !(of.until > travelled + travels))
+          check(by_faces.numbers[i], of);
+    };
+    const ContactCandidates::FacePair &pair = candidates.face_pairs[faces.pair];
+    if (kind == Kind::edges)
+      each(candidates.edges_by_faces, apart_edges, [&](const unsigned int i, Separation &known) {
+        check_edges(ends_of(candidates.edge_pairs[i]), faces, known);
+      });
+    else if (kind == Kind::inner && pair.inner_edges)
+      check_inner_edges(pair.one, pair.other, faces);
+    else if (kind == Kind::slave_node || kind == Kind::node)
+      each(candidates.nodes_by_faces, apart_nodes, [&](const unsigned int i, Separation &known) {
+        const ContactCandidates::NodeFace &one = candidates.node_faces[i];
+        if (is_slave(one.node, one.face) == (kind == Kind::slave_node) &&
+            !(looks_ahead && touches[i]))
+          check_node({one.node, false}, one.face, faces, known);
+      });
+  }
+
+
+
+  // All that belongs to the pair has been looked at: how long it stays apart.
+  void
+  GeneralContact::keep_until(const OpenFaces &faces)
+  {
+    if (candidates.face_pairs[faces.pair].inner_edges)
+      return;
+    double     until = std::numeric_limits<double>::max();
+    const auto least = [&](const ContactCandidates::ByFaces &by_faces,
+                           const std::vector<Separation>    &known) {
+      for (unsigned int i = by_faces.begin[faces.pair]; i < by_faces.begin[faces.pair + 1]; ++i)
+        until = std::min(until, known[by_faces.numbers[i]].until);
+    };
+    least(candidates.nodes_by_faces, apart_nodes);
+    least(candidates.edges_by_faces, apart_edges);
+    apart_faces[faces.pair].until = until;
+  }
+
+
+
+  std::array<Point<dim>, 2>
+  GeneralContact::inner_edge(const std::array<SurfacePoint, 2> &ends, const bool at_end) const
+  {
+    const Point<dim> begin = inner_position(ends[0], at_end), end = inner_position(ends[1], at_end);
+    const Tensor<1, dim> more = tie * (end - begin);
+    return {{begin - more, end + more}};
   }
 
 
@@ -55,97 +185,62 @@ namespace Touchstone
   {
     inner_from.resize(motion.size());
     inner_to.resize(motion.size());
-    for (std::size_t node = 0; node < motion.size(); ++node)
+    for (const unsigned int node : near_nodes)
       {
         const NodeMotion &of = motion[node];
         inner_from[node]     = Point<dim>(of.x - part * of.size * of.normal_before);
         inner_to[node]       = Point<dim>(of.x + cycle * of.v - part * of.size * of.normal);
       }
-    const std::size_t n_faces = candidates.faces.size();
-    middle_from.resize(n_faces);
-    middle_to.resize(n_faces);
-    face_boxes.resize(n_faces);
-    edge_boxes.resize(4 * n_faces);
-    inner_boxes.resize(4 * n_faces);
-    warped.resize(n_faces);
-    for (unsigned int f = 0; f < n_faces; ++f)
+    middle_from.resize(candidates.faces.size());
+    middle_to.resize(candidates.faces.size());
+    for (const unsigned int face : near_faces)
       {
-        set_boxes(f);
-        warped[f] = is_warped(f);
-      }
-  }
-
-
-
-  // Of a face and its edges, a little longer, and of the edges from corners to the middle.
-  void
-  GeneralContact::set_boxes(const unsigned int face)
-  {
-    std::array<std::array<Point<dim>, 4>, 2> x;
-    std::array<Point<dim>, 2>                middles;
-    for (unsigned int at_end = 0; at_end < 2; ++at_end)
-      for (unsigned int a = 0; a < 4; ++a)
-        {
-          x[at_end][a] = inner_position(corner(face, a), at_end);
-          middles[at_end] += 0.25 * x[at_end][a];
-        }
-    middle_from[face] = middles[0];
-    middle_to[face]   = middles[1];
-    for (unsigned int a = 0; a < 4; ++a)
-      {
-        std::array<std::array<Point<dim>, 2>, 2> edge, inner;
-        for (unsigned int at_end = 0; at_end < 2; ++at_end)
+        Tensor<1, dim> from, to;
+        for (unsigned int a = 0; a < 4; ++a)
           {
-            edge[at_end]  = lengthened(x[at_end][a], x[at_end][(a + 1) % 4]);
-            inner[at_end] = lengthened(x[at_end][a], middles[at_end]);
+            from += 0.25 * inner_position(corner(face, a), false);
+            to += 0.25 * inner_position(corner(face, a), true);
           }
-        edge_boxes[4 * std::size_t(face) + a]  = MotionBox(edge[0], edge[1]);
-        inner_boxes[4 * std::size_t(face) + a] = MotionBox(inner[0], inner[1]);
+        middle_from[face] = Point<dim>(from);
+        middle_to[face]   = Point<dim>(to);
       }
-    for (auto &corners : x)
-      for (unsigned int a = 0; a < 2; ++a)
-        {
-          const auto ends = lengthened(corners[a], corners[a + 2]);
-          corners[a]      = ends[0];
-          corners[a + 2]  = ends[1];
-        }
-    face_boxes[face] = MotionBox(x[0], x[1]);
   }
 
 
 
   void
-  GeneralContact::check_node(const SurfacePoint &node, const unsigned int face, const Kind kind)
+  GeneralContact::check_node(const SurfacePoint &node,
+                             const unsigned int  face,
+                             const OpenFaces    &faces,
+                             Separation         &known)
   {
-    const Point<dim> from = inner_position(node, false), to = inner_position(node, true);
-    if (!MotionBox(std::array<Point<dim>, 1>{{from}}, std::array<Point<dim>, 1>{{to}})
-           .meets(face_boxes[face]))
-      return;
-    // What slides on a face is never far from it: its normal tells them apart.
-    std::array<Point<dim>, 6> all_from, all_to;
-    for (unsigned int i = 0; i < 6; ++i)
+    std::array<Point<dim>, 5> from, to;
+    for (unsigned int i = 0; i < 5; ++i)
       {
-        const SurfacePoint point = i == 0 ? node : i == 5 ? middle(face) : corner(face, i - 1);
-        all_from[i]              = inner_position(point, false);
-        all_to[i]                = inner_position(point, true);
+        const SurfacePoint point = i == 0 ? node : corner(face, i - 1);
+        from[i]                  = inner_position(point, false);
+        to[i]                    = inner_position(point, true);
       }
-    for (const auto *const x : {&all_from, &all_to})
-      if (stay_apart(all_from, all_to, 1, cross_product_3d((*x)[3] - (*x)[1], (*x)[4] - (*x)[2])))
-        return;
+    if (stay_apart<1>(from, to, faces.frame, faces.size, some_patience, known))
+      return;
     // Where several triangles are crossed at once, as on the line between them, each has its row:
     // otherwise round-off would choose.
     std::array<std::optional<Crossing>, 4> crossed;
     double                                 first = std::numeric_limits<double>::max();
     for (unsigned int t = 0; t < 4; ++t)
       {
-        crossed[t] = first_crossing_node_triangle(node_and_triangle(node, face, t, false),
-                                                  node_and_triangle(node, face, t, true));
+        const FourPoints a = node_and_triangle(node, face, t, false),
+                         b = node_and_triangle(node, face, t, true);
+        Separation unknown;
+        if (on_one_side(a, b) || stay_apart<1>(a, b, faces.frame, 0., 0, unknown))
+          continue;
+        crossed[t] = first_crossing_node_triangle(a, b);
         if (crossed[t])
           first = std::min(first, crossed[t]->time);
       }
     for (unsigned int t = 0; t < 4; ++t)
       if (crossed[t] && crossed[t]->time <= first + tie)
-        keep_out(node, face, t, *crossed[t], kind);
+        keep_out(node, face, t, *crossed[t]);
   }
 
 
@@ -173,8 +268,7 @@ namespace Touchstone
   GeneralContact::keep_out(const SurfacePoint &node,
                            const unsigned int  face,
                            const unsigned int  triangle,
-                           const Crossing     &crossing,
-                           const Kind          kind)
+                           const Crossing     &crossing)
   {
     const FourPoints a = node_and_triangle(node, face, triangle, false),
                      b = node_and_triangle(node, face, triangle, true);
@@ -195,32 +289,25 @@ namespace Touchstone
     std::array<double, 3> weights = crossing.weights;
     for (double &weight : weights)
       weight += tie * (weight - 1. / 3.);
-    found.emplace_back(kind, node_row(node, face, triangle, weights, normal / normal.norm()));
+    found.push_back(node_row(node, face, triangle, weights, normal / normal.norm()));
   }
 
 
 
   void
-  GeneralContact::check_edges(const Points &ends, const Kind kind)
+  GeneralContact::check_edges(const Points &ends, const OpenFaces &faces, Separation &known)
   {
     FourPoints a, b;
     for (unsigned int side = 0; side < 4; side += 2)
       for (FourPoints *const x : {&a, &b})
         {
-          const auto edge = lengthened(inner_position(ends[side], x == &b),
-                                       inner_position(ends[side + 1], x == &b));
+          const auto edge = inner_edge({{ends[side], ends[side + 1]}}, x == &b);
           (*x)[side]      = edge[0];
           (*x)[side + 1]  = edge[1];
         }
-    // Edges that rest on each other are never far apart: directions that tell them apart.
-    const Tensor<1, dim> e = a[1] - a[0], f = a[3] - a[2], apart = a[2] - a[0];
-    for (const Tensor<1, dim> &direction : {outward(ends),
-                                            cross_product_3d(e, f),
-                                            cross_product_3d(b[1] - b[0], b[3] - b[2]),
-                                            cross_product_3d(cross_product_3d(e, apart), e),
-                                            cross_product_3d(cross_product_3d(f, apart), f)})
-      if (stay_apart(a, b, 2, direction))
-        return;
+    // Edges that rest on each other are never far apart, and what is bisected takes long.
+    if (stay_apart<2>(a, b, faces.frame, faces.size, 0, known))
+      return;
     const auto crossing = first_crossing_edge_edge(a, b);
     if (!crossing)
       return;
@@ -236,7 +323,7 @@ namespace Touchstone
       return;
     for (double &at_edge : at_edges)
       at_edge += tie * (2. * at_edge - 1.);
-    found.emplace_back(kind, edge_row(ends, at_edges, normal));
+    found.push_back(edge_row(ends, at_edges, normal));
   }
 
 

@@ -3,6 +3,7 @@
 #include <touchstone/explicit/general/general_contact.h>
 #include <touchstone/explicit/general/moving_points.h>
 
+#include <algorithm>
 #include <cmath>
 
 // The check of crossings of warped faces: edges from their corners to the middle, and the middle
@@ -32,33 +33,58 @@ namespace Touchstone
   // The middle of a warped face can reach further than its edges, and so can the edges from there
   // to the corners. Of a plane face nothing meets them before it meets the face or its edges.
   void
-  GeneralContact::check_inner_edges(const unsigned int one, const unsigned int other)
+  GeneralContact::check_inner_edges(const unsigned int one,
+                                    const unsigned int other,
+                                    const OpenFaces   &faces)
   {
-    if (!face_boxes[one].meets(face_boxes[other]))
+    // What is known of each of three kinds of 16 pairs, and of the middles.
+    std::vector<Separation> &known = apart_inner[faces.pair];
+    known.resize(3 * 16 + 2);
+    const auto far_apart = [&](const Separation &of) { return of.until > travelled + travels; };
+    if (std::all_of(known.begin(), known.end(), far_apart))
       return;
-    const bool of_one = warped[one], of_other = warped[other];
+    const bool of_one = is_warped(one), of_other = is_warped(other);
     if (!of_one && !of_other)
       return;
-    const auto edge = [&](const unsigned int face, const unsigned int a, const bool inner) {
-      const SurfacePoint begin = corner(face, a);
-      return inner ? std::array<SurfacePoint, 2>{{begin, middle(face)}} : ends_of(begin.slot);
+    // Edges of the face, and from its corners to the middle, with their boxes.
+    struct Edge
+    {
+      std::array<SurfacePoint, 2> ends;
+      MotionBox                   box;
     };
+    const auto edges_of = [&](const unsigned int face, const bool inner) {
+      std::array<Edge, 4> edges;
+      for (unsigned int a = 0; a < 4; ++a)
+        {
+          const SurfacePoint begin = corner(face, a);
+          edges[a].ends =
+            inner ? std::array<SurfacePoint, 2>{{begin, middle(face)}} : ends_of(begin.slot);
+          edges[a].box =
+            MotionBox(inner_edge(edges[a].ends, false), inner_edge(edges[a].ends, true));
+        }
+      return edges;
+    };
+    const std::array<std::array<Edge, 4>, 2> edges_of_one{
+      {edges_of(one, false), edges_of(one, true)}},
+      edges_of_other{{edges_of(other, false), edges_of(other, true)}};
+    unsigned int n = 0;
     for (const bool inner_one : {false, true})
       for (const bool inner_other : {false, true})
-        if ((inner_one || inner_other) && (!inner_one || of_one) && (!inner_other || of_other))
-          for (unsigned int a = 0; a < 4; ++a)
-            for (unsigned int b = 0; b < 4; ++b)
+        if (inner_one || inner_other)
+          for (const Edge &e : edges_of_one[inner_one])
+            for (const Edge &f : edges_of_other[inner_other])
               {
-                const std::size_t p = 4 * std::size_t(one) + a, q = 4 * std::size_t(other) + b;
-                if (!(inner_one ? inner_boxes : edge_boxes)[p].meets(
-                      (inner_other ? inner_boxes : edge_boxes)[q]))
+                Separation &of = known[n++];
+                if ((inner_one && !of_one) || (inner_other && !of_other) || far_apart(of))
                   continue;
-                const auto e = edge(one, a, inner_one), f = edge(other, b, inner_other);
-                check_edges({{e[0], e[1], f[0], f[1]}}, Kind::inner);
+                if (const double distance = e.box.distance(f.box); distance > 0.)
+                  of.until = travelled + distance - reserve * faces.size;
+                else
+                  check_edges({{e.ends[0], e.ends[1], f.ends[0], f.ends[1]}}, faces, of);
               }
-    if (of_one)
-      check_node(middle(one), other, Kind::inner);
-    if (of_other)
-      check_node(middle(other), one, Kind::inner);
+    if (of_one && !far_apart(known[n]))
+      check_node(middle(one), other, faces, known[n]);
+    if (of_other && !far_apart(known[n + 1]))
+      check_node(middle(other), one, faces, known[n + 1]);
   }
 } // namespace Touchstone

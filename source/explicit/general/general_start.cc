@@ -72,11 +72,12 @@ namespace Touchstone
     made_at = u;
     margin  = least_margin * smallest;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
-    motion.resize(candidates.at_slots.n());
+    begin_candidates();
     normal_now.clear();
     set_normals(u);
     import(u, at_rest);
     cycle = 0.;
+    find_near(0.);
     set_inner_positions(inwards);
     std::vector<Place> places;
     const auto         check = [&](const unsigned int of, const unsigned int face) {
@@ -109,10 +110,11 @@ namespace Touchstone
         }
     };
     for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
-      {
-        check(pair.one, pair.other);
-        check(pair.other, pair.one);
-      }
+      if (pair.inner_edges)
+        {
+          check(pair.one, pair.other);
+          check(pair.other, pair.one);
+        }
     renew             = true;
     const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
     std::sort(places.begin(), places.end(), by_key);

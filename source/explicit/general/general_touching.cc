@@ -117,23 +117,25 @@ namespace Touchstone
 
 
   void
-  GeneralContact::add_hit(const std::size_t  node,
-                          const unsigned int face,
-                          std::vector<Hit>  &hits) const
+  GeneralContact::add_hit(const unsigned int pair, std::vector<Hit> &hits) const
   {
+    const auto &[node, face, of_faces] = candidates.node_faces[pair];
+
     // The nodes of the other side only where they had to press in the cycle before.
     if (!is_slave(node, face) && pressed_nodes.count(candidates.key(node)) == 0)
       return;
-    const Tensor<1, dim> &x = at(node).x;
-    Hit                   best;
-    double                inside = -tie;
+    const Tensor<1, dim>         &x = at(node).x;
+    std::array<Tensor<1, dim>, 4> corners;
+    for (unsigned int i = 0; i < 4; ++i)
+      corners[i] = at(corner(face, i).slot).x - x;
+    const Tensor<1, dim> c = mean(middle(face), &NodeMotion::x) - x;
+    Hit                  best;
+    double               inside = -tie;
     for (unsigned int t = 0; t < 4; ++t)
       {
-        const Tensor<1, dim> a          = mean(corner(face, t), &NodeMotion::x) - x,
-                             b          = mean(corner(face, t + 1), &NodeMotion::x) - x,
-                             c          = mean(middle(face), &NodeMotion::x) - x;
-        const Tensor<1, dim> twice_area = cross_product_3d(b - a, c - a);
-        const double         square     = twice_area.norm_square();
+        const Tensor<1, dim> &a = corners[t], &b = corners[(t + 1) % 4];
+        const Tensor<1, dim>  twice_area = cross_product_3d(b - a, c - a);
+        const double          square     = twice_area.norm_square();
         if (square == 0.)
           continue;
         const std::array<double, 3> weights{{cross_product_3d(b, c) * twice_area / square,
@@ -154,6 +156,7 @@ namespace Touchstone
     if (best.face == numbers::invalid_unsigned_int)
       return;
     const double h = std::min(at(node).size, size(corner(face, best.triangle)));
+    best.pair      = pair;
     best.opposed   = at(node).normal * best.normal;
     if (best.gap <= touching * h && best.gap >= -overlapping * h && best.opposed <= 0.)
       hits.push_back(best);
@@ -181,15 +184,20 @@ namespace Touchstone
   void
   GeneralContact::find_touching_nodes()
   {
-    const auto      &pairs = candidates.node_faces;
-    std::vector<Hit> hits, kept;
-    for (std::size_t begin = 0, end = 0; begin < pairs.size(); begin = end)
+    touches.assign(candidates.node_faces.size(), false);
+    const std::vector<unsigned int> &near = near_nodes_and_faces;
+    std::vector<Hit>                 hits, kept;
+    for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end)
       {
-        const std::size_t node = pairs[begin].node;
+        // The same node may be called by the slots of several faces.
+        const std::size_t   node = candidates.node_faces[near[begin]].node;
+        const std::uint64_t of   = candidates.key(node);
         hits.clear();
         kept.clear();
-        for (end = begin; end < pairs.size() && pairs[end].node == node; ++end)
-          add_hit(node, pairs[end].face, hits);
+        for (end = begin;
+             end < near.size() && candidates.key(candidates.node_faces[near[end]].node) == of;
+             ++end)
+          add_hit(near[end], hits);
         // The face that is most opposed comes first, of equal ones that of the lowest key.
         std::stable_sort(hits.begin(), hits.end(), [](const Hit &a, const Hit &b) {
           return a.opposed < b.opposed;
@@ -202,7 +210,10 @@ namespace Touchstone
               }))
             kept.push_back(hit);
         for (const Hit &hit : kept)
-          use(node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal));
+          {
+            touches[hit.pair] = true;
+            use(node_row({node, false}, hit.face, hit.triangle, hit.weights, hit.normal));
+          }
       }
   }
 

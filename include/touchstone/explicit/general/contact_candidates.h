@@ -43,7 +43,7 @@ namespace Touchstone
      * @param u,v    Displacement and velocity of local nodes, which move by @p step times @p v.
      * @param margin By so much two nodes may move otherwise, along each axis and relative to each
      *               other; length.
-     * @param neighbours_as_well #face_pairs has faces that share a node, too.
+     * @param neighbours_as_well Inner edges of faces that share a node are candidates, too.
      */
     void
     find(const NodeField &u,
@@ -52,24 +52,35 @@ namespace Touchstone
          double           margin,
          bool             neighbours_as_well = false);
 
-    /** Pairs by slots, each sorted by keys: a node and a face; two edges; and faces whose inner
-     * edges, from corners to the middle, may meet others. */
+    /** Pairs by slots, each sorted by keys: a node and a face; and two edges. Each belongs to one
+     * of #face_pairs. */
     struct NodeFace
     {
       std::size_t  node;
-      unsigned int face;
+      unsigned int face, of_faces;
     };
     struct EdgePair
     {
-      std::size_t one, other;
+      std::size_t  one, other;
+      unsigned int of_faces;
     };
+    /** Two faces that pairs of nodes and edges belong to, or whose inner edges, from corners to the
+     * middle, may meet those of the other. */
     struct FacePair
     {
       unsigned int one, other;
+      bool         share_node, inner_edges;
     };
     std::vector<NodeFace> node_faces;
     std::vector<EdgePair> edge_pairs;
     std::vector<FacePair> face_pairs;
+    /** Numbers of #node_faces and of #edge_pairs by the pair of faces that they belong to, and
+     * where those of each begin. */
+    struct ByFaces
+    {
+      std::vector<unsigned int> begin, numbers;
+    };
+    ByFaces nodes_by_faces, edges_by_faces;
     /** Their faces. */
     std::vector<ImpactFace> faces;
     /** The nodes of all slots. */
@@ -149,6 +160,8 @@ namespace Touchstone
     find_pairs(const std::vector<MovingFace> &all, double margin, bool neighbours_as_well);
     void
     keep_used_faces(const std::vector<MovingFace> &all);
+    void
+    sort_by_faces();
   };
 } // namespace Touchstone
 

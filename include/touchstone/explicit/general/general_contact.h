@@ -10,6 +10,7 @@
 #include <touchstone/explicit/general/moving_points.h>
 #include <touchstone/explicit/impulse_solver.h>
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -150,6 +151,10 @@ namespace Touchstone
     static constexpr double tie = 1e-6;
 
   private:
+    /** Relative to the size of faces: what is farther apart does not touch, however surfaces that
+     * are moved inwards turn. */
+    static constexpr double reserve = 0.012;
+
     /** First numbers of the keys of rows, above all numbers of pairs. */
     static constexpr std::uint64_t on_faces = std::uint64_t(1) << 32, on_edges = on_faces + 1;
 
@@ -190,6 +195,8 @@ namespace Touchstone
       std::array<double, 3>  weights{};
       dealii::Tensor<1, dim> normal, middle;
       double                 gap = 0., opposed = 0.;
+      /** Number of the candidate. */
+      unsigned int pair = 0;
     };
 
     const GeneralContactParameters &parameters;
@@ -203,20 +210,42 @@ namespace Touchstone
     /** Candidates hold as long as nodes have moved relative to each other by less than the margin
      * since they stood here. The present cycle may move them by its part of it. */
     NodeField made_at;
-    double    margin = 0., most_in_cycle = 0.;
-    bool      renew = true;
+    /** Local numbers of the owned nodes of the candidates. */
+    std::vector<unsigned int> local;
+    double                    margin = 0., most_in_cycle = 0.;
+    bool                      renew = true;
     /** By node of the candidates, at the start of the cycle. */
-    std::vector<NodeMotion>         motion;
-    double                          cycle = 0.;
-    std::vector<dealii::Point<dim>> inner_from, inner_to;
-    /** Middles of faces, and boxes through the cycle of faces, and by slot of edges and of those
-     * from corners to the middle. */
-    std::vector<dealii::Point<dim>> middle_from, middle_to;
-    std::vector<MotionBox>          face_boxes, edge_boxes, inner_boxes;
-    std::vector<bool>               warped;
-    std::vector<Row>                rows;
-    std::map<RowKey, std::size_t>   numbers;
-    bool                            new_rows = false;
+    std::vector<NodeMotion> motion;
+    double                  cycle = 0.;
+    /** Positions of nodes and of middles of faces on surfaces that are moved inwards, at the start
+     * and at the end; of #near_faces. */
+    std::vector<dealii::Point<dim>> inner_from, inner_to, middle_from, middle_to;
+    /** What is known of a candidate from earlier looks: that nothing of it crosses or touches
+     * before nodes have #travelled so far, length, and the direction that told its points apart, in
+     * the TurningFrame of the first of the pair of faces that it belongs to, if one did. */
+    struct Separation
+    {
+      double                 until = -std::numeric_limits<double>::max();
+      dealii::Tensor<1, dim> direction;
+      bool                   known = false;
+      /** It is not worth to look for a direction in so many further looks. */
+      unsigned int hopeless = 0;
+    };
+    /** By pair of faces, by pair of a node and a face, and of edges; and by pair of faces, those of
+     * inner edges that have been looked at. */
+    std::vector<Separation>              apart_faces, apart_nodes, apart_edges;
+    std::vector<std::vector<Separation>> apart_inner;
+    /** By pair of a node and a face: it has a row as it touches. */
+    std::vector<bool> touches;
+    /** Bounds of how far any two nodes have moved relative to each other in all cycles so far, and
+     * of the motion to be checked; length. */
+    double travelled = 0., travels = 0.;
+    /** Pairs of faces whose nodes may come together in the present cycle, and what they refer to:
+     * pairs of nodes and faces by their numbers, in ascending order, faces, and nodes. */
+    std::vector<unsigned int>     near_pairs, near_nodes_and_faces, near_faces, near_nodes;
+    std::vector<Row>              rows;
+    std::map<RowKey, std::size_t> numbers;
+    bool                          new_rows = false;
     /** Of the cycle before, by row: impulses, and whether it slides; by slave: whether it slides;
      * and nodes and pairs of edges that pressed. */
     struct Pressed
@@ -234,15 +263,19 @@ namespace Touchstone
     Energy                    energies;
 
     /** By how much nodes have moved relative to each other since the candidates were made, and do
-     * so in the cycle; length. The latter is infinite if a velocity is not finite. Collective. */
+     * so in the cycle, along an axis, length. The latter is infinite if a velocity is not finite.
+     * And bounds of the distances: since the cycle before began, and in the cycle. Collective. */
     struct Range
     {
-      double before, in_cycle;
+      double before, in_cycle, far_before, far_in_cycle;
     };
     Range
     range(const NodeField &u, const NodeField &v, double step) const;
     void
     renew_candidates(const NodeField &u, const NodeField &v, double step, double in_cycle);
+    /** Nothing is known of new candidates. */
+    void
+    begin_candidates();
     void
     import(const NodeField &u, const NodeField &v);
     /** Of owned nodes of surfaces: normals at the start of this cycle, of the one before, and where
@@ -265,11 +298,21 @@ namespace Touchstone
     }
     /** Where a point of the surface, moved inwards, is at the start or end of the cycle. */
     dealii::Point<dim>
-    inner_position(const SurfacePoint &point, bool at_end) const;
+    inner_position(const SurfacePoint &point, const bool at_end) const
+    {
+      return point.middle ? (at_end ? middle_to : middle_from)[point.slot / 4]
+                          : (at_end ? inner_to : inner_from)[candidates.at_slots.node(point.slot)];
+    }
+    /** The ends of an edge there, a little longer, so that edges that meet at their ends do so
+     * whatever round-off is. */
+    std::array<dealii::Point<dim>, 2>
+    inner_edge(const std::array<SurfacePoint, 2> &ends, bool at_end) const;
     void
     set_inner_positions(double part = inset);
+    /** Which pairs of faces have nodes that may come together before they have moved by
+     * @p distance: sets #near_pairs and what goes with it. */
     void
-    set_boxes(unsigned int face);
+    find_near(double distance);
     dealii::Tensor<1, dim>
     mean(const SurfacePoint &point, dealii::Tensor<1, dim> NodeMotion::*quantity) const;
     std::uint64_t
@@ -297,11 +340,10 @@ namespace Touchstone
       node,
       edges,
       /** Edges from corners of warped faces to their middle, and the middle. */
-      inner,
-      none
+      inner
     };
     /** Crossings of the last check, with the rows that prevent them. */
-    std::vector<std::pair<Kind, Row>> found;
+    std::vector<Row> found;
 
     /** The row takes part in the cycle, as it is or instead of the one of its key. */
     void
@@ -338,17 +380,49 @@ namespace Touchstone
     bool
     is_slave(std::size_t node, unsigned int face) const;
     void
-    add_hit(std::size_t node, unsigned int face, std::vector<Hit> &hits) const;
+    add_hit(unsigned int pair, std::vector<Hit> &hits) const;
     bool
     stand_together(const Hit &one, const Hit &other, std::size_t node) const;
 
+    /** Two faces that may come together in the present cycle: number of the pair, size of the
+     * larger one, length, and the frame of the first. */
+    struct OpenFaces
+    {
+      unsigned int pair;
+      double       size;
+      TurningFrame frame;
+    };
+    std::vector<OpenFaces> open_faces;
+    /** The motion that is checked is that of free velocities. */
+    bool looks_ahead = false;
+
     /** Check the motion through the cycle that import() has brought: #new_rows is the same on all
-     * ranks then. @return whether rows have been added or changed, on any rank. Collective. */
+     * ranks then. @param ahead With free velocities: only nodes of the finer side that do not
+     * touch.
+     * @return whether rows have been added or changed, on any rank. Collective. */
     bool
-    check_motion();
-    /** Its parts, which add to #found. */
+    check_motion(bool ahead);
+    /** Its parts: pairs of faces that no direction tells apart; what belongs to one, which is added
+     * to #found, and how long that stays apart; a node and a face, two edges, inner edges. */
     void
-    check_node(const SurfacePoint &node, unsigned int face, Kind kind);
+    find_open_faces();
+    void
+    check_faces(const OpenFaces &faces, Kind kind);
+    void
+    keep_until(const OpenFaces &faces);
+    template <std::size_t m, std::size_t n>
+    bool
+    stay_apart(const std::array<dealii::Point<dim>, n> &from,
+               const std::array<dealii::Point<dim>, n> &to,
+               const TurningFrame                      &frame,
+               double                                   size,
+               unsigned int                             patience,
+               Separation                              &known) const;
+    void
+    check_node(const SurfacePoint &node,
+               unsigned int        face,
+               const OpenFaces    &faces,
+               Separation         &known);
     FourPoints
     node_and_triangle(const SurfacePoint &node,
                       unsigned int        face,
@@ -358,12 +432,11 @@ namespace Touchstone
     keep_out(const SurfacePoint &node,
              unsigned int        face,
              unsigned int        triangle,
-             const Crossing     &crossing,
-             Kind                kind);
+             const Crossing     &crossing);
     void
-    check_edges(const Points &ends, Kind kind);
+    check_edges(const Points &ends, const OpenFaces &faces, Separation &known);
     void
-    check_inner_edges(unsigned int one, unsigned int other);
+    check_inner_edges(unsigned int one, unsigned int other, const OpenFaces &faces);
     bool
     is_warped(unsigned int face) const;
     dealii::Tensor<1, dim>
