@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/explicit/row_geometry.h>
 #include <touchstone/explicit/row_motion.h>
 
 #include <algorithm>
@@ -82,7 +83,7 @@ namespace Touchstone
       {
         const ContactRow &row = contact.rows()[rows[k]];
         if (!row.stencil.empty() && !contact.pair(row).small_sliding())
-          sliding.push_back({k, row.size, row.gap, row.normal});
+          sliding.push_back({k, row.size, weight_of_slave(row) * row.gap, row.normal});
       }
   }
 
