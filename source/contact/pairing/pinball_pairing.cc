@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
-#include <touchstone/base/input_error.h>
 #include <touchstone/contact/geometry/face_area.h>
-#include <touchstone/contact/pairing/balls_in_cell.h>
+#include <touchstone/contact/pairing/ball_depth.h>
 #include <touchstone/contact/pairing/normal_search.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -71,16 +70,18 @@ namespace Touchstone
         /** Where its search begins. */
         std::size_t guess = std::numeric_limits<std::size_t>::max();
         /** Of the present update. */
-        LookingPoint point{};
+        LookingPoint               point{};
+        std::optional<FacingPoint> facing{};
       };
 
       const BallsInCell      balls;
       NormalSearch           search;
+      BallDepth              depth;
       std::vector<SlaveBall> slaves;
       unsigned int           most_at_a_node = 0;
 
       void
-      set_row(const SlaveBall &slave, const FacingPoint &facing, ContactRow &row) const;
+      set_row(const SlaveBall &slave, ContactRow &row) const;
     };
 
     class SplittingPinballPairing : public PinballPairing
@@ -121,6 +122,7 @@ namespace Touchstone
       : Pairing(input)
       , balls(splittings)
       , search(input)
+      , depth(*input.solid, balls)
     {
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -143,7 +145,7 @@ namespace Touchstone
 
 
     void
-    PinballPairing::update(const Vector &, const double, std::vector<ContactRow> &rows)
+    PinballPairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
     {
       // Nodes, and numbers that no ball has: nothing will ever meet them.
       for (ContactRow &row : rows)
@@ -169,14 +171,22 @@ namespace Touchstone
           positions.push_back(slave.point.x);
         }
       search.update(positions);
+      std::vector<const Face *> met;
+      for (SlaveBall &slave : slaves)
+        {
+          slave.facing = search.look(slave.point);
+          if (slave.facing)
+            met.push_back(slave.facing->face);
+        }
+      depth.update(u, met);
       for (SlaveBall &slave : slaves)
         {
           ContactRow &row = rows[slave.row];
           row.area        = slave.area * balls.weight(slave.ball, slave.m);
-          if (const auto facing = search.look(slave.point))
+          if (slave.facing)
             {
-              slave.guess = search.faces().exchange().index(*facing->face);
-              set_row(slave, *facing, row);
+              slave.guess = search.faces().exchange().index(*slave.facing->face);
+              set_row(slave, row);
             }
           else
             row.away = search.least_distance(slave.point.x);
@@ -185,25 +195,27 @@ namespace Touchstone
 
 
 
-    // The gap is the distance of the surfaces, as if the balls touched as soon as these do. The row
-    // is divided by the weight of its own node in the ball (ContactRow::share).
+    // The gap is the distance of the surfaces as they would be if no cell were pressed flat: balls
+    // touch as soon as surfaces do, and keep their size. The row is divided by the weight of its
+    // own node in the ball (ContactRow::share).
     void
-    PinballPairing::set_row(const SlaveBall   &slave,
-                            const FacingPoint &facing,
-                            ContactRow        &row) const
+    PinballPairing::set_row(const SlaveBall &slave, ContactRow &row) const
     {
-      const FaceGeometry master = search.faces().geometry(*facing.face);
-      const double       share  = 1. / balls.weight(slave.ball, slave.m);
-      Tensor<1, dim>     n      = master.normal(facing.at.xi) - slave.point.n;
-      n /= n.norm();
-      row.has_partner             = true;
-      row.away                    = 0.;
-      row.share                   = share;
-      row.normal                  = n;
-      row.gap                     = -share * facing.at.along * (slave.point.n * n);
-      row.gap_vector              = row.gap * n;
-      row.lever                   = slave.point.x - slave.face->position(slave.m);
+      const FacingPoint &facing   = *slave.facing;
+      const FaceGeometry master   = search.faces().geometry(*facing.face);
       const unsigned int opposite = balls.below(facing.at.xi);
+      const double       share    = 1. / balls.weight(slave.ball, slave.m);
+      Tensor<1, dim>     n        = master.normal(facing.at.xi) - slave.point.n;
+      n /= n.norm();
+      const double distance = -facing.at.along * (slave.point.n * n);
+      row.has_partner       = true;
+      row.away              = 0.;
+      row.share             = share;
+      row.normal            = n;
+      row.gap               = share * (distance + depth.change(*slave.face, slave.ball) +
+                         depth.change(*facing.face, opposite));
+      row.gap_vector        = row.gap * n;
+      row.lever             = slave.point.x - slave.face->position(slave.m);
       for (unsigned int i = 0; i < BallsInCell::n_nodes; ++i)
         row.stencil.push_back({facing.face->nodes[i], share * balls.weight(opposite, i)});
       for (unsigned int i = 0; i < BallsInCell::n_nodes; ++i)
