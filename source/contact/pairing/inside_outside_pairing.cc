@@ -165,7 +165,7 @@ namespace Touchstone
 
 
 
-    // The point stays on both: t_a dxi_a - n dl = dx_s + l dn - dx_m|_xi, doc/theory.md (31). On an
+    // The point stays on both: t_a dxi_a - n dl = dx_s + l dn - dx_m|_xi, doc/theory.md (34). On an
     // edge of the face a weight is zero but its derivative is not, so that all nodes of the face
     // belong to the stencil.
     void

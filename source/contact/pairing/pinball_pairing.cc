@@ -160,9 +160,10 @@ namespace Touchstone
       std::vector<Point<dim>> positions;
       for (SlaveBall &slave : slaves)
         {
+          // Of faces of ghost cells not all nodal normals are complete here.
           const FaceGeometry geometry(*slave.face,
                                       input.slave->exact_surface(*slave.face),
-                                      MasterNormal::averaged);
+                                      MasterNormal::face);
           const auto         xi = balls.above(slave.ball);
           slave.point           = {geometry.evaluate(xi).x,
                                    geometry.normal(xi),

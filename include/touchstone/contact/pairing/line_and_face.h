@@ -23,7 +23,7 @@ namespace Touchstone
 
   /**
    * @brief The point at which the line x + l n meets the surface over a face from outside
-   * (doc/theory.md 3.4, equation (30)).
+   * (doc/theory.md 3.4, equation (33)).
    *
    * A bilinear surface is met at two points at most, at one of them from outside: the solution is
    * unique and in closed form. On exact surfaces, smooth patches and faces of degree 2 it is the
