@@ -4,7 +4,7 @@ collide, plates that slide, a press fit (doc/theory.md 3.4, 3.5; table of doc/wh
 
 import shutil
 
-from touchstone_test import (STEPS, below, check, checks, contact_gives, finish, folder, launch, prm,
+from touchstone_test import (STEPS, Run, below, check, checks, contact_gives, finish, folder, launch, prm,
                              relative, run, same, settings_options)
 
 BALLS = "pinball", "splitting pinball"
@@ -33,8 +33,8 @@ def same_bits(name, one, scene, settings):
     shutil.rmtree(sorted(p for p in kept.glob("checkpoint_[0-9]*") if p.suffix != ".part")[-1])
     (kept / "summary.json").unlink()
     again = launch("--results-only", "--output", kept, "--resume", *options, scene)
-    check(again.returncode == 0 and "goes on from checkpoint_" in again.stdout,
-          f"{kept}, resumed: {again.stdout}")
+    check(again.returncode == 0, f"{kept}, resumed: {again.stdout}")
+    Run(f"{name}, resumed", kept, again.stdout).says("goes on from checkpoint_")
     check(text_of(kept) == text_of(one.folder), f"{name}: other results after a restart")
 
 
@@ -49,9 +49,7 @@ below("soft balls, time of contact", relative(
     *(sum(force > 0 for force in coarse[name].column("impact: force z"))
       for name in ("inside-outside", "pointwise"))), 0.03)
 contact_gives(coarse["inside-outside"], 1e-11)
-FINE = {"Discretisation/Refinement factor": 2, "Load stepping/End time": 2.4e-4, STEPS: 1,
-        **{f"Body {body}/Element": "one point" for body in ("upper", "lower")},
-        **{f"Body {body}/Material/Law": "neo-Hookean" for body in ("upper", "lower")}}
+FINE = {"Discretisation/Refinement factor": 2, "Load stepping/End time": 2.4e-4, STEPS: 24}
 fine = {name: run(f"fine_balls_{name}", scene, {"Contact pair impact/Pairing": name, **FINE})
         for name in ("pointwise", *BALLS)}
 for name, allowed in zip(BALLS, (0.1, 0.02)):
@@ -77,8 +75,8 @@ scene = checks / "sliding_plates.prm"
 for name in OTHERS:
     setting = {"Contact pair pair/Pairing": name}
     plates = run(f"plates_{name}", scene, setting)
-    impulse = plates.value("motion", "impacts", "pair", "impulse")
-    below(f"{plates}, friction", relative(-impulse[0], 0.1 * impulse[2]), 0.01)
+    impulse = [plates.value("motion", "impacts", "pair", "impulse", d) for d in range(3)]
+    below(f"{plates}, friction", relative(-impulse[0], 0.3 * impulse[2]), 0.01)
     contact_gives(plates, 1e-12)
     rows = plates.rows()
     for title in rows[0]:
@@ -86,8 +84,8 @@ for name in OTHERS:
             below(f"{plates}, {title}", max(row[title] for row in rows) -
                   min(row[title] for row in rows), 1e-15)
     same_bits(name, plates, scene, setting)
-    springs = {**setting, "Contact/Enforcement": "soft penalty"}
-    run(f"soft_{name}", scene, springs)
+    springs = run(f"springs_{name}", scene, {**setting, "Contact/Enforcement": "soft penalty"})
+    check(springs.value("motion", "impacts", "pair", "impulse", 2) > 0.03, f"{springs}: no force")
 
 # A press fit on meshes that do not match: the same with all enforcements and on two ranks, and the
 # projection within the error of the mesh.
@@ -96,8 +94,10 @@ FIT = {"Body inner tube/Geometry/Cells": "4, 14, 1", "Body outer tube/Geometry/C
 fit = run("fit", prm / "press_fit.prm", FIT)
 by_projection = run("fit_pointwise", prm / "press_fit.prm",
                     {**FIT, "Contact pair fit/Pairing": "pointwise"})
-below("fit, pressure", abs(fit.error("contact_pressure_mean")), 1e-3)
-below("fit, iterations", fit.iterations() - by_projection.iterations(), 0)
+below("fit, pressure", abs(fit.error("contact_pressure_mean")), 2e-3)
+below("fit, pressure by projection", abs(fit.error("contact_pressure_mean") -
+                                         by_projection.error("contact_pressure_mean")), 1e-5)
+check(fit.iterations() == by_projection.iterations(), "fit: other iterations than by projection")
 same(fit, run("fit_2", prm / "press_fit.prm", FIT, ranks=2), 1e-9)
 for name in "lagrange multipliers", "augmented lagrange":
     same(fit, run(f"fit_{name}", prm / "press_fit.prm", {**FIT, "Contact/Enforcement": name}), 1e-6)
