@@ -296,6 +296,22 @@ main(int argc, char **argv)
         0.03);
   for (const std::string kind : {"face", "averaged", "smoothed"})
     check("slit, " + kind, slit, {set("Master normal", kind)}, 0.);
+  // The direction is that of the slave, on its sharp edges that of one side.
+  const std::string inside_outside = set("Pairing", "inside-outside");
+  check("inside-outside, warped faces", blocks, {inside_outside}, -0.01);
+  check("inside-outside, over edges and a corner", overhang, {inside_outside}, 0.05);
+  check("inside-outside, with the sides of the slave",
+        blocks,
+        {inside_outside, set("Slave boundaries", "bottom, left, right, front, back")},
+        -0.01);
+  check("inside-outside, tubes", tubes, {inside_outside}, 0.);
+  check("inside-outside, faceted tubes", tubes, {inside_outside, faceted}, 0.);
+  check("inside-outside, smoothed tubes",
+        tubes,
+        {inside_outside, faceted, set("Master normal", "smoothed")},
+        0.);
+  check("inside-outside, degree 2", blocks, {inside_outside, degree_2}, -0.01, 0.005);
+  check("inside-outside, tubes, degree 2", tubes, {inside_outside, degree_2}, 0., 0.005);
   // Each shape has keys of its own.
   const std::string direction = "Obstacle rigid/Direction=0.2,1,0.3",
                     radius    = "Obstacle rigid/Radius=2";

@@ -185,12 +185,17 @@ namespace Touchstone
       {
         const ContactPair &pair   = contact.pair(p);
         double             lowest = std::numeric_limits<double>::max(), size = 0.;
-        unsigned int       nodes = 0, partner = 0, overlapping = 0;
+        unsigned int       points = 0, partner = 0, overlapping = 0;
+        const bool         at_nodes = pair.pairing().keeps_nodes_out();
+        const char *const  what     = at_nodes ? "slave nodes" : "points of slave faces";
         for (std::size_t k = 0; k < pair.rows().size(); ++k)
           {
             const ContactRow &row = pair.rows()[k];
-            nodes += !row.between_nodes;
-            if (!row.has_partner || row.between_nodes)
+            // Of pairings that keep points between nodes out of the master these are counted.
+            if (row.between_nodes == at_nodes || (!at_nodes && row.area == 0.))
+              continue;
+            ++points;
+            if (!row.has_partner)
               continue;
             // The gap as the bodies are placed: before the treatment of initial overlaps, and of
             // the surfaces themselves, see ContactRow::share.
@@ -201,7 +206,7 @@ namespace Touchstone
             overlapping += (gap < -Tolerances::touches_at_start * row.size);
           }
         // Each node is the row of exactly one rank, so sums over ranks count no node twice.
-        const unsigned int total = Utilities::MPI::sum(nodes, communicator);
+        const unsigned int total = Utilities::MPI::sum(points, communicator);
         lowest                   = Utilities::MPI::min(lowest, communicator);
         size                     = Utilities::MPI::max(size, communicator);
         partner                  = Utilities::MPI::sum(partner, communicator);
@@ -217,15 +222,14 @@ namespace Touchstone
         char text[300];
         if (partner == 0)
           // Without a partner no row has a gap to report.
-          std::snprintf(text,
-                        sizeof(text),
-                        "no master face within reach of any of %u slave nodes",
-                        total);
+          std::snprintf(
+            text, sizeof(text), "no master face within reach of any of %u %s", total, what);
         else
           std::snprintf(text,
                         sizeof(text),
-                        "%u slave nodes, %u face the master surface, smallest gap %.4g%s",
+                        "%u %s, %u face the master surface, smallest gap %.4g%s",
                         total,
+                        what,
                         partner,
                         lowest,
                         overlapping == 0 ? "" : overlap.c_str());

@@ -35,14 +35,12 @@ namespace Touchstone
     pairing_method = make_pairing(input.parameters.search_distance);
     // One row for each slave node that this rank owns; hanging nodes have none. The stiffness E A /
     // h is the complementarity constant c of doc/theory.md 5 and the scale of all springs.
-    // Where edges can meet, a second one follows for what touches between the nodes.
-    for (const bool between_nodes : {false, true})
+    // Those for what touches between the nodes follow, where the pairing has any.
+    for (unsigned int kind = 0; kind <= pairing_method->rows_between_nodes(); ++kind)
       for (const SurfaceNode &node : slave_surface->owned_nodes())
         {
-          if (between_nodes && !edges_meet)
-            break;
           ContactRow row;
-          row.between_nodes = between_nodes;
+          row.between_nodes = (kind > 0);
           row.pair          = input.number;
           row.slave         = node.node;
           row.reference     = node.reference;

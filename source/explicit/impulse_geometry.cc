@@ -116,8 +116,9 @@ namespace Touchstone
       }
     else
       {
-        const ContactPair &pair    = contact.pair(of);
-        const double       overlap = pair.overlap(of.index - pair.rows().front().index);
+        const ContactPair &pair = contact.pair(of);
+        const double       overlap =
+          weight_of_slave(of) * pair.overlap(of.index - pair.rows().front().index);
         // The row was made with the part of an initial overlap that counted then.
         const double gap =
           from.gap + by_motion * row.normal + (from.part - pair.part_of_overlap(time)) * overlap;

@@ -3,6 +3,7 @@
 #include <touchstone/base/exact_sum.h>
 #include <touchstone/explicit/impulse_contact.h>
 #include <touchstone/explicit/infeasible_contact.h>
+#include <touchstone/explicit/row_geometry.h>
 
 #include <algorithm>
 
@@ -153,12 +154,13 @@ namespace Touchstone
         RowState          state;
         if (row.has_partner)
           {
-            state.force    = length > 0. ? h.total / length : Tensor<1, dim>();
-            state.lambda   = state.force * row.normal;
-            state.status   = row.tied                     ? ContactStatus::tied
-                             : !h.pressed                 ? ContactStatus::open
-                             : row.friction && !h.slipped ? ContactStatus::stick
-                                                          : ContactStatus::slip;
+            // On the slave node, as rows of Contact are.
+            state.force  = length > 0. ? weight_of_slave(row) * h.total / length : Tensor<1, dim>();
+            state.lambda = state.force * row.normal;
+            state.status = row.tied                     ? ContactStatus::tied
+                           : !h.pressed                 ? ContactStatus::open
+                           : row.friction && !h.slipped ? ContactStatus::stick
+                                                        : ContactStatus::slip;
             state.accepted = state.active();
           }
         contact.enforcement().set_state(row, state);

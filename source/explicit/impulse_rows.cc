@@ -2,6 +2,7 @@
 
 #include <touchstone/explicit/contact_stiffness.h>
 #include <touchstone/explicit/impulse_contact.h>
+#include <touchstone/explicit/row_geometry.h>
 
 #include <algorithm>
 #include <array>
@@ -15,13 +16,14 @@ namespace Touchstone
   using namespace dealii;
 
   // The moment of a force that does not act along the gap vector is taken up around the slave node:
-  // these faces are known here whole, and never degenerate.
+  // these faces are known here whole, and never degenerate. That of a force between nodes is taken
+  // up by the nodes that it acts on.
   void
   ImpulseContact::find_patches()
   {
     patches.resize(contact.rows().size());
     for (const ContactRow &row : contact.rows())
-      if (const ContactPair &pair = contact.pair(row); pair.master())
+      if (const ContactPair &pair = contact.pair(row); pair.master() && !row.between_nodes)
         {
           auto faces = pair.slave().faces_around(row.slave);
           std::sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
@@ -109,11 +111,12 @@ namespace Touchstone
     for (const ContactRow &from : contact.rows())
       if (from.has_partner)
         {
+          const double scale = weight_of_slave(from);
           kept.push_back({from.index,
-                          from.gap,
-                          from.gap_vector,
+                          scale * from.gap,
+                          scale * from.gap_vector,
                           contact.pair(from).part_of_overlap(contact.time()),
-                          from.gap});
+                          scale * from.gap});
           kept_rows.push_back(from.index);
         }
       else
@@ -171,23 +174,31 @@ namespace Touchstone
   void
   ImpulseContact::add_row(const ContactRow &from, std::vector<std::pair<Index, RowKey>> &slots)
   {
+    std::vector<Index> &patch = patches[from.index];
+    if (from.between_nodes)
+      {
+        patch.assign(1, dim * from.slave);
+        for (const StencilEntry &entry : from.stencil)
+          if (entry.weight < 0.)
+            patch.push_back(dim * entry.node);
+      }
     ImpulseRow row;
     row.key     = {from.pair, nodes.key(nodes.local(dim * from.slave))};
     row.first   = slots.size();
     row.n_nodes = 1 + from.stencil.size();
-    row.n_lever = from.stencil.empty() ? 0 : patches[from.index].size();
+    row.n_lever = from.stencil.empty() ? 0 : patch.size();
     // An obstacle that forces move is a partner with two nodes.
     const bool tool = tools.shift_dof(from.pair) != invalid_index;
     if (tool)
       row.n_nodes = 2;
     row.tied     = from.tied;
     row.friction = from.friction;
-    row.area     = from.area;
+    row.area     = from.area / weight_of_slave(from);
     slots.emplace_back(dim * from.slave, row.key);
     for (const StencilEntry &entry : from.stencil)
       slots.emplace_back(dim * entry.node, row.key);
     if (row.n_lever > 0)
-      for (const Index dof : patches[from.index])
+      for (const Index dof : patch)
         slots.emplace_back(dof, row.key);
     if (tool)
       {
@@ -262,6 +273,9 @@ namespace Touchstone
         sum -= solver.weights[solver.slot(row, i)];
     for (std::size_t of_master = row.first + 1; of_master < s; ++of_master)
       solver.weights[of_master] /= sum;
+    if (from.between_nodes)
+      for (std::size_t of_point = row.first; of_point < s; ++of_point)
+        solver.weights[of_point] *= weight_of_slave(from);
   }
 
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 // Contact of explicit dynamics by springs (doc/explicit.md, section 9.3): forces follow from the
 // gaps at the start of a cycle and act on the velocities like those of the bodies.
@@ -47,6 +48,28 @@ namespace Touchstone
 
 
 
+  std::pair<double, double>
+  ImpulseContact::stiffness_of_sides(const ImpulseRow &row) const
+  {
+    double sums[2] = {0., 0.}, weights[2] = {0., 0.};
+    for (unsigned int i = 0; i < row.n_nodes; ++i)
+      {
+        const std::size_t s     = solver.slot(row, i);
+        const double      value = stiffness_of_nodes[solver.nodes.node(s)],
+                     part       = std::abs(solver.weights[s]);
+        const unsigned int side = solver.weights[s] > 0. ? 0 : 1;
+        if (value > 0.)
+          {
+            sums[side] += part * value;
+            weights[side] += part;
+          }
+      }
+    return {weights[0] > 0. ? sums[0] / weights[0] : 0.,
+            weights[1] > 0. ? sums[1] / weights[1] : 0.};
+  }
+
+
+
   double
   ImpulseContact::stiffness(const std::size_t k, const double step) const
   {
@@ -56,15 +79,19 @@ namespace Touchstone
     // K A / V of the softer side.
     const std::size_t own   = row.first;
     double            slave = 0., master = 0.;
-    for (unsigned int i = 0; i < row.n_nodes; ++i)
-      {
-        const std::size_t s     = solver.slot(row, i);
-        const double      value = stiffness_of_nodes[solver.nodes.node(s)];
-        if (s == own)
-          slave = value;
-        else
-          master -= solver.weights[s] * value;
-      }
+    if (contact.rows()[kept[k].index].get().between_nodes)
+      // Means over those nodes of either side that lie on its surface.
+      std::tie(slave, master) = stiffness_of_sides(row);
+    else
+      for (unsigned int i = 0; i < row.n_nodes; ++i)
+        {
+          const std::size_t s     = solver.slot(row, i);
+          const double      value = stiffness_of_nodes[solver.nodes.node(s)];
+          if (s == own)
+            slave = value;
+          else
+            master -= solver.weights[s] * value;
+        }
     return rule.factor * row.area *
            (row.n_nodes > 1 && master > 0. ? std::min(slave, master) : slave);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/explicit/lanes.h>
+#include <touchstone/explicit/row_geometry.h>
 #include <touchstone/explicit/row_motion.h>
 
 #include <algorithm>
@@ -92,9 +93,10 @@ namespace Touchstone
         const ContactPair &pair = contact.pair(row);
         if (!row.stencil.empty() && !pair.small_sliding())
           {
-            sliding.push_back({k, row.size, row.gap, row.normal});
+            const double gap = weight_of_slave(row) * row.gap;
+            sliding.push_back({k, row.size, gap, row.normal});
             const bool overlaps = pair.overlap(row.index - pair.rows().front().index) != 0.;
-            least_gap           = std::min(least_gap, row.tied || overlaps ? 0. : row.gap);
+            least_gap           = std::min(least_gap, row.tied || overlaps ? 0. : gap);
           }
       }
     least_gap = Utilities::MPI::min(least_gap, nodes.communicator());

@@ -98,7 +98,10 @@ namespace Touchstone
           {
             std::vector<unsigned int> list;
             for (const Face &face : surface->owned_faces())
-              for (unsigned int m = 0; m < face.n_nodes(); ++m)
+              // Points within cells move with the nodes behind the faces, too.
+              for (unsigned int m = 0;
+                   m < (pair.pairing().keeps_nodes_out() ? face.n_nodes() : 2 * Face::behind);
+                   ++m)
                 list.push_back(nodes.local(dim * face.nodes[m]));
             std::sort(list.begin(), list.end());
             list.erase(std::unique(list.begin(), list.end()), list.end());

@@ -302,6 +302,50 @@ namespace Touchstone
 
 
 
+    /** Pairings of cells (doc/theory.md 3.5): their rows have no slave node of their own that could
+     * be eliminated or projected to. */
+    std::vector<Rule>
+    ball_rules(const Scene &scene, const ContactPairParameters &pair)
+    {
+      const std::string &name    = pair.pairing.name;
+      const bool         balls   = (name == "pinball" || name == "splitting pinball");
+      const std::string  section = pair.section(), but = "'Pairing' is '" + name + "'";
+      return {{balls && !scene.time_integration.runs_in_cycles(),
+               section,
+               "Pairing",
+               name,
+               "is for explicit dynamics, but 'Time integration/Scheme' is '" +
+                 scene.time_integration.scheme.word() + "'",
+               "set it to 'averaged', 'pointwise' or 'inside-outside', or the scheme to "
+               "'central_differences'"},
+              {balls && !pair.obstacle.empty(),
+               section,
+               "Pairing",
+               name,
+               "is for balls in cells of two bodies, but the master is an obstacle",
+               "remove the key: nodes meet an obstacle at its exact surface"},
+              {balls && pair.tied(),
+               section,
+               "Behaviour",
+               pair.behaviour.name,
+               "joins slave nodes to the master, but " + but,
+               "set 'Pairing = averaged' or 'pointwise'"},
+              {balls && pair.sliding == ContactPairParameters::Sliding::small,
+               section,
+               "Sliding",
+               pair.sliding.word(),
+               "keeps the partners of slave nodes, but " + but,
+               "remove it, or set 'Pairing = averaged' or 'pointwise'"},
+              {balls && pair.master_normal == MasterNormal::smoothed,
+               section,
+               "Master normal",
+               pair.master_normal.word(),
+               "smooths the faces, and " + but + " sees cells",
+               "remove it, or set 'Pairing = pointwise'"}};
+    }
+
+
+
     /**
      * Mesh, mass, enforcement and linear solver: a partitioner that cannot refine, multipliers for
      * a solver that needs a definite matrix, an unsymmetric tangent for one that needs a symmetric
@@ -403,7 +447,10 @@ namespace Touchstone
     for (const BodyParameters &body : scene.bodies)
       obey(element_rules(scene, body));
     for (const ContactPairParameters &pair : scene.pairs)
-      obey(pair_rules(scene, pair));
+      {
+        obey(pair_rules(scene, pair));
+        obey(ball_rules(scene, pair));
+      }
     obey(method_rules(scene));
     for (const BodyParameters &body : scene.bodies)
       obey(inertia_rules(scene, body));

@@ -14,6 +14,7 @@
 #include <touchstone/explicit/tool_nodes.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -362,6 +363,9 @@ namespace Touchstone
     push(double time, double step, double acting);
     double
     stiffness(std::size_t k, double step) const;
+    /** K A / V of the slave and the master side of a row between nodes. */
+    std::pair<double, double>
+    stiffness_of_sides(const ImpulseRow &row) const;
     void
     push_row(std::size_t k, double time, double step, double acting);
     void

@@ -3,6 +3,7 @@
 #ifndef touchstone_explicit_row_geometry_h
 #define touchstone_explicit_row_geometry_h
 
+#include <touchstone/contact/row.h>
 #include <touchstone/explicit/impulse_solver.h>
 
 namespace Touchstone
@@ -16,6 +17,15 @@ namespace Touchstone
    */
   double
   allowed_gap(double gap, double closing, double size);
+
+  /** @brief The weight that the slave node has at the point of the slave side that the row is for.
+   * A row between nodes is divided by it, while impulses act on the point: by this gaps, weights
+   * and nodal forces are less, and areas more, than those of the row. */
+  inline double
+  weight_of_slave(const ContactRow &row)
+  {
+    return row.between_nodes ? 1. / row.share : 1.;
+  }
 
   /**
    * @brief Set the lever of a row, which keeps the moment of momentum where its force does not act

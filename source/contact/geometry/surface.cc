@@ -38,11 +38,12 @@ namespace Touchstone
     }
 
     /** A node of a face of a cell: its first degree of freedom there, its number on the face, and
-     * its position in the unit cell. */
+     * its position in the unit cell; and the first degree of freedom on the opposite face. */
     struct NodeOnFace
     {
       unsigned int dof, m;
       Point<dim>   unit;
+      unsigned int behind;
     };
 
     std::array<std::vector<NodeOnFace>, 6>
@@ -63,7 +64,14 @@ namespace Touchstone
                 const auto       along = [&](const unsigned int axis) {
                   return static_cast<unsigned int>(std::lround(unit[axis] * fe.degree));
                 };
-                result[f].push_back({i, along(axes[0]) + (fe.degree + 1) * along(axes[1]), unit});
+                Point<dim> opposite   = unit;
+                opposite[normal_axis] = 1. - unit[normal_axis];
+                unsigned int behind   = 0;
+                while (fe.system_to_component_index(behind).first != 0 ||
+                       fe.unit_support_point(behind).distance(opposite) > 1e-8)
+                  ++behind;
+                result[f].push_back(
+                  {i, along(axes[0]) + (fe.degree + 1) * along(axes[1]), unit, behind});
               }
         }
       return result;
@@ -148,6 +156,8 @@ namespace Touchstone
             for (const NodeOnFace &on_face : nodes_of_faces[f])
               {
                 face.nodes[on_face.m] = dofs[on_face.dof] / dim;
+                if (face.degree == 1)
+                  face.nodes[Face::behind + on_face.m] = dofs[on_face.behind] / dim;
                 face.reference[on_face.m] =
                   solid.mapping.transform_unit_to_real_cell(cell, on_face.unit);
               }

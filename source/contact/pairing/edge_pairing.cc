@@ -34,6 +34,12 @@ namespace Touchstone
           numbers[input.slave->owned_nodes()[k].node] = k;
       }
 
+      unsigned int
+      rows_between_nodes() const override
+      {
+        return 1;
+      }
+
       void
       commit_positions(const Vector &u) override
       {

@@ -25,6 +25,9 @@ namespace Touchstone
   struct Face
   {
     static constexpr unsigned int max_nodes = 9;
+    /** Of degree 1: from here on `nodes` has those of the opposite face of the cell, in the same
+     * order. */
+    static constexpr unsigned int behind = 4;
 
     /** Order of faces that does not depend on the partition. */
     std::uint64_t key    = 0;

@@ -54,7 +54,8 @@ namespace Touchstone
 
   /**
    * @brief Makes the rows of a contact pair: one for each slave node of this
-   * rank, in the order of Surface::owned_nodes(). Registered by name.
+   * rank, in the order of Surface::owned_nodes(), and behind them those for points
+   * between nodes. Registered by name.
    */
   class Pairing
   {
@@ -65,6 +66,23 @@ namespace Touchstone
     }
 
     virtual ~Pairing() = default;
+
+    /** @brief Rows for points between nodes (ContactRow::between_nodes): so many for each slave
+     * node, those of all nodes one after the other behind the rows of the nodes. The same on all
+     * ranks. */
+    virtual unsigned int
+    rows_between_nodes() const
+    {
+      return 0;
+    }
+
+    /** @brief Whether slave nodes themselves are kept out of the master. If not, the rows of nodes
+     * never have a partner, and all force is between nodes. */
+    virtual bool
+    keeps_nodes_out() const
+    {
+      return true;
+    }
 
     /**
      * @brief Read the deformed surfaces: set has_partner, stencil, normal, gap_vector and gap

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/contact/pairing/normal_search.h>
+#include <touchstone/contact/pairing/row_derivative.h>
+#include <touchstone/contact/pairing/slave_direction.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+
+// The pairing "inside-outside" of Wang and Nakamachi (1997), Int. J. Numer. Methods Engng 40: each
+// slave node against the point at which the line along its own averaged normal meets the master
+// surface (doc/theory.md 3.4). The point is unique, and needs no iteration on bilinear faces.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** What a node meets in one of its directions. */
+    struct MetFace
+    {
+      FacingPoint    facing;
+      SlaveDirection direction;
+      /** Cosine of the angle between the direction and the inward normal of the master there. */
+      double opposed = 0.;
+    };
+
+    class InsideOutsidePairing : public Pairing
+    {
+    public:
+      explicit InsideOutsidePairing(const PairingInput &input)
+        : Pairing(input)
+        , search(input)
+        , met(input.slave->owned_nodes().size())
+        , guesses(met.size(), 0)
+      {
+      }
+
+      void
+      update(const Vector &u, double, std::vector<ContactRow> &rows) override;
+
+      void
+      differentiate(const Vector &u, double, std::vector<ContactRow> &rows) override;
+
+      SearchWork
+      search_work() const override
+      {
+        return search.faces().work();
+      }
+
+    private:
+      NormalSearch search;
+      /** Of the last update, in the order of the rows. */
+      std::vector<std::optional<MetFace>> met;
+      /** Faces at which the search begins, indices in those of the search. */
+      std::vector<std::size_t> guesses;
+
+      std::optional<MetFace>
+      meet(const Point<dim> &x, const ContactRow &row, std::size_t &guess) const;
+      void
+      differentiate(const MetFace                       &one,
+                    Index                                slave,
+                    ContactRow                          &row,
+                    const std::vector<NormalDerivative> *of_patch) const;
+    };
+
+    const PairingRegistry::Entry<InsideOutsidePairing>
+      inside_outside_entry("inside-outside",
+                           "each slave node against the point that the line along its own averaged "
+                           "normal meets, unique and without iteration on plane faces.");
+
+
+
+    // On a sharp edge the direction is that which looks at the master most, among those that meet
+    // something near.
+    std::optional<MetFace>
+    InsideOutsidePairing::meet(const Point<dim> &x, const ContactRow &row, std::size_t &guess) const
+    {
+      std::vector<MetFace> found;
+      double               nearest = std::numeric_limits<double>::max();
+      for (const SlaveDirection &direction : slave_directions(*input.slave, row.slave))
+        if (const auto one = search.look({x, direction.n, row.was_active, guess}))
+          {
+            found.push_back({*one, direction, -1. * (direction.n * one->at.point.normal())});
+            nearest = std::min(nearest, std::abs(one->at.along));
+          }
+      std::optional<MetFace> best;
+      for (const MetFace &one : found)
+        if (const double distance = std::abs(one.facing.at.along);
+            distance <= 2. * nearest + 0.5 * row.size)
+          {
+            const double more = best ? one.opposed - best->opposed : 1.;
+            if (more > Tolerances::touching ||
+                (more > -Tolerances::touching && distance < std::abs(best->facing.at.along)))
+              best = one;
+          }
+      if (best)
+        guess = search.faces().exchange().index(*best->facing.face);
+      return best;
+    }
+
+
+
+    void
+    InsideOutsidePairing::update(const Vector &u, const double, std::vector<ContactRow> &rows)
+    {
+      const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
+      std::vector<Point<dim>>         positions;
+      for (const SurfaceNode &node : nodes)
+        positions.push_back(input.slave->position(node, u));
+      search.update(positions);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        {
+          ContactRow &row = rows[k];
+          met[k]          = meet(positions[k], row, guesses[k]);
+          row.stencil.clear();
+          row.has_partner = met[k].has_value();
+          row.gap         = 0.;
+          row.away        = 0.;
+          if (!met[k])
+            {
+              row.away = search.least_distance(positions[k]);
+              continue;
+            }
+          const FacingPoint &one = met[k]->facing;
+          const FaceShapes   shapes(one.face->degree, one.at.xi);
+          for (unsigned int m = 0; m < one.face->n_nodes(); ++m)
+            if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
+              row.stencil.push_back({one.face->nodes[m], shapes.value[m]});
+          row.normal     = -1. * met[k]->direction.n;
+          row.gap        = one.at.along;
+          row.gap_vector = row.gap * row.normal;
+        }
+    }
+
+
+
+    void
+    InsideOutsidePairing::differentiate(const Vector &, const double, std::vector<ContactRow> &rows)
+    {
+      // Of all geometries only smooth patches depend on normals of the master.
+      std::vector<const Face *> needed;
+      const bool                smooth = search.faces().exchange().smoothed();
+      for (std::size_t k = 0; smooth && k < met.size(); ++k)
+        if (rows[k].was_active && met[k])
+          needed.push_back(met[k]->facing.face);
+      std::unordered_map<const Face *, std::vector<NormalDerivative>> of_patches;
+      if (smooth) // on all ranks alike: collective
+        of_patches = search.faces().normal_derivatives(needed);
+      for (std::size_t k = 0; k < met.size(); ++k)
+        {
+          rows[k].derivative.reset();
+          if (!rows[k].was_active || !met[k])
+            continue;
+          const auto of_patch = of_patches.find(met[k]->facing.face);
+          differentiate(*met[k],
+                        rows[k].slave,
+                        rows[k],
+                        of_patch == of_patches.end() ? nullptr : &of_patch->second);
+        }
+    }
+
+
+
+    // The point stays on both: t_a dxi_a - n dl = dx_s + l dn - dx_m|_xi, doc/theory.md (34). On an
+    // edge of the face a weight is zero but its derivative is not, so that all nodes of the face
+    // belong to the stencil.
+    void
+    InsideOutsidePairing::differentiate(const MetFace                       &one,
+                                        const Index                          slave,
+                                        ContactRow                          &row,
+                                        const std::vector<NormalDerivative> *of_patch) const
+    {
+      const Face          &face     = *one.facing.face;
+      const FaceGeometry   geometry = search.faces().geometry(face);
+      const FacePosition   master   = FaceDifferentiator(geometry).position(one.facing.at.xi);
+      const Tensor<1, dim> n        = one.direction.n;
+      const double         l        = one.facing.at.along;
+      Tensor<2, dim>       columns;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          columns[d][0] = master.point.tangents[0][d];
+          columns[d][1] = master.point.tangents[1][d];
+          columns[d][2] = -n[d];
+        }
+      const Tensor<2, dim> inverse = invert(columns);
+      row.stencil.clear();
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        row.stencil.push_back({face.nodes[m], master.shapes.value[m]});
+
+      RowDerivativeBuilder builder(face.n_nodes());
+      RowDerivative       &result = *builder.result;
+      const auto           move   = [&](const Index node, const Tensor<2, dim> &right) {
+        const std::size_t    i  = builder.index(node);
+        const Tensor<2, dim> by = inverse * right; // rows: dxi_1, dxi_2, dl
+        result.gap_vector[i] -= outer_product(n, by[2]);
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          result.weights[m][i] +=
+            master.shapes.gradient[m][0] * by[0] + master.shapes.gradient[m][1] * by[1];
+        return i;
+      };
+      move(slave, Tensor<2, dim>(unit_symmetric_tensor<dim>()));
+      for (unsigned int m = 0; m < face.n_nodes(); ++m)
+        move(face.nodes[m], -1. * master.x_position[m]);
+      if (of_patch)
+        for (const NormalDerivative &d : *of_patch)
+          move(d.node, -1. * (master.x_normal[d.m] * d.value));
+      for (const auto &[node, turn] : Touchstone::differentiate(*input.slave, one.direction))
+        {
+          const std::size_t i = move(node, l * turn);
+          result.gap_vector[i] -= l * turn;
+          result.normal[i] -= turn;
+        }
+      row.derivative = builder.result;
+    }
+  } // namespace
+} // namespace Touchstone
