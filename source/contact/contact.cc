@@ -167,7 +167,7 @@ namespace Touchstone
             now != 1. && before.active())
           force += (1. - now) * part_of_force(committed(row), before, part);
         if (force.norm_square() > 0.)
-          work += force * row.motion.since(committed(row).motion, contact_point(row));
+          work += row.share * force * row.motion.since(committed(row).motion, contact_point(row));
       }
     return Utilities::MPI::sum(work, solid.communicator);
   }

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 // A contact pair: its surfaces, its pairing, and one row for each slave node (doc/theory.md 4). It
 // is the only writer of rows beside its pairing; see pair_update.cc.
 namespace Touchstone
@@ -31,12 +33,18 @@ namespace Touchstone
                                                    input.forest.boundary_name(id),
                                                    input.in_cycles);
       }
-    edges_meet     = find_edges();
+    points_meet    = find_points();
+    edges_meet     = points_meet && find_edges();
     pairing_method = make_pairing(input.parameters.search_distance);
+    if (points_meet)
+      point_rows =
+        std::make_unique<PointRows>(pairing_input(input.parameters.search_distance), edges_meet);
     // One row for each slave node that this rank owns; hanging nodes have none. The stiffness E A /
     // h is the complementarity constant c of doc/theory.md 5 and the scale of all springs.
-    // Those for what touches between the nodes follow, where the pairing has any.
-    for (unsigned int kind = 0; kind <= pairing_method->rows_between_nodes(); ++kind)
+    // Those for what touches between the nodes follow, where there are any.
+    const unsigned int kinds =
+      std::max(pairing_method->rows_between_nodes(), points_meet ? 1U : 0U);
+    for (unsigned int kind = 0; kind <= kinds; ++kind)
       for (const SurfaceNode &node : slave_surface->owned_nodes())
         {
           ContactRow row;
@@ -77,17 +85,35 @@ namespace Touchstone
 
 
 
+  PairingInput
+  ContactPair::pairing_input(const double search_distance) const
+  {
+    return {&input.parameters,
+            input.obstacle,
+            &input.solid,
+            slave_surface.get(),
+            master_surface.get(),
+            search_distance};
+  }
+
+
+
   std::shared_ptr<Pairing>
   ContactPair::make_pairing(const double search_distance) const
   {
-    const PairingInput pairing{&input.parameters,
-                               input.obstacle,
-                               &input.solid,
-                               slave_surface.get(),
-                               master_surface.get(),
-                               search_distance};
+    const PairingInput pairing  = pairing_input(search_distance);
     const auto         of_nodes = Touchstone::make_pairing(pairing);
     return edges_meet ? make_edge_pairing(pairing, of_nodes) : of_nodes;
+  }
+
+
+
+  bool
+  ContactPair::find_points() const
+  {
+    // Rows of small sliding are those of the reference state. Surfaces of one body share edges and
+    // faces, which touch themselves.
+    return input.edges && !small && input.slave_body != input.master_body;
   }
 
 
@@ -97,9 +123,8 @@ namespace Touchstone
   ContactPair::find_edges() const
   {
     // An overlap of edges at the start is not measured, so that it cannot be taken out of gaps, and
-    // edges of degree 2 are curved. Surfaces of one body share edges, which touch themselves.
-    if (!input.edges || !master_surface || small || input.slave_body == input.master_body ||
-        input.solid.fe.degree > 1 ||
+    // edges of degree 2 are curved.
+    if (!master_surface || input.solid.fe.degree > 1 ||
         input.parameters.initial_overlap != ContactPairParameters::Overlap::interference)
       return false;
     const bool sharp =

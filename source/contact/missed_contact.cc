@@ -95,19 +95,6 @@ namespace Touchstone
 
 
   std::vector<Face>
-  MissedContact::idle_faces() const
-  {
-    std::vector<Face> result;
-    for (const Face &face : pair.slave().owned_faces())
-      // Where a node of the face carries a force, its row resists the overlap already.
-      if (carries_nothing(face))
-        result.push_back(present(face));
-    return result;
-  }
-
-
-
-  std::vector<Face>
   MissedContact::master_faces(const std::vector<Face> &slaves) const
   {
     Box own;
@@ -143,10 +130,11 @@ namespace Touchstone
 
 
   void
-  MissedContact::add_points(const MeasuredFace &of,
-                            const MeasuredFace &in,
-                            const Face         &slave,
-                            Overlap            &worst) const
+  MissedContact::add_points(const MeasuredFace  &of,
+                            const MeasuredFace  &in,
+                            const Face          &slave,
+                            Overlap             &worst,
+                            std::vector<Sample> &samples) const
   {
     const double size  = worst.place.size,
                  least = Tolerances::touching * size + of.sagitta() + in.sagitta();
@@ -182,17 +170,50 @@ namespace Touchstone
               // None if the point has slid here from another face: then what rows have at most.
               const auto start =
                 MeasuredFace(there, in.exact).depth(evaluate(before, of.exact, xi).x, 0., unused);
-              counts -= std::max(adjusted, part * start.value_or(0.));
+              const double taken_out = std::max(adjusted, part * start.value_or(0.));
+              counts -= taken_out;
+              // The gap of a row there would have to be less by it, too.
+              if (taken_out > 0.)
+                worst.adjusted = true;
             }
           // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
           const double sure = Tolerances::touching * size + of.facet_error() + in.facet_error();
           const double area = counts > sure ? face_area(slave) : worst.place.area;
+          if (counts > least)
+            samples.push_back({&of.face == &slave ? xi : foot, counts - least});
           if (counts > std::max(least, worst.place.depth))
             worst = {{counts, point.x, size, area},
                      in.face.body,
                      point.x + in.to_straight_edges(foot),
-                     true};
+                     true,
+                     worst.adjusted,
+                     &of.face == &slave ? xi : foot,
+                     {}};
         }
+  }
+
+
+
+  // Of equally deep samples, as along a ridge, round-off must not choose one. A high power leaves
+  // hardly more than the deepest and is as smooth a function of the state as the depths.
+  MeasuredFace::Xi
+  MissedContact::middle(const std::vector<Sample> &samples)
+  {
+    double deepest = 0.;
+    for (const Sample &sample : samples)
+      deepest = std::max(deepest, sample.depth);
+    Xi     result{};
+    double sum = 0.;
+    for (const Sample &sample : samples)
+      {
+        const double weight = std::pow(sample.depth / deepest, 8);
+        sum += weight;
+        for (unsigned int a = 0; a < 2; ++a)
+          result[a] += weight * sample.xi[a];
+      }
+    for (double &value : result)
+      value = std::clamp(value / sum, -1., 1.);
+    return result;
   }
 
 
@@ -208,8 +229,9 @@ namespace Touchstone
     std::vector<Overlap> result;
     for (const Face &face : slaves)
       {
-        const MeasuredFace slave(face, pair.slave().exact_surface(face));
-        Overlap            worst;
+        const MeasuredFace  slave(face, pair.slave().exact_surface(face));
+        Overlap             worst;
+        std::vector<Sample> samples;
         worst.place.size = slave.size();
         const Box box    = MeasuredFace::box_around(face, worst.place.size);
         namespace query  = boost::geometry::index;
@@ -220,19 +242,24 @@ namespace Touchstone
               continue;
             const MeasuredFace master(other, pair.master()->exact_surface(other));
             // Both ways: a ridge between master nodes has none of them within.
-            add_points(master, slave, face, worst);
-            add_points(slave, master, face, worst);
+            add_points(master, slave, face, worst, samples);
+            add_points(slave, master, face, worst, samples);
           }
         if (worst.place.depth > 0.)
-          result.push_back(worst);
+          {
+            if (!worst.adjusted)
+              worst.point = MaterialPoint(face, pair.slave().trace(face), middle(samples));
+            worst.point.face = face.key;
+            result.push_back(worst);
+          }
       }
     return result;
   }
 
 
 
-  MissedContact::Place
-  MissedContact::deepest_of(const std::vector<Overlap> &found) const
+  std::vector<MissedContact::Overlap>
+  MissedContact::within_bodies(const std::vector<Overlap> &found) const
   {
     // Nothing on any rank, the normal case: no cells need be gathered in trees.
     if (Utilities::MPI::max(found.size(), contact.communicator()) == 0)
@@ -258,15 +285,60 @@ namespace Touchstone
     for (const Overlap &overlap : all)
       inside.push_back(!overlap.in_doubt || cells.at(overlap.body).contain(overlap.inside));
     Utilities::MPI::max(inside, contact.communicator(), inside);
-    Place result;
+    std::vector<Overlap> result;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (inside[k] == 1)
-        {
-          const double area = result.area + all[k].place.area;
-          if (result.depth == 0.)
-            result = all[k].place;
-          result.area = area;
-        }
+        result.push_back(all[k]);
+    return result;
+  }
+
+
+
+  std::vector<MissedContact::Overlap>
+  MissedContact::overlaps() const
+  {
+    std::vector<Face> slaves;
+    for (const Face &face : pair.slave().owned_faces())
+      // Where a node or a point of the face carries a force, its row resists the overlap already.
+      if (carries_nothing(face))
+        slaves.push_back(present(face));
+    std::vector<Overlap> result = within_bodies(
+      pair.master() ? within_faces(slaves, master_faces(slaves)) : obstacle_within(slaves));
+    // Pairings may measure gaps to other surfaces than facets: the row of a point there knows.
+    for (const MaterialPoint &point : open_points())
+      result.erase(std::remove_if(result.begin(),
+                                  result.end(),
+                                  [&](const Overlap &overlap) {
+                                    // Nearer to each other than to the next sample.
+                                    return overlap.point.face == point.face &&
+                                           std::hypot(overlap.deepest[0] - point.xi[0],
+                                                      overlap.deepest[1] - point.xi[1]) < 0.25;
+                                  }),
+                   result.end());
+    return result;
+  }
+
+
+
+  std::vector<MaterialPoint>
+  MissedContact::open_points() const
+  {
+    std::vector<MaterialPoint> result;
+    if (!pair.takes_points() || pair.points().empty())
+      return result;
+    std::map<Index, const ContactRow *> rows;
+    for (const ContactRow &row : pair.rows())
+      if (row.between_nodes && row.has_partner)
+        rows[row.slave] = &row;
+    std::vector<MaterialPoint> mine;
+    for (const MaterialPoint &point : pair.points())
+      if (const auto found = rows.find(point.nodes[point.slave]); found != rows.end())
+        // Farther away it is another side that the point faces.
+        if (const double gap = found->second->gap / found->second->share;
+            gap >= 0. && gap < Tolerances::deep_smooth_node * found->second->size)
+          mine.push_back(point);
+    for (const auto &of_rank : gather_records(mine, contact.communicator()))
+      result.insert(result.end(), of_rank.begin(), of_rank.end());
     return result;
   }
 
@@ -275,8 +347,27 @@ namespace Touchstone
   MissedContact::Place
   MissedContact::deepest() const
   {
-    const std::vector<Face> slaves = idle_faces();
-    return deepest_of(pair.master() ? within_faces(slaves, master_faces(slaves))
-                                    : obstacle_within(slaves));
+    Place result;
+    for (const Overlap &overlap : overlaps())
+      {
+        const double area = result.area + overlap.place.area;
+        if (result.depth == 0.)
+          result = overlap.place;
+        result.area = area;
+      }
+    return result;
+  }
+
+
+
+  std::vector<MaterialPoint>
+  MissedContact::points() const
+  {
+    std::vector<MaterialPoint> result;
+    for (const Overlap &overlap : overlaps())
+      // An obstacle behind a face is no overlap of the surface.
+      if (overlap.point.n > 0)
+        result.push_back(overlap.point);
+    return result;
   }
 } // namespace Touchstone

@@ -50,7 +50,93 @@ namespace Touchstone
               }
       return best;
     }
+    /** The gradient of a function of face coordinates. */
+    using Gradient = std::function<std::array<double, 2>(const MeasuredFace::Xi &)>;
+
+    /** The step of Newton's method towards a minimum on the face. Directions in which the function
+     * does not bend, as along a cylinder, are left alone, and so are bounds that it falls beyond.
+     */
+    std::array<double, 2>
+    step_to_minimum(const Gradient &gradient, const MeasuredFace::Xi &xi)
+    {
+      constexpr double h = 1e-4, straight = 1e-3;
+      const auto       g = gradient(xi);
+      double           H[2][2];
+      bool             free[2];
+      for (unsigned int a = 0; a < 2; ++a)
+        {
+          MeasuredFace::Xi before = xi, after = xi;
+          before[a] -= h;
+          after[a] += h;
+          const auto low = gradient(before), high = gradient(after);
+          for (unsigned int b = 0; b < 2; ++b)
+            H[b][a] = (high[b] - low[b]) / (2. * h);
+          free[a] = std::abs(xi[a]) < 1. || xi[a] * g[a] > 0.;
+        }
+      std::array<double, 2> step{};
+      const double          across = 0.5 * (H[0][1] + H[1][0]);
+      if (free[0] && free[1])
+        {
+          // Eigenvalues and eigenvectors of the symmetric part.
+          const double mean = 0.5 * (H[0][0] + H[1][1]), half = 0.5 * (H[0][0] - H[1][1]),
+                       radius = std::hypot(half, across), angle = 0.5 * std::atan2(across, half);
+          const double values[2]     = {mean + radius, mean - radius};
+          const double vectors[2][2] = {{std::cos(angle), std::sin(angle)},
+                                        {-std::sin(angle), std::cos(angle)}};
+          for (unsigned int i = 0; i < 2; ++i)
+            if (values[i] > straight * values[0])
+              for (unsigned int a = 0; a < 2; ++a)
+                step[a] -=
+                  (vectors[i][0] * g[0] + vectors[i][1] * g[1]) / values[i] * vectors[i][a];
+        }
+      else
+        for (unsigned int a = 0; a < 2; ++a)
+          if (free[a] && H[a][a] > 0.)
+            step[a] = -g[a] / H[a][a];
+      return step;
+    }
   } // namespace
+
+
+
+  MeasuredFace::Xi
+  MissedContact::deepest_in(const MeasuredFace &slave, const MeasuredFace::Xi &start) const
+  {
+    const auto gap = [&](const MeasuredFace::Xi &xi) {
+      return pair.pairing().distance(evaluate(slave.face, slave.exact, xi).x, contact.time());
+    };
+    std::vector<Sample> samples;
+    for (const double a : MeasuredFace::samples)
+      for (const double b : MeasuredFace::samples)
+        if (const MeasuredFace::Xi xi = {{a, b}}; gap(xi) < 0.)
+          samples.push_back({xi, -gap(xi)});
+    MeasuredFace::Xi xi       = samples.empty() ? start : middle(samples);
+    const Gradient   gradient = [&](const MeasuredFace::Xi &at) {
+      const FacePoint point = evaluate(slave.face, slave.exact, at);
+      const auto      there = pair.pairing().at(point.x, contact.time());
+      return std::array<double, 2>{
+        {there->normal * point.tangents[0], there->normal * point.tangents[1]}};
+    };
+    constexpr unsigned int most     = 20;
+    constexpr double       at_place = 1e-9;
+    for (unsigned int i = 0; i < most; ++i)
+      {
+        const auto       step = step_to_minimum(gradient, xi);
+        MeasuredFace::Xi next = xi;
+        double           size = 0.;
+        for (unsigned int a = 0; a < 2; ++a)
+          {
+            next[a] = std::clamp(xi[a] + step[a], -1., 1.);
+            size    = std::max(size, std::abs(next[a] - xi[a]));
+          }
+        if (gap(next) > gap(xi) + Tolerances::on_edge * slave.size())
+          break;
+        xi = next;
+        if (size < at_place)
+          break;
+      }
+    return xi;
+  }
 
 
 
@@ -82,18 +168,29 @@ namespace Touchstone
             double       counts = -gap(at);
             if (counts > 0.)
               counts += at[2];
+            double taken_out = 0.;
             if (part > 0.)
-              counts -=
+              taken_out =
                 std::max(adjusted,
                          -part * pair.pairing().distance(evaluate(MeasuredFace::in_reference(face),
                                                                   slave.exact,
                                                                   MeasuredFace::Xi{{at[0], at[1]}})
                                                            .x,
                                                          0.));
+            counts -= std::max(taken_out, 0.);
             if (counts <= Tolerances::touching * size + slave.sagitta())
               continue;
             const Point<dim> on_face = position({{at[0], at[1], 0.}});
-            result.push_back({{counts, on_face, size, area}, face.body, position(at), at[2] > 0.});
+            result.push_back({{counts, on_face, size, area},
+                              face.body,
+                              position(at),
+                              at[2] > 0.,
+                              taken_out > 0.,
+                              {{at[0], at[1]}},
+                              {}});
+            if (gap({{at[0], at[1], 0.}}) < 0. && !(taken_out > 0.))
+              result.back().point =
+                MaterialPoint(face, pair.slave().trace(face), deepest_in(slave, {{at[0], at[1]}}));
             // Counted once.
             area = 0.;
           }

@@ -93,6 +93,9 @@ namespace Touchstone
                 if (!unpack.keys().empty())
                   memory.of_rows.back() = unpack.keys().front();
               });
+    // Only edges and vertices have keys beside those of the nodes.
+    if (!edges_meet)
+      memory.of_rows.resize(slave_surface->owned_nodes().size());
     const KeyPairs &faces = archive.keys(input.parameters.section());
     memory.of_faces.insert(faces.begin(), faces.end());
     committed = present;

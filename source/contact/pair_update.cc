@@ -27,6 +27,13 @@ namespace Touchstone
   {
     move_surfaces(u);
     pairing_method->update(u, time, present);
+    if (points_meet)
+      {
+        point_rows->update(*pairing_method, time, present);
+        for (std::size_t k = 0; k < present.size(); ++k)
+          if (ContactRow &row = present[k]; row.between_nodes && row.has_partner)
+            row.moved = row.motion.since(committed[k].motion, contact_point(row));
+      }
     ++searches;
     // Only once, with the bodies as they are placed: later on surfaces may well separate.
     if (!started)
@@ -163,9 +170,17 @@ namespace Touchstone
     time         = t;
     displacement = &ghosted;
     for (ContactRow &row : present)
-      // Before the search: a row in contact leaves an edge of the master surface later than an open
-      // one arrives there, or it would alternate (doc/theory.md 5, "Cycles").
-      row.was_active = active(row);
+      {
+        // Before the search: a row in contact leaves an edge of the master surface later than an
+        // open one arrives there, or it would alternate (doc/theory.md 5, "Cycles").
+        row.was_active = active(row);
+        // Current positions; the ghosted displacement also holds the owned dofs.
+        for (unsigned int d = 0; d < dim; ++d)
+          row.position[d] = ghosted(dim * row.slave + d);
+        row.position += row.reference;
+      }
+    if (points_meet)
+      point_rows->release(present);
     if (!small)
       search(ghosted);
     else
@@ -173,13 +188,6 @@ namespace Touchstone
         if (!started)
           make_reference();
         update_small_sliding(u);
-      }
-    for (ContactRow &row : present)
-      {
-        // Current positions; the ghosted displacement also holds the owned dofs.
-        for (unsigned int d = 0; d < dim; ++d)
-          row.position[d] = ghosted(dim * row.slave + d);
-        row.position += row.reference;
       }
     apply_overlap();
     started = true;
@@ -197,6 +205,8 @@ namespace Touchstone
     for (ContactRow &row : present)
       row.was_active = active(row);
     pairing_method->differentiate(*displacement, time, present);
+    if (points_meet)
+      point_rows->differentiate(*pairing_method, time, present);
     for (ContactRow &row : present)
       // Such a derivative holds over much less than a Newton increment, so that the row is better
       // frozen in this iteration.

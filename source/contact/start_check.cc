@@ -229,7 +229,8 @@ namespace Touchstone
       {
         for (const ContactRow &row : rows)
           // Normals of slave and obstacle must be opposed at one node at least.
-          looks = looks || slave.normal(row.slave) * row.normal < Tolerances::perpendicular_cosine;
+          looks = looks || (row.has_partner && slave.normal(row.slave) * row.normal <
+                                                 Tolerances::perpendicular_cosine);
         throw_if_all_look_away(looks, "the obstacle '" + parameters.obstacle + "'");
         return;
       }

@@ -27,7 +27,7 @@ namespace Touchstone
         // An obstacle imposes its own velocity, taken as constant over the step; zero for a master
         // body.
         const Tensor<1, dim> velocity =
-          row.motion.since(contact.committed(row).motion, contact_point(row)) / step;
+          row.share * row.motion.since(contact.committed(row).motion, contact_point(row)) / step;
         const auto offer = [&](const Tensor<1, dim> &direction, const Tensor<1, dim> &force) {
           constraint.condition.direction       = direction;
           constraint.condition.force_direction = force;

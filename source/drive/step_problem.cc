@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/points_in_faces.h>
 #include <touchstone/drive/explicit_step.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/scene/pair_input.h>
@@ -131,6 +132,7 @@ namespace Touchstone
   StepProblem::begin_step(const double t)
   {
     time = t;
+    withdraw_points(contact);
     contact.enforcement().begin_step();
     pretension.begin_step(t);
     tools.begin_step(t);
@@ -154,11 +156,20 @@ namespace Touchstone
   {
     begin_step(t);
     const Newton newton(parameters);
-    unsigned int n_iterations = newton.solve(*this, observer);
-    // A correction may be smaller than the tolerance of gaps: without a solve the forces would stay
-    // as they were, and the next correction would be made for them once more.
-    while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
-      n_iterations += newton.solve(*this, observer, /*least=*/1);
+    unsigned int n_iterations = 0;
+    // Each round adds points inside slave faces where the one before has missed contact; what is
+    // missed after the last is told of by findings().
+    constexpr unsigned int most_rounds = 10;
+    for (unsigned int round = 0; round <= most_rounds; ++round)
+      {
+        n_iterations += newton.solve(*this, observer);
+        // A correction may be smaller than the tolerance of gaps: without a solve the forces would
+        // stay as they were, and the next correction would be made for them once more.
+        while (pretension.correct(solid.ghosted(u)) || tools.correct(solid.ghosted(u)))
+          n_iterations += newton.solve(*this, observer, /*least=*/1);
+        if (round == most_rounds || !place_points(contact))
+          break;
+      }
     return n_iterations;
   }
 
@@ -269,6 +280,9 @@ namespace Touchstone
       // A remark and no error: what the dropped conditions would determine is determined already.
       text = std::to_string(dropped) +
              " contact row(s) dropped: prescribed displacements or other pairs decide there";
+    if (const unsigned int points = n_points_in_contact(contact); points > 0)
+      text += std::string(text.empty() ? "" : "\n") + std::to_string(points) +
+              " point(s) inside slave faces carry contact that passes between their nodes";
     if (!system->stabilised().empty())
       text += std::string(text.empty() ? "" : "\n") +
               "held by contact alone, stabilised: " + system->stabilised();

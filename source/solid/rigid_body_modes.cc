@@ -127,13 +127,16 @@ namespace Touchstone
                              sign * (condition.direction * mode(k, (x - centres[b]) / sizes[b])));
         };
         add(condition.body, condition.position, 1.);
-        if (!condition.stencil.empty())
+        // Other nodes of its own face are in the stencil of a point that touches an obstacle.
+        const bool own_alone = condition.stencil.empty() ||
+                               condition.master_body == numbers::invalid_unsigned_int;
+        if (!own_alone)
           add(condition.master_body, condition.master_position, -1.);
         for (const auto &[i, vi] : row)
           for (const auto &[j, vj] : row)
             {
               gram[i * n + j] += vi * vj;
-              if (condition.stencil.empty())
+              if (own_alone)
                 own[36 * condition.body + 6 * (i % 6) + j % 6] += vi * vj;
             }
       }

@@ -8,6 +8,7 @@
 #include <touchstone/contact/friction/friction.h>
 #include <touchstone/contact/geometry/surface.h>
 #include <touchstone/contact/pairing/pairing.h>
+#include <touchstone/contact/pairing/point_rows.h>
 #include <touchstone/contact/row.h>
 #include <touchstone/mesh/forest.h>
 #include <touchstone/solid/solid.h>
@@ -154,6 +155,28 @@ namespace Touchstone
     void
     commit_positions();
 
+    /** @brief Rows for material points inside slave faces are possible (doc/theory.md 4.2). */
+    bool
+    takes_points() const
+    {
+      return points_meet;
+    }
+
+    /** @brief The material points that have rows, the same on all ranks. */
+    const std::vector<MaterialPoint> &
+    points() const
+    {
+      return point_rows->points();
+    }
+
+    /** @brief Let these points have rows from the next update() on, on all ranks, where
+     * takes_points(). */
+    void
+    set_points(const std::vector<MaterialPoint> &points)
+    {
+      point_rows->set(points);
+    }
+
     /** @brief Give the rows their numbers among all of this rank, from @p first_index on. */
     void
     number_rows(std::size_t first_index);
@@ -222,11 +245,13 @@ namespace Touchstone
   private:
     const ContactPairInput input;
     const bool             is_tied, small;
-    /** There are rows for what touches between nodes. */
-    bool                     edges_meet = false;
-    std::unique_ptr<Surface> slave_surface, master_surface;
-    std::shared_ptr<Pairing> pairing_method;
-    std::vector<ContactRow>  present, committed;
+    /** There are rows for edges and vertices that touch between nodes, and for points inside slave
+     * faces. */
+    bool                       edges_meet = false, points_meet = false;
+    std::unique_ptr<Surface>   slave_surface, master_surface;
+    std::shared_ptr<Pairing>   pairing_method;
+    std::unique_ptr<PointRows> point_rows;
+    std::vector<ContactRow>    present, committed;
     /** Small sliding: the rows of the reference state, and the displacement with the ghosts that
      * their stencils need. */
     std::vector<ContactRow> reference;
@@ -244,6 +269,10 @@ namespace Touchstone
                  const std::string              &key) const;
     std::shared_ptr<Pairing>
     make_pairing(double search_distance) const;
+    PairingInput
+    pairing_input(double search_distance) const;
+    bool
+    find_points() const;
     bool
     find_edges() const;
     void

@@ -4,13 +4,13 @@
 #define touchstone_contact_missed_contact_h
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/geometry/measured_face.h>
+#include <touchstone/contact/pairing/material_point.h>
 
 #include <vector>
 
 namespace Touchstone
 {
-  class MeasuredFace;
-
   /**
    * @brief Looks in a state of balance for places where the other surface of a pair lies within
    * slave faces none of whose nodes carries a force: contact that passes between the slave nodes.
@@ -47,6 +47,12 @@ namespace Touchstone
     Place
     deepest() const;
 
+    /** @brief Where rows of material points are wanted, the deepest first: a point in each face of
+     * an overlap, the same on all ranks and any number of them.
+     * Collective. */
+    std::vector<MaterialPoint>
+    points() const;
+
   private:
     const Contact     &contact;
     const ContactPair &pair;
@@ -63,6 +69,18 @@ namespace Touchstone
       dealii::Point<dim> inside;
       /** Whether it must be looked for there: a point of the surface is part of the body. */
       bool in_doubt = true;
+      /** An overlap at the start has been taken out of it. */
+      bool adjusted = false;
+      /** Where it is deepest on the slave face. */
+      MeasuredFace::Xi deepest{};
+      /** In the middle of what is deepest, on the slave face. */
+      MaterialPoint point{};
+    };
+    /** A point of a slave face that lies within the other surface. */
+    struct Sample
+    {
+      MeasuredFace::Xi xi;
+      double           depth;
     };
 
     bool
@@ -73,27 +91,40 @@ namespace Touchstone
     /** A face in its present position, also with small sliding, whose surfaces are not moved. */
     Face
     present(const Face &face) const;
-    /** Idle slave faces of this rank. */
-    std::vector<Face>
-    idle_faces() const;
+    /** In idle slave faces of any rank, the deepest first. Collective. */
+    std::vector<Overlap>
+    overlaps() const;
+    /** Points whose row says that nothing touches there. Collective. */
+    std::vector<MaterialPoint>
+    open_points() const;
     /** Master faces of any rank that are near the boxes of faces of this rank. Collective. */
     std::vector<Face>
     master_faces(const std::vector<Face> &slaves) const;
     /** The deepest overlap of each idle face with the master. */
     std::vector<Overlap>
     within_faces(const std::vector<Face> &slaves, const std::vector<Face> &masters) const;
-    /** Take the deepest point of one face within another, if it is deeper than @p worst. */
+    /** Take the deepest point of one face within another, if it is deeper than @p worst, and add
+     * all of them to @p samples. */
     void
-    add_points(const MeasuredFace &of,
-               const MeasuredFace &in,
-               const Face         &slave,
-               Overlap            &worst) const;
+    add_points(const MeasuredFace  &of,
+               const MeasuredFace  &in,
+               const Face          &slave,
+               Overlap             &worst,
+               std::vector<Sample> &samples) const;
+    /** The middle of the samples that are as deep as the deepest. */
+    static MeasuredFace::Xi
+    middle(const std::vector<Sample> &samples);
     /** The deepest point of an obstacle in each idle face, and behind it. */
     std::vector<Overlap>
     obstacle_within(const std::vector<Face> &slaves) const;
-    /** Those that lie within the cells of the bodies; the deepest of them. Collective. */
-    Place
-    deepest_of(const std::vector<Overlap> &found) const;
+    /** Where an obstacle is deepest on a slave face. @param start Where to begin, if it is within
+     * no point that is tried. */
+    MeasuredFace::Xi
+    deepest_in(const MeasuredFace &slave, const MeasuredFace::Xi &start) const;
+    /** Of all ranks those that lie within the cells of the bodies, the deepest first. Collective.
+     */
+    std::vector<Overlap>
+    within_bodies(const std::vector<Overlap> &found) const;
   };
 } // namespace Touchstone
 

@@ -124,6 +124,9 @@ namespace Touchstone
     double away = 0.;
     /** Where the obstacle is; at rest for a master body. */
     RigidMotion motion;
+    /** How far its point at the contact point of a row between nodes has moved since the step
+     * began, length. */
+    dealii::Tensor<1, dim> moved;
     /** @} */
 
     /** @brief The fields that a step begins with: the one list of what checkpoints hold of a
@@ -153,7 +156,7 @@ namespace Touchstone
   inline dealii::Point<dim>
   contact_point(const ContactRow &row)
   {
-    return row.position - row.gap_vector;
+    return row.position + row.lever - row.gap_vector / row.share;
   }
 
   /** @brief Whether a row with a derivative changes so fast that the derivative is not valid over

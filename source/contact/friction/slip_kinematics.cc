@@ -33,6 +33,27 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** The master is rigid: it has no nodes, and other nodes in the stencil are of the slave. */
+    bool
+    on_obstacle(const ContactRow &row)
+    {
+      return row.master_body == numbers::invalid_unsigned_int;
+    }
+
+    double
+    sum_of_weights(const Stencil &stencil)
+    {
+      double sum = 0.;
+      for (const StencilEntry &entry : stencil)
+        sum += entry.weight;
+      return sum;
+    }
+  } // namespace
+
+
+
   // v of equation (18). With small sliding the stencil never changes, so the change of the gap
   // vector is the same displacement; the motion of an obstacle is taken out.
   Tensor<1, dim>
@@ -40,11 +61,16 @@ namespace Touchstone
                             const FrictionHistory &history,
                             const NodePositions   &positions)
   {
-    // The anchor on an obstacle is a point of the obstacle.
-    Tensor<1, dim> result = row.friction->small ? row.gap_vector - history.anchor_offset
-                            : row.motion.turned
-                              ? row.position - row.motion.place(Point<dim>(history.anchor_offset))
-                              : row.position - row.motion.shift - history.anchor_offset;
+    // The anchor on an obstacle is a point of the obstacle, which has the weight that other nodes
+    // leave: of a row between nodes these are of the slave face.
+    double of_obstacle = 1.;
+    if (!history.anchor.empty())
+      of_obstacle = on_obstacle(row) ? 1. - sum_of_weights(history.anchor) : 0.;
+    Tensor<1, dim> result =
+      row.friction->small ? row.gap_vector - history.anchor_offset
+      : row.motion.turned
+        ? row.position - of_obstacle * row.motion.place(Point<dim>(history.anchor_offset))
+        : row.position - of_obstacle * row.motion.shift - of_obstacle * history.anchor_offset;
     for (const StencilEntry &entry : history.anchor)
       result -= entry.weight * positions.at(entry.node);
     return result;
@@ -55,15 +81,15 @@ namespace Touchstone
   namespace
   {
     /** Displacement since the step began, of the slave node relative to the material points of
-     * the master surface that it faces now: only of rows that had no partner then, and so of
-     * no obstacle. */
+     * the master that it faces now: only of rows that had no partner then, which of those on
+     * obstacles are points inside slave faces. */
     Tensor<1, dim>
     relative_displacement(const ContactRow &row, const NodePositions &positions)
     {
       Tensor<1, dim> result = positions.displacement(row.slave);
       for (const StencilEntry &entry : row.stencil)
         result -= entry.weight * positions.displacement(entry.node);
-      return result;
+      return on_obstacle(row) ? result - row.share * row.moved : result;
     }
 
 
@@ -160,10 +186,12 @@ namespace Touchstone
     history.anchor_offset = Tensor<1, dim>();
     if (row.friction->small)
       history.anchor_offset = row.gap_vector;
-    else if (row.stencil.empty())
-      history.anchor_offset = row.motion.back(contact_point(row));
     else
-      history.anchor = row.stencil;
+      {
+        history.anchor = row.stencil;
+        if (on_obstacle(row))
+          history.anchor_offset = row.motion.back(contact_point(row));
+      }
     history.anchor_gap                = row.gap;
     const Tensor<1, dim> displacement = displacement_since_anchor(row, history, positions);
     for (unsigned int i = 0; i < 2; ++i)

@@ -484,7 +484,7 @@ namespace Touchstone
                                     /*gradual=*/!tied,
                                     input.slave->largest_face());
       for (const ContactRow &row : rows)
-        if (row.was_active)
+        if (row.was_active && !row.between_nodes)
           derivative.add_row(row.slave,
                              row.stencil,
                              sums[row_of_node.at(row.slave)],
@@ -497,7 +497,8 @@ namespace Touchstone
                               masters_of(masters));
       const auto derivatives = derivative.finish();
       for (ContactRow &row : rows)
-        row.derivative = row.was_active ? derivatives.at(row.slave) : nullptr;
+        if (!row.between_nodes)
+          row.derivative = row.was_active ? derivatives.at(row.slave) : nullptr;
     }
   } // namespace
 } // namespace Touchstone

@@ -64,41 +64,51 @@ namespace Touchstone
       void
       differentiate(const Vector &u, const double time, std::vector<ContactRow> &rows) override
       {
-        const RigidMotion               now = motion(time);
-        const Tensor<2, dim>            identity(unit_symmetric_tensor<dim>());
         const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
         for (std::size_t k = 0; k < nodes.size(); ++k)
           {
-            ContactRow &row = rows[k];
-            row.derivative.reset();
+            rows[k].derivative.reset();
             // Open rows contribute neither force nor condition.
-            if (!row.was_active)
-              continue;
-            // In the frame of the obstacle.
-            const Point<dim>     x = now.back(input.slave->position(nodes[k], u));
-            RowDerivativeBuilder builder(0);
-            // The only node that the row depends on: the obstacle is rigid.
-            builder.index(row.slave);
-            // gap vector x - P(x).
-            builder.result->gap_vector[0] = identity - surface->projection_gradient(x);
-            // Central differences: normals are given by formulas that are simple, and
-            // smooth over the size of a face.
-            const double step = 1e-4 * row.size;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                Tensor<1, dim> move;
-                move[d] = step;
-                const Tensor<1, dim> change =
-                  (surface->normal(x + move) - surface->normal(x - move)) / (2. * step);
-                for (unsigned int c = 0; c < dim; ++c)
-                  builder.result->normal[0][c][d] = change[c];
-              }
-            if (now.turned)
-              for (Tensor<2, dim> *of_obstacle :
-                   {builder.result->gap_vector.data(), builder.result->normal.data()})
-                *of_obstacle = now.turn * *of_obstacle * transpose(now.turn);
-            row.derivative = builder.result;
+            if (rows[k].was_active)
+              rows[k].derivative = derivative_at(input.slave->position(nodes[k], u),
+                                                 time,
+                                                 rows[k].slave,
+                                                 rows[k].size);
           }
+      }
+
+      std::shared_ptr<const RowDerivative>
+      derivative_at(const Point<dim> &at,
+                    const double      time,
+                    const Index       node,
+                    const double      size) const override
+      {
+        const RigidMotion    now = motion(time);
+        const Tensor<2, dim> identity(unit_symmetric_tensor<dim>());
+        // In the frame of the obstacle.
+        const Point<dim>     x = now.back(at);
+        RowDerivativeBuilder builder(0);
+        // The only node that the row depends on: the obstacle is rigid.
+        builder.index(node);
+        // gap vector x - P(x).
+        builder.result->gap_vector[0] = identity - surface->projection_gradient(x);
+        // Central differences: normals are given by formulas that are simple, and smooth over the
+        // size of a face.
+        const double step = 1e-4 * size;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            Tensor<1, dim> move;
+            move[d] = step;
+            const Tensor<1, dim> change =
+              (surface->normal(x + move) - surface->normal(x - move)) / (2. * step);
+            for (unsigned int c = 0; c < dim; ++c)
+              builder.result->normal[0][c][d] = change[c];
+          }
+        if (now.turned)
+          for (Tensor<2, dim> *of_obstacle :
+               {builder.result->gap_vector.data(), builder.result->normal.data()})
+            *of_obstacle = now.turn * *of_obstacle * transpose(now.turn);
+        return builder.result;
       }
 
       double

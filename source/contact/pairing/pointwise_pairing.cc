@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/pairing.h>
-#include <touchstone/contact/pairing/pointwise_row_derivative.h>
-#include <touchstone/contact/pairing/row_derivative.h>
-#include <touchstone/contact/tolerances.h>
-
-#include <algorithm>
-#include <list>
+#include <touchstone/contact/pairing/pointwise_row.h>
 
 // The pairing "pointwise": each slave node against the closest point of the master surface. It is
-// simple, but does not pass the patch test (doc/theory.md 3). Derivatives of the rows are in
-// pointwise_row_derivative.cc.
+// simple, but does not pass the patch test (doc/theory.md 3). The rows themselves are in
+// pointwise_row.cc.
 namespace Touchstone
 {
   using namespace dealii;
@@ -103,61 +98,6 @@ namespace Touchstone
 
 
 
-    /** Call @p use with all faces that a contact point belongs to. */
-    template <class Use>
-    void
-    for_each(const ContactPartner &partner, const Use &use)
-    {
-      use(partner);
-      for (const ContactPartner &other : partner.others)
-        use(other);
-    }
-
-
-
-    /** Add the shape functions of the face at the contact point, times @p part. */
-    void
-    add_weights(const ContactPartner &partner, const double part, Stencil &stencil)
-    {
-      const FaceShapes shapes(partner.face->degree, partner.xi);
-      for (unsigned int m = 0; m < partner.face->n_nodes(); ++m)
-        // A node that lies on an edge or a node of the face depends on fewer master nodes.
-        if (std::abs(shapes.value[m]) > Tolerances::negligible_weight)
-          {
-            const Index node = partner.face->nodes[m];
-            const auto  entry =
-              std::find_if(stencil.begin(), stencil.end(), [node](const StencilEntry &e) {
-                return e.node == node;
-              });
-            if (entry == stencil.end())
-              stencil.push_back({node, part * shapes.value[m]});
-            else
-              entry->weight += part * shapes.value[m];
-          }
-    }
-
-
-
-    /** The row of a node at @p x. On an edge between faces it is the mean of those of all of them,
-     * as normals jump there a little: with the row of one face a node that symmetry or matching
-     * meshes put on the edge would have no balance on either side of it. */
-    void
-    set_row(const ContactPartner &partner, const Point<dim> &x, ContactRow &row)
-    {
-      const double part = 1. / (1. + partner.others.size());
-      row.normal = row.gap_vector = Tensor<1, dim>();
-      for_each(partner, [&](const ContactPartner &one) {
-        add_weights(one, part, row.stencil);
-        row.normal += part * one.normal;
-        row.gap_vector += part * (x - one.x);
-      });
-      if (!partner.others.empty())
-        row.normal /= row.normal.norm();
-      row.gap = row.gap_vector * row.normal;
-    }
-
-
-
     SlavePoint
     PointwisePairing::slave_point(const std::size_t k,
                                   const Point<dim> &x,
@@ -210,7 +150,7 @@ namespace Touchstone
               continue;
             }
           row.has_partner = true;
-          set_row(*partner, positions[k], row);
+          set_pointwise_row(*partner, positions[k], row);
         }
     }
 
@@ -221,52 +161,17 @@ namespace Touchstone
     {
       const std::vector<SurfaceNode> &nodes = input.slave->owned_nodes();
       std::vector<const Face *>       needed;
-      for (std::size_t k = 0; k < rows.size(); ++k)
+      for (std::size_t k = 0; k < nodes.size(); ++k)
         if (rows[k].was_active)
-          for_each(*partners[k], [&](const ContactPartner &one) { needed.push_back(one.face); });
+          add_faces(*partners[k], needed);
       // Collective: also without active rows on this rank.
-      const auto normal_derivatives = search.normal_derivatives(needed);
-
-      for (std::size_t k = 0; k < rows.size(); ++k)
+      const auto of_normals = search.normal_derivatives(needed);
+      for (std::size_t k = 0; k < nodes.size(); ++k)
         {
-          ContactRow &row = rows[k];
-          row.derivative.reset();
-          if (!row.was_active)
-            continue;
-          const double                      part = 1. / (1. + partners[k]->others.size());
-          const Point<dim>                  x    = input.slave->position(nodes[k], u);
-          Tensor<1, dim>                    mean;
-          std::list<FaceGeometry>           geometries;
-          std::list<PointwiseRowDerivative> derivatives;
-          for_each(*partners[k], [&](const ContactPartner &one) {
-            mean += part * one.normal;
-            geometries.push_back(search.geometry(*one.face));
-            derivatives.emplace_back(geometries.back(), one, x - one.x);
-            // On an edge of the face a weight is zero but its derivative is not: the node belongs
-            // to the stencil for the derivative.
-            for (unsigned int m = 0; m < one.face->n_nodes(); ++m)
-              if (const Index node = one.face->nodes[m];
-                  derivatives.back().weight_changes(m) &&
-                  std::none_of(row.stencil.begin(), row.stencil.end(), [node](const auto &entry) {
-                    return entry.node == node;
-                  }))
-                row.stencil.push_back({node, 0.});
-          });
-          RowDerivativeBuilder builder(row.stencil.size());
-          auto                 derivative = derivatives.begin();
-          for_each(*partners[k], [&](const ContactPartner &one) {
-            const auto of_normals = normal_derivatives.find(one.face);
-            (derivative++)
-              ->compute(row.slave,
-                        row.stencil,
-                        part,
-                        of_normals == normal_derivatives.end() ? nullptr : &of_normals->second,
-                        builder);
-          });
-          if (part < 1.)
-            for (Tensor<2, dim> &normal : builder.result->normal)
-              normal = normalisation_derivative(mean) * normal;
-          row.derivative = builder.result;
+          rows[k].derivative.reset();
+          if (rows[k].was_active)
+            differentiate_pointwise_row(
+              search, of_normals, *partners[k], input.slave->position(nodes[k], u), rows[k]);
         }
     }
   } // namespace

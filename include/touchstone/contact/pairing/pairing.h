@@ -147,6 +147,17 @@ namespace Touchstone
       return {};
     }
 
+    /** @brief The derivative of at() by the position of @p node, which is at @p x, as of a row
+     * without a stencil; null where at() is nothing. @param size Of the slave faces there. */
+    virtual std::shared_ptr<const RowDerivative>
+    derivative_at(const dealii::Point<dim> & /*x*/,
+                  double /*time*/,
+                  Index /*node*/,
+                  double /*size*/) const
+    {
+      return nullptr;
+    }
+
     /** @brief Where the master is, if it is rigid. */
     virtual RigidMotion
     motion(double /*time*/) const

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_points_in_faces_h
+#define touchstone_contact_points_in_faces_h
+
+namespace Touchstone
+{
+  class Contact;
+
+  /** @brief Let no material point have a row: a step begins. */
+  void
+  withdraw_points(Contact &contact);
+
+  /** @brief Give rows to material points inside slave faces that the master has entered between
+   * nodes that touch nothing, in a state of balance (doc/theory.md 4.2).
+   * @return whether the state is to be solved again with other points. Collective. */
+  bool
+  place_points(Contact &contact);
+
+  /** @brief How many such points carry a force. Collective. */
+  unsigned int
+  n_points_in_contact(const Contact &contact);
+} // namespace Touchstone
+
+#endif
