@@ -195,18 +195,23 @@ main()
   sums.given = 0.3;
   print("derivatives, apart and area given away", derivatives(sums, half.mean(), 1));
 
-  // The other face is so much steeper, or a mean is extrapolated so far, that more would be taken
-  // from the gap at the node than the surfaces come closer.
-  sums              = hardly.sums();
-  const double mean = hardly.mean() - 0.1;
+  // The other face is so steep that the sagitta of the row is more than that of the face.
+  sums = hardly.sums();
   sums.faces[1].gap[2] -= 0.1;
   sums.faces[1].shape_gap[2] += 0.1;
-  const double row = mean + GapCorrection(sums, normal, mean, size).value;
-  print("no overlap beside a steep face", row > hardly.least());
+  const double mean = hardly.mean() - 0.1;
+  print("no overlap beside a steep face",
+        mean + GapCorrection(sums, normal, mean, size).value > hardly.least());
   print("derivatives, beside a steep face", derivatives(sums, mean, 0));
+  // The mean of a node that is not covered is extrapolated.
+  sums.beside = 0.3;
+  sums.own += 0.3;
   sums.faces[0].least = 0.04;
   print("no overlap where the mean is extrapolated",
         mean + GapCorrection(sums, normal, mean, size).value > 0.04);
   print("derivatives where the mean is extrapolated", derivatives(sums, mean, 0));
+  sums.beside = 0.04;
+  sums.own -= 0.26;
+  print("derivatives where it hardly is", derivatives(sums, mean, 0));
   return 0;
 }

@@ -172,6 +172,9 @@ namespace Touchstone
      * a row where at least a third of its face is covered. */
     constexpr double near_node = 2. / 3., far_of_node = 0.8;
 
+    /** The same from which on the node is clearly not covered, so that means are extrapolated. */
+    constexpr double clearly_beside = 0.1;
+
     /** Part of the difference between the gap at a node and the smallest one on its face by which
      * its row remains above the latter: rows of neighbours over the same lowest point must not be
      * the same condition. */

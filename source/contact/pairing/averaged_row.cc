@@ -69,14 +69,15 @@ namespace Touchstone
 
 
     /** What one face takes from g_s, equation (7); length.
-     * @param at_node g_s. @param above The same less the mean gap, of the row. @param whole Area of
-     * the row. */
+     * @param at_node g_s. @param above The same less the mean gap, of the row. @param beside 0
+     * where the node is covered, 1 where it clearly is not. @param whole Area of the row. */
     Number
     flattened(const FaceShare      &face,
               const Tensor<1, dim> &normal,
               const double          length,
               const Number         &at_node,
               const Number         &above,
+              const Number         &beside,
               const Number         &whole)
     {
       if (face.own == std::numeric_limits<double>::max() || face.shape_area <= 0. ||
@@ -103,12 +104,17 @@ namespace Touchstone
         part = 1.5 * (1. - left) * (1. - left);
       else if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
         part = straight;
-      // No more than the surfaces come closer on this face than at the node: where curvatures are
-      // not constant, where they differ from face to face and on a part of a face the difference to
-      // the mean is more.
-      const Number taken = weight * part * above,
-                   most  = (1. - Tolerances::above_least) *
-                          (at_node - variable(Of::face_least, face.least));
+      // Of the sagitta of this face as long as the surfaces are not pressed flat: others, where
+      // they part more steeply, say nothing of how close they come here.
+      const Number common = above < 1.5 * sagitta ? above : Number(1.5 * sagitta),
+                   taken  = weight * part * (sagitta + part * (common - sagitta));
+      // Beside the node the mean is extrapolated: no more than the surfaces come closer on this
+      // face than at the point next to the node.
+      if (beside.val() == 0.)
+        return taken;
+      const Number most =
+        (1. - Tolerances::above_least) * (at_node - variable(Of::face_least, face.least)) +
+        above * (1. - beside);
       return taken < most ? taken : most;
     }
   } // namespace
@@ -128,6 +134,7 @@ namespace Touchstone
     // chi of section 3.1: whether anything near the node is covered.
     const Number from_node = variable(Of::beside, sums.beside);
     const Number near = 1. - smooth_step(from_node, Tolerances::near_node, Tolerances::far_of_node);
+    const Number beside  = smooth_step(from_node, 0., Tolerances::clearly_beside);
     const Number at_node = variable(Of::own, sums.own) - sums.length * from_node;
     // On plane faces all gaps are the mean up to round-off, and the quotients below would be noise.
     const double noise = Tolerances::equal_gaps * size;
@@ -136,7 +143,7 @@ namespace Touchstone
         Number most = 0.;
         for (const FaceShare &share : sums.faces)
           if (const Number taken = flattened(
-                share, normal, sums.length, at_node, above, variable(Of::area, sums.area));
+                share, normal, sums.length, at_node, above, beside, variable(Of::area, sums.area));
               taken > most)
             {
               most = taken;
