@@ -112,7 +112,8 @@ namespace Touchstone
       pinball_entry("pinball", "a ball in each cell at the surface, in explicit dynamics.");
     const PairingRegistry::Entry<SplittingPinballPairing>
       splitting_pinball_entry("splitting pinball",
-                              "the same with balls that are split where they meet.");
+                              "the same with balls that are split as often as its key Splittings "
+                              "says, 1 (default) or 2.");
 
 
 
