@@ -103,9 +103,11 @@ namespace
     print_geometry("flat round cap: 0.785398; contact and far 0.785398, side 1.570796",
                    "round cap",
                    rings + "set Apex = 1, 2, 3");
-    print_geometry("round cap, facing up: 0.765697; contact 0.787372, far 0.785398, side 1.492059",
-                   "round cap",
-                   rings + "set Radius = 10\nset Contact side = top");
+    print_geometry(
+      "round cap, facing up, with a rim of great circles between its nodes, so less than 0.765697; "
+      "contact 0.787372, far 0.785398",
+      "round cap",
+      rings + "set Radius = 10\nset Contact side = top");
   }
 
 
