@@ -95,7 +95,7 @@ namespace
   bool
   derivatives(CoverSums sums, double mean, const int deciding)
   {
-    constexpr double    step = 1e-6;
+    constexpr double    step = 1e-7;
     const GapCorrection correction(sums, normal, mean, size);
     double              error = 0.;
     const auto          check = [&](double &x, const double derivative) {
