@@ -104,10 +104,7 @@ namespace Touchstone
         part = 1.5 * (1. - left) * (1. - left);
       else if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
         part = straight;
-      // Of the sagitta of this face as long as the surfaces are not pressed flat: others, where
-      // they part more steeply, say nothing of how close they come here.
-      const Number common = above < 1.5 * sagitta ? above : Number(1.5 * sagitta),
-                   taken  = weight * part * (sagitta + part * (common - sagitta));
+      const Number taken = weight * part * above;
       // Beside the node the mean is extrapolated: no more than the surfaces come closer on this
       // face than at the point next to the node.
       if (beside.val() == 0.)
