@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // Faces without a cell behind them, and normals of their nodes (doc/general_contact.md, section 2).
 namespace Touchstone
@@ -119,10 +120,12 @@ namespace Touchstone
     const auto reference = [&](const unsigned int n) { return nodes.positions()[n]; };
     for (const auto &faces : around)
       {
-        double area = 0.;
+        // Of slender bodies the faces at the tip are much smaller than those along the sides, and
+        // what lies between is not to be lost.
+        double area = std::numeric_limits<double>::max();
         for (const auto &face : faces)
-          area += area_vector(face, reference).norm();
-        sizes.push_back(std::sqrt(area / faces.size()));
+          area = std::min(area, area_vector(face, reference).norm());
+        sizes.push_back(std::sqrt(area));
       }
     n_global = Utilities::MPI::sum<std::uint64_t>(own.size(), nodes.communicator());
   }
