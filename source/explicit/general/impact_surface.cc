@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 // Faces without a cell behind them, and normals of their nodes (doc/general_contact.md, section 2).
 namespace Touchstone
@@ -120,12 +119,10 @@ namespace Touchstone
     const auto reference = [&](const unsigned int n) { return nodes.positions()[n]; };
     for (const auto &faces : around)
       {
-        // Of slender bodies the faces at the tip are much smaller than those along the sides, and
-        // what lies between is not to be lost.
-        double area = std::numeric_limits<double>::max();
+        double area = 0.;
         for (const auto &face : faces)
-          area = std::min(area, area_vector(face, reference).norm());
-        sizes.push_back(std::sqrt(area));
+          area += area_vector(face, reference).norm();
+        sizes.push_back(std::sqrt(area / faces.size()));
       }
     n_global = Utilities::MPI::sum<std::uint64_t>(own.size(), nodes.communicator());
   }

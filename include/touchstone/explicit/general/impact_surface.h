@@ -78,8 +78,8 @@ namespace Touchstone
     dealii::Tensor<1, dim>
     normal(unsigned int node, const NodeField &u) const;
 
-    /** @brief Size of the smallest face around an owned node of the surface as the bodies were
-     * placed, length. */
+    /** @brief Size of the faces around an owned node of the surface as the bodies were placed,
+     * length. */
     double
     size(const unsigned int node) const
     {
