@@ -80,24 +80,25 @@ def surface(nodes, cells):
 
 
 def moved_inwards(nodes, faces, part):
-    """Positions of the nodes of surfaces, moved inwards by a part of the size of their faces."""
-    normals, sizes = defaultdict(lambda: (0, 0, 0)), {}
+    """Positions of the nodes of surfaces, moved inwards by a part of the size of their faces: the root of
+    the mean area of those around the node, before deformation."""
+    normals, areas = defaultdict(lambda: (0, 0, 0)), defaultdict(list)
     for corners, _ in faces:
-        x = [nodes[c] for c in corners]
+        x, placed = [nodes[c] for c in corners], [c[1] for c in corners]
         area = cross(minus(x[2], x[0]), minus(x[3], x[1]))
-        size = sqrt(dot(area, area)) ** 0.5
+        before = cross(minus(placed[2], placed[0]), minus(placed[3], placed[1]))
         for corner in corners:
             normals[corner] = tuple(n + a for n, a in zip(normals[corner], area))
-            sizes[corner] = min(size, sizes.get(corner, size))
+            areas[corner].append(0.5 * sqrt(dot(before, before)))
     result = {}
     for corner, normal in normals.items():
         length = sqrt(dot(normal, normal)) or 1
-        result[corner] = tuple(x - part * sizes[corner] * n / length
-                               for x, n in zip(nodes[corner], normal))
+        size = sqrt(sum(areas[corner]) / len(areas[corner]))
+        result[corner] = tuple(x - part * size * n / length for x, n in zip(nodes[corner], normal))
     return result
 
 
-def find(path, inset=3e-4):
+def find(path, inset=1.5e-4):
     """Places where an edge of a surface passes through a face."""
     nodes, cells = read(path)
     faces = surface(nodes, cells)

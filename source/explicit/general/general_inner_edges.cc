@@ -46,42 +46,40 @@ namespace Touchstone
     const bool of_one = is_warped(one), of_other = is_warped(other);
     if (!of_one && !of_other)
       return;
-    // Edges of the face, and from its corners to the middle, with their boxes.
-    struct Edge
-    {
-      std::array<SurfacePoint, 2> ends;
-      MotionBox                   box;
-    };
-    const auto edges_of = [&](const unsigned int face, const bool inner) {
-      std::array<Edge, 4> edges;
+    // Edges of both faces, and from their corners to the middles; their boxes only if nothing is
+    // known of a pair.
+    std::array<std::array<std::array<SurfacePoint, 2>, 8>, 2> edges;
+    for (unsigned int side = 0; side < 2; ++side)
       for (unsigned int a = 0; a < 4; ++a)
         {
-          const SurfacePoint begin = corner(face, a);
-          edges[a].ends =
-            inner ? std::array<SurfacePoint, 2>{{begin, middle(face)}} : ends_of(begin.slot);
-          edges[a].box =
-            MotionBox(inner_edge(edges[a].ends, false), inner_edge(edges[a].ends, true));
+          const unsigned int face = side == 0 ? one : other;
+          edges[side][a]          = ends_of(corner(face, a).slot);
+          edges[side][4 + a]      = {{corner(face, a), middle(face)}};
         }
-      return edges;
+    std::array<std::array<MotionBox, 8>, 2> boxes;
+    bool                                    boxed = false;
+    const auto apart = [&](const unsigned int e, const unsigned int f) {
+      for (unsigned int side = 0; side < 2 && !boxed; ++side)
+        for (unsigned int a = 0; a < 8; ++a)
+          boxes[side][a] =
+            MotionBox(inner_edge(edges[side][a], false), inner_edge(edges[side][a], true));
+      boxed = true;
+      return boxes[0][e].distance(boxes[1][f]);
     };
-    const std::array<std::array<Edge, 4>, 2> edges_of_one{
-      {edges_of(one, false), edges_of(one, true)}},
-      edges_of_other{{edges_of(other, false), edges_of(other, true)}};
     unsigned int n = 0;
-    for (const bool inner_one : {false, true})
-      for (const bool inner_other : {false, true})
-        if (inner_one || inner_other)
-          for (const Edge &e : edges_of_one[inner_one])
-            for (const Edge &f : edges_of_other[inner_other])
-              {
-                Separation &of = known[n++];
-                if ((inner_one && !of_one) || (inner_other && !of_other) || far_apart(of))
-                  continue;
-                if (const double distance = e.box.distance(f.box); distance > 0.)
-                  of.until = travelled + distance - reserve * faces.size;
-                else
-                  check_edges({{e.ends[0], e.ends[1], f.ends[0], f.ends[1]}}, faces, of);
-              }
+    for (unsigned int e = 0; e < 8; ++e)
+      for (unsigned int f = e < 4 ? 4 : 0; f < 8; ++f)
+        {
+          Separation &of = known[n++];
+          if ((e >= 4 && !of_one) || (f >= 4 && !of_other) || far_apart(of))
+            continue;
+          if (const double distance = of.known ? 0. : apart(e, f); distance > 0.)
+            of.until = travelled + distance - reserve * faces.size;
+          else
+            check_edges({{edges[0][e][0], edges[0][e][1], edges[1][f][0], edges[1][f][1]}},
+                        faces,
+                        of);
+        }
     if (of_one && !far_apart(known[n]))
       check_node(middle(one), other, faces, known[n]);
     if (of_other && !far_apart(known[n + 1]))
