@@ -6,7 +6,7 @@ import shutil
 import subprocess
 
 from . import calculix, table, with_getfem
-from .campaign import NAMES
+from .choices import NAMES
 
 
 def _first_line(command):
