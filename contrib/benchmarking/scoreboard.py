@@ -6,9 +6,7 @@ import shutil
 import subprocess
 
 from . import calculix, table, with_getfem
-from .campaign import NAMES
-
-TOLERANCES = (0.05, 0.01, 0.001)
+from .choices import NAMES
 
 
 def _first_line(command):
@@ -72,8 +70,8 @@ def best_table(results):
     body = []
     for campaign, rows in results:
         for error in campaign.errors[:2]:
-            for tolerance in TOLERANCES:
-                first = tolerance == TOLERANCES[0]
+            for tolerance in campaign.tolerances:
+                first = tolerance == campaign.tolerances[0]
                 body.append([campaign.name.replace("_", " ") if first else "",
                              error.replace("_", " ") if first else "", f"{100 * tolerance:g} %"] +
                             [cell([r for r in rows if r["program"] == p], error, tolerance)
