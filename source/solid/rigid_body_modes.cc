@@ -128,8 +128,8 @@ namespace Touchstone
         };
         add(condition.body, condition.position, 1.);
         // Other nodes of its own face are in the stencil of a point that touches an obstacle.
-        const bool own_alone = condition.stencil.empty() ||
-                               condition.master_body == numbers::invalid_unsigned_int;
+        const bool own_alone =
+          condition.stencil.empty() || condition.master_body == numbers::invalid_unsigned_int;
         if (!own_alone)
           add(condition.master_body, condition.master_position, -1.);
         for (const auto &[i, vi] : row)

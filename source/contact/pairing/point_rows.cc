@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-// Rows of material points inside slave faces (doc/theory.md 4.2, equation (32)). A point
+// Rows of material points inside slave faces (doc/theory.md 4.2). A point
 // x = sum_a W_a x_a has the row that a slave node would have there, pointwise; all of it is divided
 // by the weight of one of its nodes, so that it keeps the form of the rows of nodes.
 namespace Touchstone
