@@ -97,4 +97,5 @@ main()
   never_miss<1>("node and triangle", first_crossing_node_triangle);
   never_miss<2>("two edges", first_crossing_edge_edge);
   turn_together();
+  return 0;
 }

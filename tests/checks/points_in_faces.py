@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Slave faces that an obstacle or a master enters between their nodes: one answer of enforcements,
-solvers, pairings, ranks and numbers of steps, the force of a finer mesh, balance and friction."""
+solvers, ranks and numbers of steps, balance, forces of nodes in contact.vtu."""
 # ctest: label = quick
 
 from touchstone_test import (AUGMENTED, CG, MULTIPLIERS, STEPS, below, check, finish, folder,
