@@ -4,9 +4,6 @@
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlapping_bodies.h>
-#include <touchstone/contact/tolerances.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,19 +36,6 @@ namespace Touchstone
              ", between slave nodes that touch nothing. Rows of slave nodes cannot describe this "
              "contact: refine the slave surface" +
              (obstacle || pair.of_one_body() ? "" : ", or exchange slave and master");
-    }
-
-
-
-    /** Tributary area of the slave nodes that press. Collective. */
-    double
-    carrying_area(const Contact &contact, const ContactPair &pair)
-    {
-      double result = 0.;
-      for (const ContactRow &row : pair.rows())
-        if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
-          result += row.area;
-      return Utilities::MPI::sum(result, contact.communicator());
     }
 
 
@@ -118,10 +102,9 @@ namespace Touchstone
         if (pair.small_sliding() && !nothing)
           continue;
         if (const MissedContact::Place place = missed.deepest(); place.depth > 0.)
-          result[pair.parameters().name] = {
-            text(pair.parameters(), place),
-            place.depth > Tolerances::deep_smooth_node * place.size,
-            nothing ? 1. : place.area / (place.area + carrying_area(contact, pair))};
+          result[pair.parameters().name] = {text(pair.parameters(), place),
+                                            MissedContact::deep(place),
+                                            missed.share(place)};
       }
     for (const auto &bodies : carried)
       idle.erase(bodies);

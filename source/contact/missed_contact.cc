@@ -360,6 +360,30 @@ namespace Touchstone
 
 
 
+  double
+  MissedContact::share(const Place &place) const
+  {
+    if (carries_nothing())
+      return 1.;
+    double carrying = 0.;
+    for (const ContactRow &row : pair.rows())
+      if (const RowState &state = contact.state(row); state.active() && state.lambda > 0.)
+        carrying += row.area;
+    carrying = Utilities::MPI::sum(carrying, contact.communicator());
+    // Rows of points have no area.
+    return place.area > 0. ? place.area / (place.area + carrying) : 0.;
+  }
+
+
+
+  bool
+  MissedContact::deep(const Place &place)
+  {
+    return place.depth > Tolerances::deep_smooth_node * place.size;
+  }
+
+
+
   std::vector<MaterialPoint>
   MissedContact::points() const
   {

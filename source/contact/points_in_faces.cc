@@ -132,8 +132,15 @@ namespace Touchstone
       constexpr double    same   = 1e-3;
       const Vector        forces = normal_forces(contact, pair);
       const MissedContact missed(contact, pair, forces);
-      std::set<Index>     used;
-      bool                changed = false;
+      // Facets of bodies that slave nodes keep apart overlap a little in many places. Points are
+      // for what would be no result without them.
+      if (points.empty())
+        if (const MissedContact::Place place = missed.deepest();
+            place.depth == 0. ||
+            !(MissedContact::deep(place) || missed.share(place) > MissedContact::most_share))
+          return false;
+      std::set<Index> used;
+      bool            changed = false;
       for (MaterialPoint point : missed.points())
         {
           // Of faces that share a node the one with the deepest overlap comes first: with a row

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/contact/missed_contact.h>
 #include <touchstone/drive/missed_pairs.h>
 
 #include <cstdio>
@@ -34,12 +35,10 @@ namespace Touchstone
   std::string
   MissedPairs::failure(const std::map<std::string, double> &had_contact, const bool dynamic) const
   {
-    // Of the area that should carry, the part from which on the rest says nothing of the force.
-    constexpr double most = 0.4;
     for (const auto &[pair, found] : last)
       // Bodies that bounce carry nothing now and much a moment before: the end is no result by
       // itself.
-      if (found.share > most && !(dynamic && had_contact.count(pair) > 0))
+      if (found.share > MissedContact::most_share && !(dynamic && had_contact.count(pair) > 0))
         {
           char percent[20];
           std::snprintf(percent, sizeof(percent), "%.0f", 100. * found.share);

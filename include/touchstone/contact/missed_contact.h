@@ -47,6 +47,18 @@ namespace Touchstone
     Place
     deepest() const;
 
+    /** @brief Part of the area that should carry the pair of which the overlaps of @p place are: 1
+     * where nothing carries. Collective. */
+    double
+    share(const Place &place) const;
+
+    /** @brief The share from which on the rest says nothing of the force. */
+    static constexpr double most_share = 0.4;
+
+    /** @brief Whether the overlap is so deep that the state cannot be right. */
+    static bool
+    deep(const Place &place);
+
     /** @brief Where rows of material points are wanted, the deepest first: a point in each face of
      * an overlap, the same on all ranks and any number of them.
      * Collective. */
