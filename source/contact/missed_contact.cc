@@ -391,7 +391,10 @@ namespace Touchstone
     for (const Overlap &overlap : overlaps())
       // An obstacle behind a face is no overlap of the surface.
       if (overlap.point.n > 0)
-        result.push_back(overlap.point);
+        {
+          result.push_back(overlap.point);
+          result.back().depth = overlap.place.depth;
+        }
     return result;
   }
 } // namespace Touchstone

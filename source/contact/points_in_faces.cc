@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 // Which points inside slave faces have rows (doc/theory.md 4.2). It follows from states of balance
@@ -125,6 +126,26 @@ namespace Touchstone
 
 
 
+    /** Whether two points in faces that share a node are about equally deep. Only one of them can
+     * have a row, and round-off, or the numbers of the nodes, would choose it: the result would be
+     * less symmetric than the scene. */
+    bool
+    ambiguous(const std::vector<MaterialPoint> &wanted)
+    {
+      constexpr double equal = 0.99;
+      // The deepest come first.
+      std::map<Index, const MaterialPoint *> deepest;
+      for (const MaterialPoint &point : wanted)
+        for (unsigned int a = 0; a < point.n; ++a)
+          if (const MaterialPoint *const other =
+                deepest.emplace(point.nodes[a], &point).first->second;
+              other->face != point.face && point.depth > equal * other->depth)
+            return true;
+      return false;
+    }
+
+
+
     bool
     PointsOfPair::place()
     {
@@ -139,9 +160,12 @@ namespace Touchstone
             place.depth == 0. ||
             !(MissedContact::deep(place) || missed.share(place) > MissedContact::most_share))
           return false;
+      const std::vector<MaterialPoint> wanted = missed.points();
+      if (ambiguous(wanted))
+        return false;
       std::set<Index> used;
       bool            changed = false;
-      for (MaterialPoint point : missed.points())
+      for (MaterialPoint point : wanted)
         {
           // Of faces that share a node the one with the deepest overlap comes first: with a row
           // there its neighbours may touch nothing.

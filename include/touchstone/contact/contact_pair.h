@@ -155,11 +155,12 @@ namespace Touchstone
     void
     commit_positions();
 
-    /** @brief Rows for material points inside slave faces are possible (doc/theory.md 4.2). */
+    /** @brief Material points inside slave faces get rows where an obstacle enters between nodes
+     * (doc/theory.md 4.2). A body that enters is told of instead. */
     bool
     takes_points() const
     {
-      return points_meet;
+      return points_meet && !master_surface;
     }
 
     /** @brief The material points that have rows, the same on all ranks. */

@@ -24,6 +24,8 @@ namespace Touchstone
     std::array<double, Face::max_nodes> weights{};
     /** Which of them has the row. */
     unsigned int slave = 0;
+    /** How deep the other surface was within the face when the point was wanted; length. */
+    double depth = 0.;
 
     MaterialPoint() = default;
 
