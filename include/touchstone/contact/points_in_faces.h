@@ -11,7 +11,7 @@ namespace Touchstone
   void
   withdraw_points(Contact &contact);
 
-  /** @brief Give rows to material points inside slave faces that the master has entered between
+  /** @brief Give rows to material points inside slave faces that an obstacle has entered between
    * nodes that touch nothing, in a state of balance (doc/theory.md 4.2).
    * @return whether the state is to be solved again with other points. Collective. */
   bool
