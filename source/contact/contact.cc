@@ -174,6 +174,30 @@ namespace Touchstone
 
 
 
+  double
+  Contact::work_of_overlaps(const double weight, const double from) const
+  {
+    double work = 0.;
+    for (const ContactRow &row : all_rows)
+      {
+        const ContactPair &of   = pair(row);
+        const std::size_t  k    = &row - of.rows().data();
+        const double       gone = of.entered_overlap(k, from);
+        if (gone == 0.)
+          continue;
+        double force = 0.;
+        if (state(row).active())
+          force += weight * part_of_force(row, state(row), ForcePart::normal) * row.normal;
+        if (const RowState &before = method->states().of_committed(row); before.active())
+          force += (1. - weight) * part_of_force(committed(row), before, ForcePart::normal) *
+                   committed(row).normal;
+        work -= force * gone;
+      }
+    return Utilities::MPI::sum(work, solid.communicator);
+  }
+
+
+
   void
   Contact::commit_positions()
   {

@@ -135,6 +135,18 @@ namespace Touchstone
 
 
 
+  double
+  ContactPair::entered_overlap(const std::size_t k, const double from) const
+  {
+    if (is_tied)
+      return 0.;
+    if (input.parameters.initial_overlap == ContactPairParameters::Overlap::interference)
+      return from == 0. && committed[k].has_partner ? std::min(committed[k].gap, 0.) : 0.;
+    return (part_of_overlap(from) - part_of_overlap(time)) * overlaps[k];
+  }
+
+
+
   void
   ContactPair::apply_overlap()
   {

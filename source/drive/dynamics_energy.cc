@@ -70,12 +70,12 @@ namespace Touchstone
     result.kinetic = kinetic_energy(end_v);
     result.strain  = solid.strain_energy(u);
     result.plastic = solid.dissipation();
-    // Contact and friction count the work done against their forces. What a moving obstacle does
-    // enters through contact and is work of the outside as well, like that of supports.
-    result.contact += forces.obstacles_normal - work(old.normal, *forces.normal, at_end);
-    result.friction +=
-      forces.obstacles_tangential - work(old.tangential, *forces.tangential, at_end);
-    result.external += forces.obstacles_normal + forces.obstacles_tangential +
+    // Contact and friction count the work done against their forces. What moving obstacles
+    // and overlaps that are pressed in do enters through contact and is work of the outside as
+    // well, like that of supports.
+    result.contact += forces.outside_normal - work(old.normal, *forces.normal, at_end);
+    result.friction += forces.outside_tangential - work(old.tangential, *forces.tangential, at_end);
+    result.external += forces.outside_normal + forces.outside_tangential +
                        work(old.support, *forces.support, at_end) +
                        work(old.external, *forces.external, at_end - scheme.alpha_f);
     // The largest energy so far is the scale of the tolerance for gains of energy.

@@ -76,7 +76,8 @@ namespace Touchstone
          &support,
          plastic ? &constraints : nullptr,
          [this](Vector &force) { system->remove_supported(force); },
-         contact.work_of_obstacles(ForcePart::normal, end_weight),
+         contact.work_of_obstacles(ForcePart::normal, end_weight) +
+           contact.work_of_overlaps(end_weight, committed_time),
          contact.work_of_obstacles(ForcePart::tangential, end_weight)});
   }
 

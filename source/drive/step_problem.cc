@@ -100,7 +100,10 @@ namespace Touchstone
       system->check_bodies_without_support(u);
     else
       {
+        // The state of the material at time 0 is committed, too: the first step needs the
+        // temperature and stress that it begins with.
         solid.internal_force(u, internal);
+        solid.commit();
         system->prescribe(0., u);
         // The velocity that a support prescribes is the difference quotient of its displacement
         // over a time that is short compared with a step. Components across the prescribed

@@ -166,6 +166,13 @@ namespace Touchstone
     double
     work_of_obstacles(ForcePart part, double weight) const;
 
+    /** @brief Work of the contact forces on the overlaps that the bodies are placed with and that
+     * enter the gap from the committed state, of the time @p from, to that of the last update(),
+     * force times length. The bodies get it from outside, as from one who presses them into each
+     * other. Collective. @param weight As in work_of_obstacles(). */
+    double
+    work_of_overlaps(double weight, double from) const;
+
     /** @brief What nodes pass through counts from the displacement of the last update() on: the
      * rows of explicit dynamics are updated within a step. */
     void

@@ -136,6 +136,12 @@ namespace Touchstone
     double
     part_of_overlap(double time) const;
 
+    /** @brief What of the overlap that row @p k is placed with has entered its gap since the
+     * committed state, of the time @p from: all of an interference in the first step, <= 0;
+     * length. */
+    double
+    entered_overlap(std::size_t k, double from) const;
+
     /** @brief Draw the sides of a tied pair together by this length, see Pretension. */
     void
     set_shortening(const double length)

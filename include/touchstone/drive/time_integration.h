@@ -32,9 +32,9 @@ namespace Touchstone
     std::vector<VelocityConstraint> *velocity_constraints = nullptr;
     /** Removes from nodal forces the components that supports carry. */
     std::function<void(Vector &)> remove_support;
-    /** Work that moving obstacles do by the normal and by the tangential contact forces,
-     * force times length. */
-    double obstacles_normal = 0., obstacles_tangential = 0.;
+    /** Work from outside by the normal and by the tangential contact forces, force times length:
+     * of moving obstacles, and along the normal of overlaps that are pressed in. */
+    double outside_normal = 0., outside_tangential = 0.;
   };
 
   /** @brief Mass and momenta of a body. */
