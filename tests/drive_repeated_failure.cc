@@ -39,5 +39,8 @@ main()
   const double none = std::numeric_limits<double>::quiet_NaN();
   add("before any iteration", InvertedCells("inverted"), none, 0, "");
   add("again", InvertedCells("inverted"), none, 0, "");
+  add("energy", EnergyGain("a gain", 0.02), 1e-12, 0, "d");
+  add("less energy", EnergyGain("a gain", 0.005), 1e-12, 0, "d");
+  add("as much", EnergyGain("a gain", 0.00501), 1e-12, 0, "d");
   return 0;
 }

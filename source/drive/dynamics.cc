@@ -38,7 +38,7 @@ namespace Touchstone
     , damping_stiffness(damping_mass)
     , v(damping_mass)
     , a(v)
-    , old{v, v, v, v, v}
+    , old{v, v, v, v, v, v}
     , end_v(v)
     , end_a(v)
     , end_forces(old)
@@ -49,7 +49,8 @@ namespace Touchstone
               {"internal force", &old.internal},
               {"normal contact force", &old.normal},
               {"tangential contact force", &old.tangential},
-              {"support force", &old.support}};
+              {"support force", &old.support},
+              {"load in inertia", &old.load}};
     for (std::size_t i = 0; i < body.size(); ++i)
       {
         // Rayleigh damping C = a M + b K0 with a and b of the body: kept per dof, so that a product

@@ -29,13 +29,18 @@ namespace Touchstone
 
     // Work over the step, force times length. The forces that change the momentum between n and n+1
     // are those of the balance, which refers to the time n+1-m, while Newmark's formula for the
-    // velocity needs those at n+gamma: so a force of the end has the weight gamma + m, and one that
-    // the balance takes at n+1-f the weight gamma + m - f (doc/time_integration.md, "The energy
-    // ledger").
+    // velocity needs those at n+gamma: so a contact force, which is of the end, has the weight
+    // gamma + m. Loads and supports, which may begin with a kink, have their parts of M a
+    // (doc/time_integration.md, "The energy ledger").
     Vector way(u), mean(v);
     way -= committed_u;
     const double at_end = scheme.gamma + scheme.alpha_m;
-    const auto   work   = [&](const Vector &old, const Vector &now, const double theta) {
+    end_forces.load *= 1. - scheme.alpha_f;
+    end_forces.load.add(scheme.alpha_f, old.external);
+    for (const auto part : {&NodalForces::load, &NodalForces::support})
+      (end_forces.*part)
+        .sadd(1. / (1. - scheme.alpha_m), -scheme.alpha_m / (1. - scheme.alpha_m), old.*part);
+    const auto work = [&](const Vector &old, const Vector &now, const double theta) {
       mean = old;
       mean.sadd(1. - theta, theta, now);
       return mean * way;
@@ -76,8 +81,8 @@ namespace Touchstone
     result.contact += forces.outside_normal - work(old.normal, *forces.normal, at_end);
     result.friction += forces.outside_tangential - work(old.tangential, *forces.tangential, at_end);
     result.external += forces.outside_normal + forces.outside_tangential +
-                       work(old.support, *forces.support, at_end) +
-                       work(old.external, *forces.external, at_end - scheme.alpha_f);
+                       work(old.support, end_forces.support, scheme.gamma) +
+                       work(old.load, end_forces.load, scheme.gamma);
     // The largest energy so far is the scale of the tolerance for gains of energy.
     result.update_largest();
     return result;
@@ -121,11 +126,11 @@ namespace Touchstone
   Dynamics::NodalForces &
   Dynamics::NodalForces::operator=(const StepForces &forces)
   {
-    external   = *forces.external;
-    internal   = *forces.internal;
-    normal     = *forces.normal;
-    tangential = *forces.tangential;
-    support    = *forces.support;
+    external = load = *forces.external;
+    internal        = *forces.internal;
+    normal          = *forces.normal;
+    tangential      = *forces.tangential;
+    support         = *forces.support;
     return *this;
   }
 } // namespace Touchstone

@@ -90,11 +90,11 @@ namespace Touchstone
     solid.hanging.distribute(a);
     // The ledger of energies begins here: the sum of kinetic and strain energy is what all later
     // steps are compared with.
-    old.external      = external;
-    old.internal      = internal;
-    committed.kinetic = kinetic_energy(v);
-    committed.strain  = solid.strain_energy(committed_u);
-    committed.initial = committed.present();
+    old.external = old.load = external;
+    old.internal            = internal;
+    committed.kinetic       = kinetic_energy(v);
+    committed.strain        = solid.strain_energy(committed_u);
+    committed.initial       = committed.present();
     committed.update_largest();
   }
 } // namespace Touchstone

@@ -36,7 +36,7 @@ namespace Touchstone
                        const NewtonState    &last,
                        const std::string    &place)
   {
-    const Attempt now{typeid(failure), place, last};
+    const Attempt now{typeid(failure), failure.measure(), place, last};
     // Residuals and gaps below their tolerances are round-off and do not tell two attempts apart,
     // hence "both are met" counts as equal.
     const auto closed = [this](const NewtonState &state) {
@@ -48,7 +48,8 @@ namespace Touchstone
        (balanced(before->last, parameters) && balanced(last, parameters))) &&
       (unchanged(before->last.gap, last.gap) || (closed(before->last) && closed(last))) &&
       before->last.changes == last.changes && before->last.active == last.active;
-    const bool same = same_state && before->type == now.type && before->place == now.place;
+    const bool same = same_state && before->type == now.type &&
+                      unchanged(before->measure, now.measure) && before->place == now.place;
     before.emplace(now);
     return same;
   }

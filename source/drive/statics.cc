@@ -161,7 +161,10 @@ namespace Touchstone
   {
     resume(archive.get<double>("committed time"), archive.get<Energies>("energies"));
     for (const auto &[name, field] : fields)
-      *field = archive.field(name);
+      // Checkpoints of version 0.2.0 and before do not have it, and it matters where loads change
+      // suddenly alone.
+      *field = archive.field(
+        name == "load in inertia" && !archive.has_field(name) ? "external force" : name);
   }
 
 

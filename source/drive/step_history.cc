@@ -90,11 +90,16 @@ namespace Touchstone
       return 1.;
     const TimeIntegrationParameters &parameters = scene.time_integration;
     // Energy that nothing has supplied comes from the discretisation in time; a shorter step
-    // reduces it, hence the exception.
-    if (end.gain() > parameters.gain_tolerance * end.largest)
+    // reduces it, hence the exception. No step may take more than half of what the steps before
+    // have left of the tolerance: else these would use it up, and no cut could help any more.
+    const double before = integration->committed_energies().gain(), here = end.gain() - before,
+                 left = parameters.gain_tolerance * end.largest - before;
+    if (here > std::max(0.5 * left, 0.))
       throw EnergyGain("energy " + std::to_string(end.gain() / end.largest) +
-                       " times the largest so far came from nowhere ('Time integration/Gain "
-                       "tolerance')");
+                         " times the largest so far came from nowhere, " +
+                         std::to_string(here / end.largest) +
+                         " in this step ('Time integration/Gain tolerance')",
+                       here / end.largest);
     // An impact in the middle of a step: repeat it such that it ends where the first gap closes, as
     // estimated from the first guess.
     const double change = end.contact - integration->committed_energies().contact;

@@ -4,6 +4,7 @@
 #define touchstone_base_non_convergence_h
 
 #include <stdexcept>
+#include <string>
 
 namespace Touchstone
 {
@@ -21,6 +22,14 @@ namespace Touchstone
     shorter_step_may_help() const
     {
       return true;
+    }
+
+    /** @brief How bad the failure is, beside what the last Newton iteration says, so that attempts
+     * can be told apart; no unit. */
+    virtual double
+    measure() const
+    {
+      return 0.;
     }
   };
 
@@ -116,7 +125,22 @@ namespace Touchstone
   /** @brief A step has gained energy that no load explains. */
   class EnergyGain : public NonConvergence
   {
-    using NonConvergence::NonConvergence;
+  public:
+    /** @param gain Of the step, relative to the largest energy so far. */
+    EnergyGain(const std::string &reason, const double gain)
+      : NonConvergence(reason)
+      , gain(gain)
+    {
+    }
+
+    double
+    measure() const override
+    {
+      return gain;
+    }
+
+  private:
+    double gain;
   };
 } // namespace Touchstone
 

@@ -107,10 +107,11 @@ namespace Touchstone
     Matrix effective;
     double effective_step = 0.;
 
-    /** Forces on the nodes, as StepForces has them. */
+    /** Forces on the nodes, as StepForces has them, but for the last two: the parts of the inertia
+     * M a that loads and supports have (doc/time_integration.md, "The energy ledger"). */
     struct NodalForces
     {
-      Vector external, internal, normal, tangential, support;
+      Vector external, internal, normal, tangential, support, load;
       NodalForces &
       operator=(const StepForces &forces);
     };

@@ -38,7 +38,7 @@ namespace Touchstone
      * @param last State of the last Newton iteration; its residual is NaN if there was none.
      * @param place Text that identifies the position of the failure in the model.
      * @return whether the previous attempt failed with the same reason, at the same position,
-     * equally far from a solution, and with as many active and changing contact rows.
+     * equally bad and far from a solution, and with as many active and changing contact rows.
      */
     bool
     add(const NonConvergence &failure, const NewtonState &last, const std::string &place);
@@ -47,6 +47,7 @@ namespace Touchstone
     struct Attempt
     {
       std::type_index type;
+      double          measure;
       std::string     place;
       NewtonState     last;
     };
