@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <cmath>
 
@@ -34,7 +35,11 @@ namespace Touchstone
           // Barycentric coordinates of the point in the tetrahedron; the fourth is one less their
           // sum.
           const Tensor<1, dim> part = invert(edges) * (x - c[0]);
-          if (part[0] >= 0. && part[1] >= 0. && part[2] >= 0. && part[0] + part[1] + part[2] <= 1.)
+          // On a plane between two of them, as planes of symmetry are, round-off must not put a
+          // point outside of both.
+          constexpr double on_plane = Tolerances::face_coordinate;
+          if (part[0] >= -on_plane && part[1] >= -on_plane && part[2] >= -on_plane &&
+              part[0] + part[1] + part[2] <= 1. + on_plane)
             return true;
         }
       return false;
