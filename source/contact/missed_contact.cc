@@ -215,8 +215,9 @@ namespace Touchstone
                 MeasuredFace(there, in.exact).depth(evaluate(before, of.exact, xi).x, 0., unused);
               const double taken_out = std::max(adjusted, part * start.value_or(0.));
               counts -= taken_out;
-              // The gap of a row there would have to be less by it, too.
-              if (taken_out > 0.)
+              // The gap of a row there would have to be less by it, too. Round-off of surfaces that
+              // touch is no overlap.
+              if (taken_out > Tolerances::touches_at_start * size)
                 worst.adjusted = true;
             }
           // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
@@ -237,8 +238,9 @@ namespace Touchstone
 
 
 
-  // Of equally deep samples, as along a ridge, round-off must not choose one. A high power leaves
-  // hardly more than the deepest and is as smooth a function of the state as the depths.
+  // Of equally deep samples, as along a ridge, round-off must not choose one. This power leaves
+  // hardly more than the deepest, and is as smooth a function of the state as the depths. Those
+  // that are half as deep do not count at all: whether they lie within the body can be in doubt.
   MeasuredFace::Xi
   MissedContact::middle(const std::vector<Sample> &samples)
   {
@@ -249,7 +251,7 @@ namespace Touchstone
     double sum = 0.;
     for (const Sample &sample : samples)
       {
-        const double weight = std::pow(sample.depth / deepest, 8);
+        const double weight = std::pow(std::max(0., 2. * sample.depth / deepest - 1.), 4);
         sum += weight;
         for (unsigned int a = 0; a < 2; ++a)
           result[a] += weight * sample.xi[a];
@@ -257,6 +259,18 @@ namespace Touchstone
     for (double &value : result)
       value = std::clamp(value / sum, -1., 1.);
     return result;
+  }
+
+
+
+  MeasuredFace::Xi
+  MissedContact::rounded(Xi xi)
+  {
+    // Before it touches anything a body is as exact as a solver leaves what is nearly no force.
+    constexpr double step = 1e-3;
+    for (double &value : xi)
+      value = step * std::round(value / step);
+    return xi;
   }
 
 
@@ -319,7 +333,7 @@ namespace Touchstone
         if (worst.place.depth == 0.)
           continue;
         if (!some_adjusted)
-          worst.point = MaterialPoint(face, pair.slave().trace(face), middle(samples));
+          worst.point = MaterialPoint(face, pair.slave().trace(face), rounded(middle(samples)));
         worst.point.face = face.key;
         result.push_back(worst);
       }

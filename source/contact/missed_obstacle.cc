@@ -185,12 +185,13 @@ namespace Touchstone
                              face.body,
                              position(at),
                              at[2] > 0.,
-                             taken_out > 0.,
+                             taken_out > Tolerances::touches_at_start * size,
                              {{at[0], at[1]}},
                              {}});
-            if (gap({{at[0], at[1], 0.}}) < 0. && !(taken_out > 0.))
-              found.back().point =
-                MaterialPoint(face, pair.slave().trace(face), deepest_in(slave, {{at[0], at[1]}}));
+            if (gap({{at[0], at[1], 0.}}) < 0. && !found.back().adjusted)
+              found.back().point = MaterialPoint(face,
+                                                 pair.slave().trace(face),
+                                                 rounded(deepest_in(slave, {{at[0], at[1]}})));
             // Counted once.
             area = 0.;
           }

@@ -195,6 +195,63 @@ namespace Touchstone
 
 
 
+    /** Move a point to the middle between it and its mirror image in the next face, on the edge
+     * between both. @return false if a node of its face hangs: nothing is done. */
+    bool
+    move_to_edge(MaterialPoint &point, const MaterialPoint &image)
+    {
+      const unsigned int degree =
+        static_cast<unsigned int>(std::lround(std::sqrt(double(point.n)))) - 1;
+      const auto coordinates = [&](const auto &weight_of) {
+        // Shape functions reproduce the coordinates.
+        MeasuredFace::Xi xi{};
+        double           sum = 0.;
+        for (unsigned int a = 0; a < point.n; ++a)
+          {
+            const double w = weight_of(a);
+            sum += w;
+            xi[0] += w * (2. * (a % (degree + 1)) / degree - 1.);
+            xi[1] += w * (2. * (a / (degree + 1)) / degree - 1.);
+          }
+        for (double &value : xi)
+          value = std::clamp(value / sum, -1., 1.);
+        return xi;
+      };
+      const MeasuredFace::Xi own =
+        coordinates([&](const unsigned int a) { return point.weights[a]; });
+      if (std::hypot(own[0] - point.xi[0], own[1] - point.xi[1]) > same_place)
+        return false;
+      point.xi      = coordinates([&](const unsigned int a) {
+        return has_node(image, point.nodes[a]) ? point.weights[a] + weight(image, point.nodes[a])
+                                                    : 0.;
+      });
+      point.weights = FaceShapes(degree, point.xi).value;
+      point.depth   = std::max(point.depth, image.depth);
+      return true;
+    }
+
+
+
+    /** Two points beside the edge between their faces, each as near to it as the other, are one on
+     * the edge. @param wanted The deepest first. */
+    std::vector<MaterialPoint>
+    on_edges(std::vector<MaterialPoint> wanted)
+    {
+      for (std::size_t i = 0; i < wanted.size(); ++i)
+        for (std::size_t j = i + 1; j < wanted.size(); ++j)
+          if (const double part = part_on(wanted[j], wanted[i]);
+              part > Tolerances::at_node && equals(wanted[i], wanted[j]) &&
+              std::abs(part - part_on(wanted[i], wanted[j])) < same_place &&
+              move_to_edge(wanted[i], wanted[j]))
+            {
+              wanted.erase(wanted.begin() + j);
+              break;
+            }
+      return wanted;
+    }
+
+
+
     /** Of points in faces that share a node the deepest, and its equals: with rows there the other
      * faces may touch nothing. @param wanted The deepest first. */
     std::vector<MaterialPoint>
@@ -304,7 +361,7 @@ namespace Touchstone
             place.depth == 0. ||
             !(MissedContact::deep(place) || missed.share(place) > MissedContact::most_share))
           return false;
-      const std::vector<MaterialPoint> wanted  = deepest_of_neighbours(missed.points());
+      const std::vector<MaterialPoint> wanted  = deepest_of_neighbours(on_edges(missed.points()));
       std::vector<MaterialPoint>       result  = points;
       bool                             changed = false;
       for (MaterialPoint point : wanted)

@@ -132,6 +132,10 @@ namespace Touchstone
     /** The middle of the samples that are as deep as the deepest. */
     static MeasuredFace::Xi
     middle(const std::vector<Sample> &samples);
+    /** Coordinates in steps that the tolerances of solvers do not reach: the points of a scene are
+     * the same with any of them. */
+    static MeasuredFace::Xi
+    rounded(MeasuredFace::Xi xi);
     /** The deepest point of an obstacle in each idle face, and behind it. Collective. */
     std::vector<Overlap>
     obstacle_within(const std::vector<Face> &slaves) const;
