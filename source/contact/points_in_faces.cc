@@ -313,38 +313,45 @@ namespace Touchstone
           }
       std::vector<int> all(free.begin(), free.end());
       Utilities::MPI::max(all, contact.communicator(), all);
-      double       largest = 0.;
-      unsigned int fewest  = 0;
-      bool         found   = false;
-      for (unsigned int a = 0; a < point.n; ++a)
+      // Small weights make large coefficients: only where others would close a circle.
+      for (const double least : {Tolerances::least_share, 0.25 * Tolerances::least_share})
         {
-          if (all[a] == 0 || point.weights[a] <= Tolerances::least_share)
-            continue;
-          // The node that the fewest other rows refer to, of these the one with the largest
-          // weight, and of equal weights the first on the face, which is the same in any partition.
-          const unsigned int n =
-            std::count_if(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
-              return other.face != point.face && refers_to(other, point.nodes[a]);
-            });
-          if (found &&
-              (n > fewest || (n == fewest && point.weights[a] <= largest + Tolerances::edge_end)))
-            continue;
-          std::vector<MaterialPoint> trial(others);
-          trial.push_back(point);
-          trial.back().slave = a;
-          if (std::any_of(others.begin(),
-                          others.end(),
-                          [&](const MaterialPoint &other) {
-                            return other.nodes[other.slave] == point.nodes[a];
-                          }) ||
-              in_circle(trial))
-            continue;
-          point.slave = a;
-          largest     = point.weights[a];
-          fewest      = n;
-          found       = true;
+          double       largest = 0.;
+          unsigned int fewest  = 0;
+          bool         found   = false;
+          for (unsigned int a = 0; a < point.n; ++a)
+            {
+              if (all[a] == 0 || point.weights[a] <= least)
+                continue;
+              // The node that the fewest other rows refer to, of these the one with the largest
+              // weight, and of equal weights the first on the face, which is the same in any
+              // partition.
+              const unsigned int n =
+                std::count_if(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
+                  return other.face != point.face && refers_to(other, point.nodes[a]);
+                });
+              if (found && (n > fewest ||
+                            (n == fewest && point.weights[a] <= largest + Tolerances::edge_end)))
+                continue;
+              std::vector<MaterialPoint> trial(others);
+              trial.push_back(point);
+              trial.back().slave = a;
+              if (std::any_of(others.begin(),
+                              others.end(),
+                              [&](const MaterialPoint &other) {
+                                return other.nodes[other.slave] == point.nodes[a];
+                              }) ||
+                  in_circle(trial))
+                continue;
+              point.slave = a;
+              largest     = point.weights[a];
+              fewest      = n;
+              found       = true;
+            }
+          if (found)
+            return true;
         }
-      return found;
+      return false;
     }
 
 
