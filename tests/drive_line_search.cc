@@ -2,7 +2,8 @@
 // The line search of Newton's method on equations of one unknown, whose residuals and
 // active sets are known: a method that behaves costs no evaluation more, an increment
 // that makes things much worse is shortened, and a residual that a change of the active
-// set or a support on its way has raised shortens nothing.
+// set or a support on its way has raised shortens nothing. Increments that go to and fro
+// come to rest between.
 
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/drive/newton.h>
@@ -109,10 +110,15 @@ main()
   // The same, but so far away that all is well again.
   const auto wild = [=](double x) { return std::abs(x - 1.) > 200. ? 1. : soft(x); };
 
+  // Full increments lead to the other side of the solution, as far away.
+  const auto root = [](double x) { return std::copysign(std::sqrt(std::abs(x - 1.)), x - 1.); };
+  const auto root_slope = [](double x) { return 0.5 / std::sqrt(std::abs(x - 1.)); };
+
   for (const std::string search : {"automatic", "none"})
     {
       run("well-behaved", Equation(cubic, cubic_slope, 3.), search);
       run("increments too long", Equation(linear, soft, 3.), search);
+      run("increments go to and fro", Equation(root, root_slope, 3.), search);
 
       Equation changing(linear, wild, 3.);
       changing.changes = [](unsigned int solves) { return solves < 4; };

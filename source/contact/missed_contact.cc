@@ -41,6 +41,35 @@ namespace Touchstone
     for (std::size_t k = 0; k < pair.rows().size(); ++k)
       adjusted = std::max(adjusted, -pair.overlap(k));
     adjusted = part_adjusted() * Utilities::MPI::max(adjusted, contact.communicator());
+    find_planes_of_symmetry();
+  }
+
+
+
+  void
+  MissedContact::find_planes_of_symmetry()
+  {
+    const MPI_Comm communicator = contact.communicator();
+    if (Utilities::MPI::max(contact.planes_of_symmetry().size(), communicator) == 0)
+      return;
+    // A node may lie on two, and with a third one no normal is left.
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        Vector normals(contact.solid_model().owned, communicator);
+        for (const auto &[node, planes] : contact.planes_of_symmetry())
+          if (planes.size() > k)
+            {
+              // Orthogonal to each other.
+              Tensor<1, dim> normal = planes[k];
+              if (k > 0)
+                normal -= (normal * planes[0]) * planes[0];
+              if (const double length = normal.norm(); length > Tolerances::perpendicular_cosine)
+                for (unsigned int d = 0; d < dim; ++d)
+                  normals(dim * node + d) = normal[d] / length;
+            }
+        normals.compress(VectorOperation::insert);
+        planes_of_nodes.push_back(contact.with_ghosts(normals));
+      }
   }
 
 
@@ -87,8 +116,22 @@ namespace Touchstone
   {
     Face result = face;
     for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      for (unsigned int d = 0; d < dim; ++d)
-        result.displacement[m][d] = contact.ghosted_displacement()(dim * face.nodes[m] + d);
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          result.displacement[m][d] = contact.ghosted_displacement()(dim * face.nodes[m] + d);
+        // Averaged with the faces beyond a plane of symmetry normals lie in it. Otherwise facets
+        // beside it would seem to have half of their arc.
+        Tensor<1, dim> normal = result.normals[m];
+        for (const Vector &planes : planes_of_nodes)
+          {
+            Tensor<1, dim> plane;
+            for (unsigned int d = 0; d < dim; ++d)
+              plane[d] = planes(dim * face.nodes[m] + d);
+            normal -= (normal * plane) * plane;
+          }
+        if (const double length = normal.norm(); length > Tolerances::perpendicular_cosine)
+          result.normals[m] = normal / length;
+      }
     return result;
   }
 
@@ -172,8 +215,9 @@ namespace Touchstone
                 MeasuredFace(there, in.exact).depth(evaluate(before, of.exact, xi).x, 0., unused);
               const double taken_out = std::max(adjusted, part * start.value_or(0.));
               counts -= taken_out;
-              // The gap of a row there would have to be less by it, too.
-              if (taken_out > 0.)
+              // The gap of a row there would have to be less by it, too. Round-off of surfaces that
+              // touch is no overlap.
+              if (taken_out > Tolerances::touches_at_start * size)
                 worst.adjusted = true;
             }
           // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
@@ -194,8 +238,9 @@ namespace Touchstone
 
 
 
-  // Of equally deep samples, as along a ridge, round-off must not choose one. A high power leaves
-  // hardly more than the deepest and is as smooth a function of the state as the depths.
+  // Of equally deep samples, as along a ridge, round-off must not choose one. This power leaves
+  // hardly more than the deepest, and is as smooth a function of the state as the depths. Those
+  // that are half as deep do not count at all: whether they lie within the body can be in doubt.
   MeasuredFace::Xi
   MissedContact::middle(const std::vector<Sample> &samples)
   {
@@ -206,7 +251,7 @@ namespace Touchstone
     double sum = 0.;
     for (const Sample &sample : samples)
       {
-        const double weight = std::pow(sample.depth / deepest, 8);
+        const double weight = std::pow(std::max(0., 2. * sample.depth / deepest - 1.), 4);
         sum += weight;
         for (unsigned int a = 0; a < 2; ++a)
           result[a] += weight * sample.xi[a];
@@ -218,6 +263,18 @@ namespace Touchstone
 
 
 
+  MeasuredFace::Xi
+  MissedContact::rounded(Xi xi)
+  {
+    // Before it touches anything a body is as exact as a solver leaves what is nearly no force.
+    constexpr double step = 1e-3;
+    for (double &value : xi)
+      value = step * std::round(value / step);
+    return xi;
+  }
+
+
+
   std::vector<MissedContact::Overlap>
   MissedContact::within_faces(const std::vector<Face> &slaves,
                               const std::vector<Face> &masters) const
@@ -225,45 +282,102 @@ namespace Touchstone
     std::vector<std::pair<Box, std::size_t>> boxes;
     for (std::size_t i = 0; i < masters.size(); ++i)
       boxes.emplace_back(MeasuredFace::box_around(masters[i], 0.), i);
-    const auto           tree = pack_rtree(boxes);
-    std::vector<Overlap> result;
+    const auto tree = pack_rtree(boxes);
+    // Of each two faces: that a point is behind a face does not say that it lies within the body,
+    // and what does not must not hide what does.
+    std::vector<Overlap>             found;
+    std::vector<std::vector<Sample>> of_found;
     for (const Face &face : slaves)
       {
-        const MeasuredFace  slave(face, pair.slave().exact_surface(face));
-        Overlap             worst;
-        std::vector<Sample> samples;
-        worst.place.size = slave.size();
-        const Box box    = MeasuredFace::box_around(face, worst.place.size);
-        namespace query  = boost::geometry::index;
+        const MeasuredFace slave(face, pair.slave().exact_surface(face));
+        const Box          box = MeasuredFace::box_around(face, slave.size());
+        namespace query        = boost::geometry::index;
         for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
           {
             const Face &other = masters[entry.second];
             if (pair.parameters().of_one_body() && SelfContact::share_node(face, other))
               continue;
-            const MeasuredFace master(other, pair.master()->exact_surface(other));
+            const MeasuredFace  master(other, pair.master()->exact_surface(other));
+            Overlap             worst;
+            std::vector<Sample> samples;
+            worst.place.size = slave.size();
             // Both ways: a ridge between master nodes has none of them within.
             add_points(master, slave, face, worst, samples);
             add_points(slave, master, face, worst, samples);
+            if (worst.place.depth > 0.)
+              {
+                found.push_back(worst);
+                found.back().point.face = face.key;
+                of_found.push_back(samples);
+              }
           }
-        if (worst.place.depth > 0.)
-          {
-            if (!worst.adjusted)
-              worst.point = MaterialPoint(face, pair.slave().trace(face), middle(samples));
-            worst.point.face = face.key;
-            result.push_back(worst);
-          }
+      }
+    const std::vector<bool> inside = lie_within_bodies(found);
+    std::vector<Overlap>    result;
+    std::size_t             k = 0;
+    for (const Face &face : slaves)
+      {
+        Overlap             worst;
+        std::vector<Sample> samples;
+        bool                some_adjusted = false;
+        for (; k < found.size() && found[k].point.face == face.key; ++k)
+          if (inside[k])
+            {
+              samples.insert(samples.end(), of_found[k].begin(), of_found[k].end());
+              const double area = std::max(worst.place.area, found[k].place.area);
+              some_adjusted     = some_adjusted || found[k].adjusted;
+              if (found[k].place.depth > worst.place.depth)
+                worst = found[k];
+              worst.place.area = area;
+            }
+        if (worst.place.depth == 0.)
+          continue;
+        if (!some_adjusted)
+          worst.point = MaterialPoint(face, pair.slave().trace(face), rounded(middle(samples)));
+        worst.point.face = face.key;
+        result.push_back(worst);
       }
     return result;
   }
 
 
 
-  std::vector<MissedContact::Overlap>
-  MissedContact::within_bodies(const std::vector<Overlap> &found) const
+  std::vector<bool>
+  MissedContact::lie_within_bodies(const std::vector<Overlap> &found) const
   {
+    const MPI_Comm communicator = contact.communicator();
     // Nothing on any rank, the normal case: no cells need be gathered in trees.
-    if (Utilities::MPI::max(found.size(), contact.communicator()) == 0)
+    if (Utilities::MPI::max(found.size(), communicator) == 0)
       return {};
+    // The cells around a point may belong to any rank.
+    std::vector<Overlap> all;
+    std::size_t          first = 0;
+    const auto           parts = gather_records(found, communicator);
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+      {
+        if (rank == Utilities::MPI::this_mpi_process(communicator))
+          first = all.size();
+        all.insert(all.end(), parts[rank].begin(), parts[rank].end());
+      }
+    std::map<unsigned int, DeformedCells> cells;
+    for (const Overlap &overlap : all)
+      cells.try_emplace(overlap.body,
+                        contact.solid_model(),
+                        overlap.body,
+                        contact.ghosted_displacement());
+    std::vector<int> inside;
+    for (const Overlap &overlap : all)
+      inside.push_back(!overlap.in_doubt || cells.at(overlap.body).contain(overlap.inside));
+    Utilities::MPI::max(inside, communicator, inside);
+    const auto mine = inside.begin() + first;
+    return {mine, mine + found.size()};
+  }
+
+
+
+  std::vector<MissedContact::Overlap>
+  MissedContact::deepest_first(const std::vector<Overlap> &found) const
+  {
     std::vector<Overlap> all;
     for (const auto &part : gather_records(found, contact.communicator()))
       all.insert(all.end(), part.begin(), part.end());
@@ -274,22 +388,7 @@ namespace Touchstone
       return overlap_order(a.place.depth, a.place.x, deepest) <
              overlap_order(b.place.depth, b.place.x, deepest);
     });
-    // The cells around a point may belong to any rank.
-    std::map<unsigned int, DeformedCells> cells;
-    for (const Overlap &overlap : all)
-      cells.try_emplace(overlap.body,
-                        contact.solid_model(),
-                        overlap.body,
-                        contact.ghosted_displacement());
-    std::vector<int> inside;
-    for (const Overlap &overlap : all)
-      inside.push_back(!overlap.in_doubt || cells.at(overlap.body).contain(overlap.inside));
-    Utilities::MPI::max(inside, contact.communicator(), inside);
-    std::vector<Overlap> result;
-    for (std::size_t k = 0; k < all.size(); ++k)
-      if (inside[k] == 1)
-        result.push_back(all[k]);
-    return result;
+    return all;
   }
 
 
@@ -302,7 +401,7 @@ namespace Touchstone
       // Where a node or a point of the face carries a force, its row resists the overlap already.
       if (carries_nothing(face))
         slaves.push_back(present(face));
-    std::vector<Overlap> result = within_bodies(
+    std::vector<Overlap> result = deepest_first(
       pair.master() ? within_faces(slaves, master_faces(slaves)) : obstacle_within(slaves));
     // Pairings may measure gaps to other surfaces than facets: the row of a point there knows.
     for (const MaterialPoint &point : open_points())

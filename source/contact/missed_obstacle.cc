@@ -144,7 +144,7 @@ namespace Touchstone
   MissedContact::obstacle_within(const std::vector<Face> &slaves) const
   {
     const double         part = part_adjusted();
-    std::vector<Overlap> result;
+    std::vector<Overlap> found;
     for (const Face &face : slaves)
       {
         const MeasuredFace slave(face, pair.slave().exact_surface(face));
@@ -181,20 +181,26 @@ namespace Touchstone
             if (counts <= Tolerances::touching * size + slave.sagitta())
               continue;
             const Point<dim> on_face = position({{at[0], at[1], 0.}});
-            result.push_back({{counts, on_face, size, area},
-                              face.body,
-                              position(at),
-                              at[2] > 0.,
-                              taken_out > 0.,
-                              {{at[0], at[1]}},
-                              {}});
-            if (gap({{at[0], at[1], 0.}}) < 0. && !(taken_out > 0.))
-              result.back().point =
-                MaterialPoint(face, pair.slave().trace(face), deepest_in(slave, {{at[0], at[1]}}));
+            found.push_back({{counts, on_face, size, area},
+                             face.body,
+                             position(at),
+                             at[2] > 0.,
+                             taken_out > Tolerances::touches_at_start * size,
+                             {{at[0], at[1]}},
+                             {}});
+            if (gap({{at[0], at[1], 0.}}) < 0. && !found.back().adjusted)
+              found.back().point = MaterialPoint(face,
+                                                 pair.slave().trace(face),
+                                                 rounded(deepest_in(slave, {{at[0], at[1]}})));
             // Counted once.
             area = 0.;
           }
       }
+    const std::vector<bool> inside = lie_within_bodies(found);
+    std::vector<Overlap>    result;
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (inside[k])
+        result.push_back(found[k]);
     return result;
   }
 } // namespace Touchstone

@@ -50,14 +50,31 @@ namespace Touchstone
       bool
       failed(const NewtonState &state, const double factor = much_worse) const
       {
-        if (!on || forces.size() < memory || !state.prescribed || state.changes > 0 ||
+        const std::size_t n = monotone ? 1 : memory;
+        if (!on || forces.size() < n || !state.prescribed || state.changes > 0 ||
             state.signature != last.signature || balanced(last, parameters) ||
             state.residual <= 100. * parameters.residual_tolerance ||
-            (last.gap > parameters.gap_tolerance && state.gap < last.gap))
+            (!monotone && last.gap > parameters.gap_tolerance && state.gap < last.gap))
           return false;
         // Negated, so that NaN has failed as well.
-        const double highest = *std::max_element(forces.end() - memory, forces.end());
-        return !(state.force <= factor * highest);
+        const double highest = *std::max_element(forces.end() - n, forces.end());
+        return !(state.force <= (monotone ? 1. : factor) * highest);
+      }
+
+      /** Whether increments go to and fro: the force has not decreased for twice some iterations
+       * with one active set, as of a plastic body whose increments pass the yield surface each
+       * time. From then on each increment must decrease it. */
+      bool
+      goes_to_and_fro(const NewtonState &state)
+      {
+        if (!on || monotone || forces.size() < std::size_t(2 * turns) || !state.prescribed ||
+            state.changes > 0 || state.signature != last.signature ||
+            state.residual <= 100. * parameters.residual_tolerance)
+          return false;
+        const auto middle = forces.end() - turns;
+        monotone          = *std::min_element(middle, forces.end()) >
+                   no_gain * *std::min_element(middle - turns, middle);
+        return monotone;
       }
 
       /** Halve the increment until the force is not above the highest before; all of it, for the
@@ -81,12 +98,15 @@ namespace Touchstone
 
     private:
       const NewtonParameters &parameters;
-      bool                    on;
+      bool                    on, monotone = false;
       /** Forces that count, and the factor by which they may rise. */
       static constexpr std::size_t memory     = 2;
       static constexpr double      much_worse = 2.;
-      NewtonState                  last;
-      std::vector<double>          forces;
+      /** Iterations and the factor that are no progress. */
+      static constexpr std::ptrdiff_t turns   = 4;
+      static constexpr double         no_gain = 0.95;
+      NewtonState                     last;
+      std::vector<double>             forces;
     };
   } // namespace
 
@@ -110,7 +130,7 @@ namespace Touchstone
       {
         state        = problem.residual(damping);
         n_iterations = iteration;
-        if (iteration > 0 && line_search.failed(state))
+        if (iteration > 0 && (line_search.failed(state) || line_search.goes_to_and_fro(state)))
           state = line_search.shorten(problem, damping);
         if (iteration > 0)
           observer(iteration, state, linear);

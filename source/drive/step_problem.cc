@@ -255,6 +255,9 @@ namespace Touchstone
       if (const std::string place = unstable_place(); !place.empty())
         suspicion += "; the material of " + place +
                      " is compressed so far that by its 'Law' it resists no longer";
+    if (const std::string pairs = pairs_with_points(contact); !pairs.empty())
+      suspicion += "; contact of " + pairs +
+                   " passes between slave nodes that touch nothing: refine the slave surface";
     suspicion += friction_without_pressure();
     return {worst_place(), suspicion};
   }

@@ -43,4 +43,7 @@ tension = belt.reaction("belt", "first cut")[1]
 below(f"belt, T2 = {tension} differs from exp(mu pi / 2)",
       relative(-tension, math.exp(0.1 * math.pi)), 2e-3)
 below("belt, steps cut", belt.cuts(), 0.5)
+# A plastic tube that is widened beyond its yield strain in one step.
+fit = run("fit", checks / "plastic_fit.prm", {GAP: 1e-10})
+same(fit, run("fit_multipliers", checks / "plastic_fit.prm", {GAP: 1e-10, **MULTIPLIERS}), 1e-6)
 finish()

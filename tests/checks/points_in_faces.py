@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Slave faces that an obstacle enters between their nodes: one answer of enforcements,
+"""Slave faces that an obstacle or a master enters between their nodes: one answer of enforcements,
 solvers, ranks and numbers of steps, balance, forces of nodes in contact.vtu."""
 # ctest: label = quick
 
@@ -40,6 +40,50 @@ subsection Load stepping
   set Steps = 1
 end
 """
+TUBE = LOW.format(more=", tube") + """
+subsection Body tube
+  set Boundary conditions = first cut, second cut
+  subsection Boundary first cut
+    set Displacement x = 0
+    set Displacement y = 0
+    set Displacement z = -0.005 * t
+  end
+  subsection Boundary second cut
+    set Displacement x = 0
+    set Displacement y = 0
+    set Displacement z = -0.005 * t
+  end
+  subsection Geometry
+    set Type = tube
+    set Axis = x
+    set Origin = 0, 0.02, 2
+    set Start = -0.15
+    set End = 0.15
+    set Inner radius = 1.6
+    set Outer radius = 2
+    set First angle = 255
+    set Angle = 30
+    set Cells = 2, 24, 2
+  end
+  subsection Material
+    set Young modulus = 1000
+  end
+end
+subsection Contact pair c
+  set Slave body = low
+  set Slave boundaries = top
+  set Master body = tube
+  set Master boundaries = outer
+  set Pairing = pointwise
+end
+subsection Load stepping
+  set End time = 1
+  set Steps = 1
+end
+"""
+# Deepest in all faces of a row, each of which shares nodes with the next.
+ROW = BALL.replace("Shape = sphere", "Shape = cylinder\n  set Direction = 0, 1, 0").replace(
+    "Point = 0.05, 0.03, 3", "Point = 0, 0, 3").replace("-0.008", "-0.004")
 
 
 def difference(a, b):
@@ -48,23 +92,26 @@ def difference(a, b):
     return max(abs(x - y) for x, y in zip(a.force("c"), b.force("c"))) / size
 
 
-name = "ball"
-(folder / f"{name}.prm").write_text(BALL, encoding="utf-8")
-scene = f"{name}.prm"
-one = run(name, scene, vtu=None)
-# Points have no area: no row of a node carries anything.
-check(one.contact("c", "area") == 0 and one.contact("c", "active") == 1, f"{name}: no point")
-check(not one.summary["warnings"], f"{name}: {one.summary['warnings']}")
-reaction = one.reaction("low", "bottom")
-below(f"{name}: balance", max(abs(f + r) for f, r in zip(one.force("c"), reaction)) /
-      max(map(abs, reaction)), 1e-9)
-found = [sum(node.force[d] for node in one.contact_nodes()) for d in range(3)]
-below(f"{name}: forces of nodes and of the pair",
-      max(abs(a - b) for a, b in zip(found, one.force("c"))) / max(map(abs, found)), 1e-6)
-for other, settings, ranks, bound in (
-        ("multipliers", MULTIPLIERS, 1, 1e-8), ("augmented", AUGMENTED, 1, 1e-7),
-        ("cg", CG, 1, 1e-7), ("ranks", {}, 2, 1e-8), ("steps", {STEPS: 3}, 1, 1e-7),
-        ("consistent", {"Contact/Linearisation": "consistent"}, 1, 1e-8)):
-    result = run(f"{name}_{other}", scene, settings, ranks=ranks)
-    below(f"{name}, {other}: force", difference(one, result), bound)
+for name, text, points in (("ball", BALL, 1), ("tube", TUBE, 1), ("row", ROW, 5)):
+    (folder / f"{name}.prm").write_text(text, encoding="utf-8")
+    scene = f"{name}.prm"
+    one = run(name, scene, vtu=None)
+    # Points have no area: no row of a node carries anything.
+    check(one.contact("c", "area") == 0 and one.contact("c", "active") == points,
+          f"{name}: not {points} points")
+    size = max(map(abs, one.force("c")))
+    below(f"{name}: force across", abs(one.force("c")[1]) / size if name == "row" else 0., 1e-9)
+    check(not one.summary["warnings"], f"{name}: {one.summary['warnings']}")
+    reaction = one.reaction("low", "bottom")
+    below(f"{name}: balance", max(abs(f + r) for f, r in zip(one.force("c"), reaction)) /
+          max(map(abs, reaction)), 1e-9)
+    found = [sum(node.force[d] for node in one.contact_nodes()) for d in range(3)]
+    below(f"{name}: forces of nodes and of the pair",
+          max(abs(a - b) for a, b in zip(found, one.force("c"))) / max(map(abs, found)), 1e-6)
+    for other, settings, ranks, bound in (
+            ("multipliers", MULTIPLIERS, 1, 1e-8), ("augmented", AUGMENTED, 1, 1e-7),
+            ("cg", CG, 1, 1e-7), ("ranks", {}, 2, 1e-8), ("steps", {STEPS: 3}, 1, 1e-7),
+            ("consistent", {"Contact/Linearisation": "consistent"}, 1, 1e-8)):
+        result = run(f"{name}_{other}", scene, settings, ranks=ranks)
+        below(f"{name}, {other}: force", difference(one, result), bound)
 finish()

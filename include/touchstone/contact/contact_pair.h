@@ -161,12 +161,12 @@ namespace Touchstone
     void
     commit_positions();
 
-    /** @brief Material points inside slave faces get rows where an obstacle enters between nodes
-     * (doc/theory.md 4.2). A body that enters is told of instead. */
+    /** @brief Material points inside slave faces get rows where the master or an obstacle enters
+     * between nodes (doc/theory.md 4.2). */
     bool
     takes_points() const
     {
-      return points_meet && !master_surface;
+      return points_meet;
     }
 
     /** @brief The material points that have rows, the same on all ranks. */

@@ -71,6 +71,9 @@ namespace Touchstone
     const Vector      &forces;
     /** The largest initial overlap of a row that does not count now; length. */
     double adjusted = 0.;
+    /** Normals of the first and second plane of symmetry that nodes lie on, with ghosts; zero
+     * elsewhere. Empty without any plane. */
+    std::vector<Vector> planes_of_nodes;
 
     /** A point of one surface within the other. */
     struct Overlap
@@ -95,12 +98,15 @@ namespace Touchstone
       double           depth;
     };
 
+    void
+    find_planes_of_symmetry();
     bool
     carries_nothing(const Face &face) const;
     /** The part of an overlap in the reference state that does not count now. */
     double
     part_adjusted() const;
-    /** A face in its present position, also with small sliding, whose surfaces are not moved. */
+    /** A face in its present position, also with small sliding, whose surfaces are not moved, with
+     * normals as if the other half of the body were there. */
     Face
     present(const Face &face) const;
     /** In idle slave faces of any rank, the deepest first. Collective. */
@@ -112,7 +118,7 @@ namespace Touchstone
     /** Master faces of any rank that are near the boxes of faces of this rank. Collective. */
     std::vector<Face>
     master_faces(const std::vector<Face> &slaves) const;
-    /** The deepest overlap of each idle face with the master. */
+    /** The deepest overlap of each idle face with the master. Collective. */
     std::vector<Overlap>
     within_faces(const std::vector<Face> &slaves, const std::vector<Face> &masters) const;
     /** Take the deepest point of one face within another, if it is deeper than @p worst, and add
@@ -126,17 +132,23 @@ namespace Touchstone
     /** The middle of the samples that are as deep as the deepest. */
     static MeasuredFace::Xi
     middle(const std::vector<Sample> &samples);
-    /** The deepest point of an obstacle in each idle face, and behind it. */
+    /** Coordinates in steps that the tolerances of solvers do not reach: the points of a scene are
+     * the same with any of them. */
+    static MeasuredFace::Xi
+    rounded(MeasuredFace::Xi xi);
+    /** The deepest point of an obstacle in each idle face, and behind it. Collective. */
     std::vector<Overlap>
     obstacle_within(const std::vector<Face> &slaves) const;
     /** Where an obstacle is deepest on a slave face. @param start Where to begin, if it is within
      * no point that is tried. */
     MeasuredFace::Xi
     deepest_in(const MeasuredFace &slave, const MeasuredFace::Xi &start) const;
-    /** Of all ranks those that lie within the cells of the bodies, the deepest first. Collective.
-     */
+    /** Which of those that this rank has found lie within the cells of the bodies. Collective. */
+    std::vector<bool>
+    lie_within_bodies(const std::vector<Overlap> &found) const;
+    /** Those of all ranks. Collective. */
     std::vector<Overlap>
-    within_bodies(const std::vector<Overlap> &found) const;
+    deepest_first(const std::vector<Overlap> &found) const;
   };
 } // namespace Touchstone
 

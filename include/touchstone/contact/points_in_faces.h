@@ -3,6 +3,8 @@
 #ifndef touchstone_contact_points_in_faces_h
 #define touchstone_contact_points_in_faces_h
 
+#include <string>
+
 namespace Touchstone
 {
   class Contact;
@@ -11,11 +13,15 @@ namespace Touchstone
   void
   withdraw_points(Contact &contact);
 
-  /** @brief Give rows to material points inside slave faces that an obstacle has entered between
-   * nodes that touch nothing, in a state of balance (doc/theory.md 4.2).
+  /** @brief Give rows to material points inside slave faces that the other surface has entered
+   * between nodes that touch nothing, in a state of balance (doc/theory.md 4.2).
    * @return whether the state is to be solved again with other points. Collective. */
   bool
   place_points(Contact &contact);
+
+  /** @brief The pairs that have such points, in words; empty without any. */
+  std::string
+  pairs_with_points(const Contact &contact);
 
   /** @brief How many such points carry a force. Collective. */
   unsigned int

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/tolerances.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace Touchstone
 {
@@ -10,10 +13,10 @@ namespace Touchstone
 
   namespace
   {
-    /** Whether @p x lies in one of the six tetrahedra around the diagonal of the cell with
-     * the vertices @p c, in the order of deal.II. */
+    /** Whether @p x lies in one of the six tetrahedra around the diagonal from the first to the
+     * last of the vertices @p c of a cell, in the order of deal.II. */
     bool
-    contains(const std::array<Point<dim>, 8> &c, const Point<dim> &x)
+    contain(const std::array<Point<dim>, 8> &c, const Point<dim> &x)
     {
       // Vertices 1 to 6 in a closed path along edges of the cell: each edge of the path and the
       // diagonal from vertex 0 to vertex 7 make a tetrahedron. Warped faces are thus replaced by
@@ -34,10 +37,31 @@ namespace Touchstone
           // Barycentric coordinates of the point in the tetrahedron; the fourth is one less their
           // sum.
           const Tensor<1, dim> part = invert(edges) * (x - c[0]);
-          if (part[0] >= 0. && part[1] >= 0. && part[2] >= 0. && part[0] + part[1] + part[2] <= 1.)
+          // On a plane between two of them, as planes of symmetry are, round-off must not put a
+          // point outside of both.
+          constexpr double on_plane = Tolerances::face_coordinate;
+          if (part[0] >= -on_plane && part[1] >= -on_plane && part[2] >= -on_plane &&
+              part[0] + part[1] + part[2] <= 1. + on_plane)
             return true;
         }
       return false;
+    }
+
+
+
+    /** Whether @p x lies in the tetrahedra around any diagonal of the cell: warped faces of a body
+     * and of its mirror image are replaced by the same triangles. */
+    bool
+    contains(const std::array<Point<dim>, 8> &c, const Point<dim> &x)
+    {
+      // Mirrored along one axis the first vertex is an end of another diagonal.
+      constexpr unsigned int mirrors[4] = {0, 1, 2, 4};
+      return std::any_of(std::begin(mirrors), std::end(mirrors), [&](const unsigned int mirror) {
+        std::array<Point<dim>, 8> mirrored;
+        for (unsigned int v = 0; v < 8; ++v)
+          mirrored[v] = c[v ^ mirror];
+        return contain(mirrored, x);
+      });
     }
   } // namespace
 

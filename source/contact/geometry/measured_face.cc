@@ -27,9 +27,12 @@ namespace Touchstone
         bulge = std::max(bulge, std::abs((face.position(c[k]) - centre.x) * normal));
         for (unsigned int l = 0; l < k && !exact && face.degree == 1; ++l)
           {
-            // Of an arc with these normals at its ends.
-            const double arc = -0.125 * (face.normals[c[k]] - face.normals[c[l]]) *
-                               (face.position(c[k]) - face.position(c[l]));
+            // Height of an arc of a circle with these normals at its ends: half the chord times
+            // tan(angle/4) = sin(angle/2) / (1 + cos(angle/2)).
+            const Tensor<1, dim> turn   = face.normals[c[k]] - face.normals[c[l]];
+            const double         cosine = std::sqrt(std::max(0., 1. - 0.25 * turn.norm_square()));
+            const double         arc =
+              -0.25 / (1. + cosine) * turn * (face.position(c[k]) - face.position(c[l]));
             before = std::max(before, arc);
             off    = std::max(off, std::abs(arc));
           }
