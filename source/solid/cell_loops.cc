@@ -68,42 +68,60 @@ namespace Touchstone
 
 
 
-    template <unsigned int n, bool symmetric>
+    using Moduli = double[dim][dim][dim][dim];
+
+    /** Eight nodes at a time, as blocks [i][k][l][a] of w A : (grad N_a, e_l) first. Of symmetric
+     * blocks some are computed that are not needed. */
     __attribute__((always_inline)) inline void
-    add_tangent_of(const double *gradient, const double (&A)[dim][dim][dim][dim], double *blocks)
+    add_tangent_of(const unsigned int n,
+                   const double      *gradient,
+                   const Moduli      &A,
+                   const bool         symmetric,
+                   double            *blocks)
     {
-      const double *g[dim] = {gradient, gradient + n, gradient + 2 * n};
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int k = 0; k < dim; ++k)
-            {
-              double left[dim];
+      using Eight                = Simd<double, 8>::type;
+      constexpr unsigned int all = 8;
+      for (unsigned int begin = 0; begin < n; begin += all)
+        {
+          // The last nodes of 27 are counted again, where they are not added.
+          const unsigned int first = begin + all <= n ? begin : n - all;
+          Eight              g[dim];
+          for (unsigned int j = 0; j < dim; ++j)
+            g[j] = *reinterpret_cast<const Eight *>(gradient + j * n + first);
+          Eight left[dim][dim][dim];
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int k = 0; k < dim; ++k)
               for (unsigned int l = 0; l < dim; ++l)
-                left[l] =
-                  g[0][a] * A[i][0][k][l] + g[1][a] * A[i][1][k][l] + g[2][a] * A[i][2][k][l];
-              double *block = blocks + ((a * dim + i) * dim + k) * n;
-              // Eight at a time: of symmetric blocks some are computed that are not needed.
-              for (unsigned int b = symmetric ? a / 8 * 8 : 0; b < n; ++b)
-                block[b] += left[0] * g[0][b] + left[1] * g[1][b] + left[2] * g[2][b];
-            }
+                left[i][k][l] = g[0] * A[i][0][k][l] + g[1] * A[i][1][k][l] + g[2] * A[i][2][k][l];
+          for (unsigned int a = begin; a < begin + all && a < n; ++a)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int k = 0; k < dim; ++k)
+                {
+                  const double x = left[i][k][0][a - first], y = left[i][k][1][a - first],
+                               z      = left[i][k][2][a - first];
+                  double *const block = blocks + ((a * dim + i) * dim + k) * n;
+                  unsigned int  b     = symmetric ? begin : 0;
+                  for (; b + all <= n; b += all)
+                    *reinterpret_cast<Eight *>(block + b) +=
+                      x * *reinterpret_cast<const Eight *>(gradient + b) +
+                      y * *reinterpret_cast<const Eight *>(gradient + n + b) +
+                      z * *reinterpret_cast<const Eight *>(gradient + 2 * n + b);
+                  for (; b < n; ++b)
+                    block[b] += x * gradient[b] + y * gradient[n + b] + z * gradient[2 * n + b];
+                }
+        }
     }
 
     TOUCHSTONE_VECTORISED void
-    add_tangent_8(const double *g, const double (&A)[dim][dim][dim][dim], double *blocks)
+    add_tangent_8(const double *g, const Moduli &A, double *blocks)
     {
-      add_tangent_of<8, false>(g, A, blocks);
+      add_tangent_of(8, g, A, false, blocks);
     }
 
     TOUCHSTONE_VECTORISED void
-    add_tangent_27(const double *g, const double (&A)[dim][dim][dim][dim], double *blocks)
+    add_tangent_27(const double *g, const Moduli &A, const bool symmetric, double *blocks)
     {
-      add_tangent_of<27, false>(g, A, blocks);
-    }
-
-    TOUCHSTONE_VECTORISED void
-    add_symmetric_tangent_27(const double *g, const double (&A)[dim][dim][dim][dim], double *blocks)
-    {
-      add_tangent_of<27, true>(g, A, blocks);
+      add_tangent_of(27, g, A, symmetric, blocks);
     }
   } // namespace
 
@@ -143,7 +161,7 @@ namespace Touchstone
                          const bool            symmetric,
                          double               *blocks)
   {
-    double values[dim][dim][dim][dim];
+    Moduli values;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         for (unsigned int k = 0; k < dim; ++k)
@@ -152,6 +170,6 @@ namespace Touchstone
     if (n == 8)
       add_tangent_8(gradients, values, blocks);
     else
-      (symmetric ? add_symmetric_tangent_27 : add_tangent_27)(gradients, values, blocks);
+      add_tangent_27(gradients, values, symmetric, blocks);
   }
 } // namespace Touchstone

@@ -121,12 +121,17 @@ namespace Touchstone
     // H : T : D2E : G = 2 sum_abc e[a,b,c] T_ab H_ac G_bc. An entry of the result for a pair of
     // different indices stands for both of their orders, so that each has half of the sum.
     const auto orders = [](const unsigned int i, const unsigned int j) { return i == j ? 1. : 2.; };
+    double     second[dim][dim][dim];
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = a; b < dim; ++b)
+        for (unsigned int c = b; c < dim; ++c)
+          second[a][b][c] = second[a][c][b] = second[b][c][a] =
+            second_difference(value[a], value[b], value[c]);
     for (unsigned int a = 0; a < dim; ++a)
       for (unsigned int b = a; b < dim; ++b)
         for (unsigned int c = 0; c < dim; ++c)
           {
-            const double share = 8. * second_difference(value[a], value[b], value[c]) * T[a][b] /
-                                 (orders(a, c) * orders(b, c));
+            const double share = 8. * second[a][b][c] * T[a][b] / (orders(a, c) * orders(b, c));
             result[a][c][b][c] += share;
             if (a != b)
               result[b][c][a][c] += share;
