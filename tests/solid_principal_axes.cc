@@ -114,4 +114,5 @@ main()
   const PrincipalAxes none(wrong);
   std::cout << "not a number: " << (std::isnan(none.value[0]) ? "not a number" : "WRONG")
             << std::endl;
+  return 0;
 }

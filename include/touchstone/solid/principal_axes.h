@@ -15,10 +15,10 @@ namespace Touchstone
    * @brief Eigenvalues and eigenvectors of a symmetric tensor, A = V diag(value) V^T.
    *
    * For laws in principal stretches, which need them at every quadrature point: the direct method
-   * of Scherzinger and Dohrmann (2008), Comput. Methods Appl. Mech. Engng 197, is four to six
-   * times as fast as deal.II's method of Jacobi (doc/materials.md, "Finite strain"). The axes are
-   * orthonormal and A is met to round-off for equal and nearly equal eigenvalues, too, since only
-   * the eigenvalue that is farthest from the others comes from a formula.
+   * of Scherzinger and Dohrmann (2008), Comput. Methods Appl. Mech. Engng 197, takes a
+   * fourth of the time of deal.II's method of Jacobi (doc/materials.md, "Finite strain"). The axes
+   * are orthonormal and A is met to round-off for equal and nearly equal eigenvalues, too, since
+   * only the eigenvalue that is farthest from the others comes from a formula.
    */
   struct PrincipalAxes
   {
