@@ -11,6 +11,9 @@
 
 #include <filesystem>
 #include <iostream>
+#ifdef __GLIBC__
+#  include <malloc.h>
+#endif
 
 namespace
 {
@@ -27,6 +30,24 @@ namespace
     broken        = 4,
     interrupted   = 5
   };
+
+  /**
+   * SuperLU_DIST, which Debian's Trilinos is linked with, tells malloc when it is loaded never to
+   * give memory back to the system: what the largest temporary took would be lost to all that
+   * comes after. These are the defaults of glibc but for the threshold, which otherwise
+   * grows with each array that is freed.
+   */
+  void
+  give_memory_back()
+  {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_MAX, 65536);
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 24);
+#endif
+  }
+
+
 
   /**
    * Parse the command line and execute it. All ranks take the same path; the first one
@@ -111,6 +132,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  give_memory_back();
   // One thread per rank: parallel runs use MPI processes.
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                           communicator = MPI_COMM_WORLD;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/solid/cell_kernel.h>
+#include <touchstone/solid/cell_loops.h>
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/fe/fe_q.h>
@@ -17,30 +18,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Add w A : (grad N_a, grad N_b) of a quadrature point to the blocks
-     * [a][i][k][b], of symmetric A only for a <= b. The number of nodes is known to the
-     * compiler: this loop takes most of the time of an assembly. */
-    template <unsigned int n, bool symmetric>
-    void
-    add_point(const double *gradient, const double weight, const Tensor<4, dim> &A, double *blocks)
-    {
-      const double *g[dim] = {gradient, gradient + n, gradient + 2 * n};
-      for (unsigned int a = 0; a < n; ++a)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int k = 0; k < dim; ++k)
-            {
-              double left[dim];
-              for (unsigned int l = 0; l < dim; ++l)
-                left[l] = weight * (g[0][a] * A[i][0][k][l] + g[1][a] * A[i][1][k][l] +
-                                    g[2][a] * A[i][2][k][l]);
-              // The index b of the inner loop is contiguous in memory for shape gradients and
-              // blocks, so that it is vectorised by the compiler.
-              double *block = blocks + ((a * dim + i) * dim + k) * n;
-              for (unsigned int b = symmetric ? a : 0; b < n; ++b)
-                block[b] += left[0] * g[0][b] + left[1] * g[1][b] + left[2] * g[2][b];
-            }
-    }
-
     /** Replace A by its part with major symmetry, A_iJkL = A_kLiJ. Solvers for symmetric systems
      * use it where the tangent is unsymmetric (recovery of the back stress, doc/materials.md):
      * Newton's method may then take more iterations, but the solution is the same, for the residual
@@ -82,6 +59,8 @@ namespace Touchstone
     , n_points(Utilities::pow(degree + 1, dim))
     , points(n_points)
     , mean_gradient(dim * n_nodes)
+    , place((dim + 1) * dim * n_points)
+    , motion(place.size())
     , virgin(n_points * law->n_state())
     , present_state(virgin.size())
     , nodal_force(dim * n_nodes)
@@ -90,20 +69,21 @@ namespace Touchstone
     , left(dim * n_nodes)
     , right(dim * n_nodes)
   {
-    // Shapes and gradients on the unit cell are the same for all cells and are tabulated once.
-    // Gradients are stored by direction first, with nodes contiguous, as add_point() needs them.
+    // Shapes and gradients on the unit cell are the same for all cells and are tabulated once, in
+    // the orders that the loops need.
     const QGauss<dim> quadrature(degree + 1);
     const FE_Q<dim>   fe(degree);
     unit_weights = quadrature.get_weights();
     gradients.resize(n_points * dim * n_nodes);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int d = 0; d <= dim; ++d)
+        for (unsigned int q = 0; q < n_points; ++q)
+          tables.push_back(d < dim ? fe.shape_grad(a, quadrature.point(q))[d]
+                                   : fe.shape_value(a, quadrature.point(q)));
     for (unsigned int q = 0; q < n_points; ++q)
-      {
+      for (unsigned int d = 0; d < dim; ++d)
         for (unsigned int a = 0; a < n_nodes; ++a)
-          shapes.push_back(fe.shape_value(a, quadrature.point(q)));
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int a = 0; a < n_nodes; ++a)
-            unit_gradients.push_back(fe.shape_grad(a, quadrature.point(q))[d]);
-      }
+          unit_gradients.push_back(fe.shape_grad(a, quadrature.point(q))[d]);
     start(virgin.data());
   }
 
@@ -128,29 +108,27 @@ namespace Touchstone
     committed_state = committed ? committed : virgin.data();
     has_stress      = false;
     cell_volume     = 0.;
+    // dX/dxi and X, du/dxi and u at all points: the cell is isoparametric.
+    CellLoops::nodal_sums(n_nodes, positions, tables.data(), place.data());
+    CellLoops::nodal_sums(n_nodes, displacement, tables.data(), motion.data());
     for (unsigned int q = 0; q < n_points; ++q)
       {
-        PointData    &point = points[q];
-        const double *unit  = &unit_gradients[q * dim * n_nodes];
-        // dX/dxi and du/dxi: the cell is isoparametric.
+        PointData     &point = points[q];
         Tensor<2, dim> jacobian, unit_gradient;
-        point.position = Point<dim>();
-        for (unsigned int a = 0; a < n_nodes; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
-            {
-              point.position[i] += shapes[q * n_nodes + a] * positions[dim * a + i];
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  jacobian[i][d] += positions[dim * a + i] * unit[d * n_nodes + a];
-                  unit_gradient[i][d] += displacement[dim * a + i] * unit[d * n_nodes + a];
-                }
-            }
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                jacobian[i][d]      = place[((dim + 1) * i + d) * n_points + q];
+                unit_gradient[i][d] = motion[((dim + 1) * i + d) * n_points + q];
+              }
+            point.position[i] = place[((dim + 1) * i + dim) * n_points + q];
+          }
         const Tensor<2, dim> inverse = invert(jacobian);
-        double              *g       = shape_gradient(q);
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int a = 0; a < n_nodes; ++a)
-            g[d * n_nodes + a] = unit[a] * inverse[0][d] + unit[n_nodes + a] * inverse[1][d] +
-                                 unit[2 * n_nodes + a] * inverse[2][d];
+        CellLoops::shape_gradients(n_nodes,
+                                   &unit_gradients[q * dim * n_nodes],
+                                   inverse,
+                                   shape_gradient(q));
         point.weight   = unit_weights[q] * determinant(jacobian);
         point.gradient = unit_gradient * inverse;
         cell_volume += point.weight;
@@ -282,9 +260,7 @@ namespace Touchstone
             add_product(weight * terms.right, g, n_nodes, right);
             second += weight * terms.second;
           }
-        const auto add = n_nodes == 8 ? (mirrored ? add_point<8, true> : add_point<8, false>)
-                                      : (mirrored ? add_point<27, true> : add_point<27, false>);
-        add(g, weight, A, blocks.data());
+        CellLoops::add_tangent(n_nodes, g, weight, A, mirrored, blocks.data());
       }
     // The blocks are reordered to a matrix by rows; where it is symmetric only node pairs a <= b
     // were computed.

@@ -56,30 +56,14 @@ namespace Touchstone
             result[i][j] += value[a] * frame[i][a] * frame[j][a];
       return result;
     }
-
-    /** Eigenvalues and eigenvectors by Jacobi's method: for equal or nearly equal eigenvalues, as
-     * in the undeformed state, its eigenvectors are orthogonal to round-off, on which all
-     * formulas here rely. */
-    void
-    decompose(const SymmetricTensor<2, dim> &tensor,
-              std::array<double, dim>       &value,
-              Tensor<2, dim>                &frame)
-    {
-      const auto pairs = eigenvectors(tensor, SymmetricTensorEigenvectorMethod::jacobi);
-      for (unsigned int a = 0; a < dim; ++a)
-        {
-          value[a] = pairs[a].first;
-          for (unsigned int i = 0; i < dim; ++i)
-            frame[i][a] = pairs[a].second[i];
-        }
-    }
   } // namespace
 
 
 
   LogarithmicStrain::LogarithmicStrain(const SymmetricTensor<2, dim> &C)
+    : principal(C)
   {
-    decompose(C, value, frame);
+    const std::array<double, dim> &value = principal.value;
     for (unsigned int a = 0; a < dim; ++a)
       for (unsigned int b = a; b < dim; ++b)
         first[a][b] = first[b][a] = first_difference(value[a], value[b]);
@@ -93,7 +77,7 @@ namespace Touchstone
     // Elastic strains of metals are small: ln(1 + x) keeps their digits.
     SymmetricTensor<2, dim> E;
     for (unsigned int a = 0; a < dim; ++a)
-      E[a][a] = 0.5 * std::log1p(value[a] - 1.);
+      E[a][a] = 0.5 * std::log1p(principal.value[a] - 1.);
     return E;
   }
 
@@ -104,7 +88,7 @@ namespace Touchstone
   {
     std::array<double, dim> result;
     for (unsigned int a = 0; a < dim; ++a)
-      result[a] = 1. / std::sqrt(value[a]);
+      result[a] = 1. / std::sqrt(principal.value[a]);
     return result;
   }
 
@@ -126,7 +110,8 @@ namespace Touchstone
   LogarithmicStrain::conjugate_tangent(const SymmetricTensor<2, dim> &T,
                                        const SymmetricTensor<4, dim> &D) const
   {
-    SymmetricTensor<4, dim> result;
+    const std::array<double, dim> &value = principal.value;
+    SymmetricTensor<4, dim>        result;
     for (unsigned int a = 0; a < dim; ++a)
       for (unsigned int b = a; b < dim; ++b)
         for (unsigned int c = 0; c < dim; ++c)
@@ -136,12 +121,17 @@ namespace Touchstone
     // H : T : D2E : G = 2 sum_abc e[a,b,c] T_ab H_ac G_bc. An entry of the result for a pair of
     // different indices stands for both of their orders, so that each has half of the sum.
     const auto orders = [](const unsigned int i, const unsigned int j) { return i == j ? 1. : 2.; };
+    double     second[dim][dim][dim];
+    for (unsigned int a = 0; a < dim; ++a)
+      for (unsigned int b = a; b < dim; ++b)
+        for (unsigned int c = b; c < dim; ++c)
+          second[a][b][c] = second[a][c][b] = second[b][c][a] =
+            second_difference(value[a], value[b], value[c]);
     for (unsigned int a = 0; a < dim; ++a)
       for (unsigned int b = a; b < dim; ++b)
         for (unsigned int c = 0; c < dim; ++c)
           {
-            const double share = 8. * second_difference(value[a], value[b], value[c]) * T[a][b] /
-                                 (orders(a, c) * orders(b, c));
+            const double share = 8. * second[a][b][c] * T[a][b] / (orders(a, c) * orders(b, c));
             result[a][c][b][c] += share;
             if (a != b)
               result[b][c][a][c] += share;
@@ -154,11 +144,9 @@ namespace Touchstone
   SymmetricTensor<2, dim>
   exponential(const SymmetricTensor<2, dim> &E)
   {
-    std::array<double, dim> value;
-    Tensor<2, dim>          frame;
-    decompose(E, value, frame);
-    for (double &x : value)
+    PrincipalAxes principal(E);
+    for (double &x : principal.value)
       x = std::exp(x);
-    return assemble(value, frame);
+    return assemble(principal.value, principal.axes);
   }
 } // namespace Touchstone

@@ -4,6 +4,7 @@
 #include <touchstone/solid/cauchy_green_law.h>
 #include <touchstone/solid/material_parameters.h>
 #include <touchstone/solid/own_moduli.h>
+#include <touchstone/solid/principal_axes.h>
 #include <touchstone/solid/volume_energy.h>
 
 #include <cmath>
@@ -111,20 +112,21 @@ namespace Touchstone
       EnergyDerivatives
       differentiate(const SymmetricTensor<2, dim> &C, const bool with_second) const override
       {
-        EnergyDerivatives W;
-        // Jacobi's eigenvectors are orthogonal to round-off where eigenvalues are equal, too.
-        const auto   c = eigenvectors(C, SymmetricTensorEigenvectorMethod::jacobi);
-        const double I = c[0].first * c[1].first * c[2].first;
+        EnergyDerivatives              W;
+        const PrincipalAxes            principal(C);
+        const std::array<double, dim> &c    = principal.value;
+        const Tensor<2, dim>           axes = transpose(principal.axes);
+        const double                   I    = c[0] * c[1] * c[2];
         // In the frame: first derivatives are diagonal; the second ones are products of diagonals
         // and what exchanges two directions.
         double first[dim], second[dim][dim], exchange[dim][dim];
         for (unsigned int a = 0; a < dim; ++a)
           {
-            const double x = c[a].first;
+            const double x = c[a];
             first[a]       = 0.25 * kappa * (I - 1.) / x;
             for (unsigned int b = 0; b < dim; ++b)
               {
-                const double y = c[b].first;
+                const double y = c[b];
                 second[a][b]   = 0.25 * kappa * I / (x * y);
                 exchange[a][b] = -0.25 * kappa * (I - 1.) / (x * y);
               }
@@ -135,15 +137,15 @@ namespace Touchstone
             const double m = 0.5 * exponents[p],
                          k = moduli[p] / exponents[p] * std::pow(I, -m / 3.);
             double sum     = 0.;
-            for (const auto &[x, vector] : c)
+            for (const double x : c)
               sum += std::pow(x, m);
             for (unsigned int a = 0; a < dim; ++a)
               {
-                const double x = c[a].first, own = std::pow(x, m - 1.);
+                const double x = c[a], own = std::pow(x, m - 1.);
                 first[a] += k * m * (own - sum / (3. * x));
                 for (unsigned int b = 0; b < dim; ++b)
                   {
-                    const double y = c[b].first, other = std::pow(y, m - 1.);
+                    const double y = c[b], other = std::pow(y, m - 1.);
                     second[a][b] += k * m * m * (sum / (9. * x * y) - (own / y + other / x) / 3.);
                     exchange[a][b] += k * m * (power_difference(x, y, m - 1.) + sum / (3. * x * y));
                   }
@@ -151,12 +153,12 @@ namespace Touchstone
           }
         for (unsigned int a = 0; a < dim; ++a)
           {
-            const auto Na = symmetrize(outer_product(c[a].second, c[a].second));
+            const auto Na = symmetrize(outer_product(axes[a], axes[a]));
             W.first += first[a] * Na;
             for (unsigned int b = 0; with_second && b < dim; ++b)
               {
-                const auto Nb  = symmetrize(outer_product(c[b].second, c[b].second));
-                const auto Nab = symmetrize(outer_product(c[a].second, c[b].second));
+                const auto Nb  = symmetrize(outer_product(axes[b], axes[b]));
+                const auto Nab = symmetrize(outer_product(axes[a], axes[b]));
                 W.second +=
                   second[a][b] * outer_product(Na, Nb) + exchange[a][b] * outer_product(Nab, Nab);
               }

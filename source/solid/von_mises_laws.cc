@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/vectorised.h>
 #include <touchstone/solid/body_parameters.h>
 #include <touchstone/solid/logarithmic_strain.h>
 #include <touchstone/solid/material_law.h>
@@ -39,6 +40,27 @@ namespace Touchstone
     /** The state: equivalent plastic strain and plastic work per reference volume, the
      * numbers of the law, and the back stress if there is one. */
     constexpr unsigned int at_strain = 0, at_work = 1, own = 2;
+
+    /** Nine numbers and what fills vectors of four. */
+    constexpr unsigned int width = 12;
+
+    /** result += C^T L C with the columns C of the components of a tensor, 3i+j. */
+    TOUCHSTONE_VECTORISED void
+    add_congruence(const double (&change)[n_independent][width],
+                   const double (&moduli)[n_independent][n_independent],
+                   double (&result)[dim * dim][width])
+    {
+      for (unsigned int m = 0; m < n_independent; ++m)
+        {
+          double row[width] = {};
+          for (unsigned int n = 0; n < n_independent; ++n)
+            for (unsigned int s = 0; s < width; ++s)
+              row[s] += moduli[m][n] * change[n][s];
+          for (unsigned int r = 0; r < dim * dim; ++r)
+            for (unsigned int s = 0; s < width; ++s)
+              result[r][s] += change[m][r] * row[s];
+        }
+    }
 
     /** Copy energies and the scalar history. */
     void
@@ -263,14 +285,16 @@ namespace Touchstone
                   const SymmetricTensor<4, dim> &L,
                   Tensor<4, dim>                &A)
       {
-        // The change of C_e / 2 with F, both orders of a pair of indices together.
-        double change[dim * dim][n_independent], product[dim * dim][n_independent];
-        double moduli[n_independent][n_independent];
-        for (unsigned int m = 0; m < n_independent; ++m)
+        // The change of C_e / 2 with F, both orders of a pair of indices together; by columns, as
+        // add_congruence() wants it, which adds to numbers beyond the nine as well.
+        constexpr unsigned int n_pairs                = n_independent;
+        double                 change[n_pairs][width] = {}, result[dim * dim][width] = {};
+        double                 moduli[n_pairs][n_pairs];
+        for (unsigned int m = 0; m < n_pairs; ++m)
           {
             const TableIndices<2> pair = SymmetricTensor<2, dim>::unrolled_to_component_indices(m);
             const unsigned int    a = pair[0], b = pair[1];
-            for (unsigned int n = 0; n < n_independent; ++n)
+            for (unsigned int n = 0; n < n_pairs; ++n)
               {
                 const TableIndices<2> other =
                   SymmetricTensor<2, dim>::unrolled_to_component_indices(n);
@@ -278,26 +302,15 @@ namespace Touchstone
               }
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int J = 0; J < dim; ++J)
-                change[dim * i + J][m] =
+                change[m][dim * i + J] =
                   a == b ? f[i][a] * p[J][a] : f[i][a] * p[J][b] + f[i][b] * p[J][a];
           }
-        for (unsigned int r = 0; r < dim * dim; ++r)
-          for (unsigned int n = 0; n < n_independent; ++n)
-            {
-              product[r][n] = 0.;
-              for (unsigned int m = 0; m < n_independent; ++m)
-                product[r][n] += change[r][m] * moduli[m][n];
-            }
+        add_congruence(change, moduli, result);
         for (unsigned int i = 0; i < dim; ++i)
           for (unsigned int J = 0; J < dim; ++J)
             for (unsigned int k = 0; k < dim; ++k)
               for (unsigned int l = 0; l < dim; ++l)
-                {
-                  double sum = i == k ? S[J][l] : 0.;
-                  for (unsigned int n = 0; n < n_independent; ++n)
-                    sum += product[dim * i + J][n] * change[dim * k + l][n];
-                  A[i][J][k][l] = sum;
-                }
+                A[i][J][k][l] = result[dim * i + J][dim * k + l] + (i == k ? S[J][l] : 0.);
       }
 
       static Tensor<2, dim>

@@ -227,10 +227,12 @@ namespace Touchstone
     bool has_stress = false;
 
   private:
-    /** Shapes on the unit cell, [q][a]; gradients on the unit cell and on the
-     * reference cell, [q][J][a]: the innermost loops run over the nodes. */
-    std::vector<double> shapes, unit_gradients, gradients;
+    /** Gradients of the shapes on the unit cell and these shapes, [a][d][q]; gradients on the unit
+     * cell and on the reference cell, [q][J][a]; see CellLoops. */
+    std::vector<double> tables, unit_gradients, gradients;
     std::vector<double> unit_weights;
+    /** Positions, displacements and their derivatives on the unit cell at all points. */
+    std::vector<double> place, motion;
     std::vector<double> virgin, present_state;
     const double       *committed_state = nullptr;
     double              step_length = 0., time = 0.;

@@ -3,7 +3,7 @@
 #ifndef touchstone_solid_logarithmic_strain_h
 #define touchstone_solid_logarithmic_strain_h
 
-#include <touchstone/base/types.h>
+#include <touchstone/solid/principal_axes.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -35,7 +35,7 @@ namespace Touchstone
     const dealii::Tensor<2, dim> &
     axes() const
     {
-      return frame;
+      return principal.axes;
     }
 
     /** @brief E, diagonal. */
@@ -58,9 +58,8 @@ namespace Touchstone
                       const dealii::SymmetricTensor<4, dim> &D) const;
 
   private:
-    dealii::Tensor<2, dim>  frame;
-    std::array<double, dim> value;
-    double                  first[dim][dim];
+    PrincipalAxes principal;
+    double        first[dim][dim];
   };
 
   /** @brief The exponential of a symmetric tensor. */

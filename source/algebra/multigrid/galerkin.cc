@@ -85,13 +85,17 @@ namespace Touchstone
        *  @param coarse Has the dofs of this rank. */
       // The layout of the coarse level with the columns of its rows as ghosts. They reach further
       // than those of P: two aggregates are coupled if any of their smoothed columns overlap.
-      AggregateRows(std::vector<Prolongation::AggregateRow> &&rows, const Partitioner &coarse)
+      AggregateRows(std::vector<Prolongation::AggregateRow> &&rows,
+                    const bool                                symmetric,
+                    const Partitioner                        &coarse)
         : BlockRows(make_partitioner(rows, coarse))
         , rows(std::move(rows))
+        , below(this->rows.size())
       {
         const int first = static_cast<int>(partitioner->local_range().first / n_modes);
         for (unsigned int row = 0; row < this->rows.size(); ++row)
           {
+            this->rows[row].blocks.shrink_to_fit();
             // A motion that the aggregate does not have (one node has no rotations, a straight
             // row of nodes none about itself) is a zero column of P and a zero row here: a one on
             // the diagonal keeps the matrix regular, and the motion stays zero.
@@ -100,8 +104,13 @@ namespace Touchstone
               if (own[i][i] == 0.)
                 own[i][i] = 1.;
             for (auto &[aggregate, position] : this->rows[row].positions)
-              aggregate = static_cast<int>(
-                partitioner->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
+              {
+                aggregate = static_cast<int>(
+                  partitioner->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
+                const auto column = static_cast<unsigned int>(aggregate);
+                if (symmetric && column > row && column < below.size())
+                  below[column].emplace_back(row, position);
+              }
           }
       }
 
@@ -109,16 +118,27 @@ namespace Touchstone
       read(const unsigned int node) override
       {
         present.clear();
-        const Prolongation::AggregateRow &row = rows[node / n_parts];
-        for (const auto &[aggregate, position] : row.positions)
+        const unsigned int begin = dim * (node % n_parts);
+        const auto         add   = [&](const unsigned int aggregate, const auto &entry) {
           for (unsigned int part = 0; part < n_parts; ++part)
             {
-              const Prolongation::AggregateBlock &from = row.blocks[position];
               Block &to = present.at(static_cast<int>(n_parts * aggregate + part));
               for (unsigned int r = 0; r < dim; ++r)
                 for (unsigned int c = 0; c < dim; ++c)
-                  to[dim * r + c] = from[dim * (node % n_parts) + r][dim * part + c];
+                  to[dim * r + c] = entry(begin + r, dim * part + c);
             }
+        };
+        for (const auto &[other, position] : below[node / n_parts])
+          {
+            const Prolongation::AggregateBlock &from = rows[other].blocks[position];
+            add(other, [&](const unsigned int r, const unsigned int c) { return from[c][r]; });
+          }
+        const Prolongation::AggregateRow &row = rows[node / n_parts];
+        for (const auto &[aggregate, position] : row.positions)
+          {
+            const Prolongation::AggregateBlock &from = row.blocks[position];
+            add(aggregate, [&](const unsigned int r, const unsigned int c) { return from[r][c]; });
+          }
         return present;
       }
 
@@ -126,14 +146,17 @@ namespace Touchstone
       n_blocks() const override
       {
         std::size_t n = 0;
-        for (const auto &row : rows)
-          n += row.positions.size();
+        for (unsigned int row = 0; row < rows.size(); ++row)
+          n += rows[row].positions.size() + below[row].size();
         return n_parts * n_parts * n;
       }
 
     private:
       static constexpr unsigned int           n_parts = Prolongation::n_nodes_of_aggregate;
       std::vector<Prolongation::AggregateRow> rows;
+      /** Of a symmetric matrix, by row: the blocks of earlier rows whose transposes belong to it,
+       * as row and number. */
+      std::vector<std::vector<std::pair<unsigned int, unsigned int>>> below;
 
       static std::shared_ptr<const Partitioner>
       make_partitioner(const std::vector<Prolongation::AggregateRow> &rows,
@@ -203,8 +226,11 @@ namespace Touchstone
   // This rank's contribution: the nodes that it owns, all aggregates that these belong to.
   // Smoothing extends P by one layer, so aggregates of neighbouring ranks are among them.
   std::vector<Prolongation::AggregateRow>
-  Prolongation::part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const
+  Prolongation::part_of_galerkin(BlockRows    &matrix,
+                                 const bool    symmetric,
+                                 LocalIndices &indices) const
   {
+    const unsigned int                     n_mine  = coarse->locally_owned_size() / n_modes;
     const unsigned int                     n_nodes = start.size() - 1;
     const std::vector<FarRow>              far     = far_rows();
     std::vector<std::vector<unsigned int>> far_columns(far.size());
@@ -229,9 +255,11 @@ namespace Touchstone
         add_product(matrix.read(node), p, product);
         for (std::size_t b = start[node]; b < start[node + 1]; ++b)
           for (unsigned int k = 0; k < product.columns.size(); ++k)
-            add_transposed_product(entries.data() + block * b,
-                                   product.blocks[k],
-                                   sums[column[b]].at(product.columns[k]));
+            if (const auto other = static_cast<unsigned int>(product.columns[k]);
+                !symmetric || other >= column[b] || column[b] >= n_mine)
+              add_transposed_product(entries.data() + block * b,
+                                     product.blocks[k],
+                                     sums[column[b]].at(product.columns[k]));
       }
     return sums;
   }
@@ -241,7 +269,9 @@ namespace Touchstone
   // Columns become global indices first, as local ones mean nothing to other ranks, and are
   // sorted again, for AggregateRow::at() searches by bisection.
   void
-  Prolongation::sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const
+  Prolongation::sum_up(std::vector<AggregateRow> &parts,
+                       const bool                 symmetric,
+                       const std::vector<int>    &global) const
   {
     for (AggregateRow &part : parts)
       {
@@ -272,6 +302,10 @@ namespace Touchstone
     for (const auto &[rank, blocks] : exchange_records(messages, coarse->get_mpi_communicator()))
       for (const SentCoarseBlock &received : blocks)
         {
+          // The transpose comes as well.
+          if (symmetric && received.column < received.row &&
+              coarse->in_local_range(n_modes * received.column))
+            continue;
           AggregateRow   &to  = parts[coarse->global_to_local(n_modes * received.row) / n_modes];
           AggregateBlock &sum = to.at(static_cast<int>(received.column));
           for (unsigned int i = 0; i < n_modes; ++i)
@@ -283,7 +317,7 @@ namespace Touchstone
 
 
   std::unique_ptr<BlockRows>
-  Prolongation::galerkin(BlockRows &matrix) const
+  Prolongation::galerkin(BlockRows &matrix, const bool symmetric) const
   {
     // Aggregates by local indices: those of the rows of this rank first, then what their
     // neighbours' rows refer to.
@@ -293,8 +327,8 @@ namespace Touchstone
       known.push_back(static_cast<int>(coarse->local_to_global(i) / n_modes));
     const Epetra_Map known_map(-1, known.size(), known.data(), 0, coarse_kernel->Comm());
     LocalIndices     indices(known_map);
-    auto             rows = part_of_galerkin(matrix, indices);
-    sum_up(rows, indices.global());
-    return std::make_unique<AggregateRows>(std::move(rows), *coarse);
+    auto             rows = part_of_galerkin(matrix, symmetric, indices);
+    sum_up(rows, symmetric, indices.global());
+    return std::make_unique<AggregateRows>(std::move(rows), symmetric, *coarse);
   }
 } // namespace Touchstone

@@ -70,15 +70,15 @@ namespace Touchstone
 
 
 
-  Multigrid::Multigrid(const Epetra_Map                &map,
-                       std::unique_ptr<BlockRows>       rows,
-                       const Epetra_MultiVector        &near_kernel,
-                       const std::vector<unsigned int> &body,
-                       const bool                       symmetric)
+  Multigrid::Multigrid(const Epetra_Map                         &map,
+                       std::unique_ptr<BlockRows>                rows,
+                       std::unique_ptr<const Epetra_MultiVector> near_kernel,
+                       const std::vector<unsigned int>          &body,
+                       const bool                                symmetric)
     : SquareOperator(map, "smoothed aggregation")
   {
     // Bodies by node; motions.body is by dof.
-    const Epetra_MultiVector *modes = &near_kernel;
+    const Epetra_MultiVector *modes = near_kernel.get();
     std::vector<unsigned int> bodies(map.NumMyElements() / dim);
     for (unsigned int node = 0; node < bodies.size(); ++node)
       bodies[node] = body[dim * node];
@@ -104,8 +104,10 @@ namespace Touchstone
             levels.pop_back();
             break;
           }
-        rows   = prolongation->galerkin(*rows);
+        // Not needed any more, where the memory of the set-up is largest.
+        near_kernel.reset();
         modes  = &prolongation->coarse_near_kernel();
+        rows   = prolongation->galerkin(*rows, symmetric);
         bodies = prolongation->coarse_body();
         group  = Prolongation::n_nodes_of_aggregate;
         prolongation->initialize_coarse_vector(level.coarse_values);

@@ -73,7 +73,9 @@ namespace Touchstone
           return std::make_unique<GaussSeidel>(system.matrix());
         return std::make_unique<Multigrid>(system.rows(),
                                            system.block_rows(),
-                                           near_null_space(system, motions),
+                                           std::unique_ptr<const Epetra_MultiVector>(
+                                             new Epetra_MultiVector(
+                                               near_null_space(system, motions))),
                                            motions.body,
                                            system.symmetric);
       }

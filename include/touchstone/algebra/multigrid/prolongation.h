@@ -55,6 +55,9 @@ namespace Touchstone
         if (found != positions.end() && found->first == aggregate)
           return blocks[found->second];
         positions.emplace(found, aggregate, blocks.size());
+        // Twice the memory whenever a row grows would be the most of a set-up.
+        if (blocks.size() == blocks.capacity())
+          blocks.reserve(blocks.size() + blocks.size() / 4 + 4);
         blocks.push_back({});
         return blocks.back();
       }
@@ -79,9 +82,10 @@ namespace Touchstone
                  double                           largest);
 
     /** @brief The matrix of the coarser level, P^T A P. @param matrix That of which the
-     * constructor got the blocks, in double precision. Collective. */
+     * constructor got the blocks, in double precision. @param symmetric It is: of two blocks
+     * between aggregates of a rank one is computed. Collective. */
     std::unique_ptr<BlockRows>
-    galerkin(BlockRows &matrix) const;
+    galerkin(BlockRows &matrix, bool symmetric) const;
 
     /** @brief Rigid motions over the coarser level. */
     const Epetra_MultiVector &
@@ -169,14 +173,15 @@ namespace Touchstone
     far_rows() const;
 
     /** @brief This rank's part of P^T A P, rows by local indices of aggregates, columns by
-     * @p indices. */
+     * @p indices; if it is @p symmetric, without the blocks below the diagonal of which row and
+     * column are of this rank. */
     std::vector<AggregateRow>
-    part_of_galerkin(BlockRows &matrix, LocalIndices &indices) const;
+    part_of_galerkin(BlockRows &matrix, bool symmetric, LocalIndices &indices) const;
 
     /** @brief Sum up the parts of all ranks: on return @p parts are the rows of this rank's
      * aggregates, by the global indices of aggregates. */
     void
-    sum_up(std::vector<AggregateRow> &parts, const std::vector<int> &global) const;
+    sum_up(std::vector<AggregateRow> &parts, bool symmetric, const std::vector<int> &global) const;
   };
 } // namespace Touchstone
 
