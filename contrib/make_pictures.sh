@@ -100,6 +100,8 @@ render benchmarks/sliding_block_force --size "$small" --camera "1 -1.4 0.7" --co
   --contact-camera "0.6 -1 -1.2"
 render benchmarks/taylor_bar --size "$small" --field equivalent_plastic_strain --unit "" --no-contact \
   --camera "1 -1 0.25" --mirror "x"
+render benchmarks/crushed_tube --size "260 400" --field equivalent_plastic_strain --unit "" --no-contact --mirror "x y" \
+  --camera "1 -1.6 0.5" --focus "0 0 30" --width 64 --time "0.0004 0.0008 0.0012 0.0016 0.002" --range "0 1"
 render benchmarks/twist --camera "1 -1.2 0.6" --contact-camera "0.3 -0.5 -1" --contact-up "0 1 0"
 
 if wants hertz_sphere; then

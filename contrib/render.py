@@ -3,7 +3,7 @@
 
 Usage: /usr/bin/python3 contrib/render.py FOLDER IMAGE.png
           [--field NAME] [--contact NAME] [--no-contact] [--no-bodies] [--unit TEXT] [--contact-unit TEXT]
-          [--scale S] [--time T] [--range "LOW HIGH"] [--contact-range "LOW HIGH"]
+          [--scale S] [--time "T ..."] [--range "LOW HIGH"] [--contact-range "LOW HIGH"]
           [--camera "X Y Z"] [--up "X Y Z"] [--focus "X Y Z"] [--width W]
           [--contact-camera "X Y Z"] [--contact-up "X Y Z"] [--contact-width W]
           [--hide "BODY NUMBER ..."] [--mirror "x y"] [--no-edges] [--no-outline]
@@ -12,9 +12,9 @@ Usage: /usr/bin/python3 contrib/render.py FOLDER IMAGE.png
 Needs VTK 9 for Python (apt-get install python3-vtk9 python3-numpy xvfb xauth); on a machine without a
 screen it starts itself under xvfb-run.
 
-FOLDER is the output folder of a run; the last time is shown (or the one next to T), deformed S
-times (1). On the left solution.pvd with the field von_mises, on the right contact.pvd with the
-field pressure, unless told otherwise. The camera looks from the direction X Y Z; the image is
+FOLDER is the output folder of a run; the last time is shown (or the one next to T; bodies at several
+times side by side), deformed S times (1). On the left solution.pvd with the field von_mises, on the
+right contact.pvd with the field pressure, unless told otherwise. The camera looks from the direction X Y Z; the image is
 cropped to what it shows, or, with a width, to a square of that size around the focus; panels
 have at most WIDTH by HEIGHT pixels (760 600). --no-outline leaves out the lines along sharp edges. --mirror
 adds the other half of bodies that are cut by the planes x = 0 or y = 0. --points also writes the
@@ -81,7 +81,7 @@ def arguments():
     add("--unit")
     add("--contact-unit")
     add("--scale", type=float, default=1.0)
-    add("--time", type=float)
+    add("--time", type=numbers)
     add("--range", type=numbers)
     add("--contact-range", type=numbers)
     add("--camera", type=numbers, default=[1, 1, 1])
@@ -384,12 +384,12 @@ def main():
     deformed = {0: "", 1: ", deformed"}.get(a.scale, f", deformed {a.scale:g} times")
     style = a.size, not a.no_edges, not a.no_outline
     panels = []
-    if not a.no_bodies:
-        found = list(bodies(read(a.folder / "solution.pvd", a.time), a.scale, a.hide, a.mirror.split()))
+    for time in () if a.no_bodies else a.time or [None]:
+        found = list(bodies(read(a.folder / "solution.pvd", time), a.scale, a.hide, a.mirror.split()))
         panels.append(panel(found, a.field, a.field.replace("_", " ").replace("mises", "Mises") + unit + deformed, a.range,
                             style, (a.camera, a.up, a.focus, a.width)))
     if not a.no_contact:
-        contact = read(a.folder / "contact.pvd", a.time)
+        contact = read(a.folder / "contact.pvd", a.time[-1] if a.time else None)
         if a.points:
             write_points(contact, a.points)
         panels.append(panel([surface(contact, a.scale, a.mirror.split())], a.contact,

@@ -6,7 +6,7 @@ import pathlib
 import re
 from collections import defaultdict
 from fractions import Fraction
-from math import floor, sqrt
+from math import floor, inf, sqrt
 
 from fuzzing.vtu import unpack  # pylint: disable=import-error
 
@@ -79,10 +79,11 @@ def surface(nodes, cells):
     return [faces[0] for faces in found.values() if len(faces) == 1]
 
 
-def moved_inwards(nodes, faces, part):
+def moved_inwards(nodes, faces, part, as_promised=False):
     """Positions of the nodes of surfaces, moved inwards by a part of the size of their faces: the root of
-    the mean area of those around the node, before deformation."""
-    normals, areas = defaultdict(lambda: (0, 0, 0)), defaultdict(list)
+    the mean area of those around the node before deformation, as the program promises, but no more
+    than twice the root of twice the smallest of them as it is."""
+    normals, areas, smallest = defaultdict(lambda: (0, 0, 0)), defaultdict(list), {}
     for corners, _ in faces:
         x, placed = [nodes[c] for c in corners], [c[1] for c in corners]
         area = cross(minus(x[2], x[0]), minus(x[3], x[1]))
@@ -90,19 +91,23 @@ def moved_inwards(nodes, faces, part):
         for corner in corners:
             normals[corner] = tuple(n + a for n, a in zip(normals[corner], area))
             areas[corner].append(0.5 * sqrt(dot(before, before)))
+            smallest[corner] = min(0.5 * sqrt(dot(area, area)), smallest.get(corner, inf))
     result = {}
     for corner, normal in normals.items():
         length = sqrt(dot(normal, normal)) or 1
         size = sqrt(sum(areas[corner]) / len(areas[corner]))
+        if not as_promised:
+            size = min(size, 2 * sqrt(2 * smallest[corner]))
         result[corner] = tuple(x - part * size * n / length for x, n in zip(nodes[corner], normal))
     return result
 
 
-def find(path, inset=1.5e-4):
-    """Places where an edge of a surface passes through a face."""
+def find(path, inset=1.5e-4, as_promised=False):
+    """Places where an edge of a surface passes through a face. At the tips of slender bodies the program
+    promises less than what is looked at, unless @p as_promised."""
     nodes, cells = read(path)
     faces = surface(nodes, cells)
-    at = moved_inwards(nodes, faces, inset)
+    at = moved_inwards(nodes, faces, inset, as_promised)
     triangles, edges, lengths = [], {}, []
     for corners, cell in faces:
         x = [at[c] for c in corners]

@@ -139,6 +139,21 @@ namespace Touchstone
 
 
 
+  void
+  ExplicitStep::add_contact_results(std::vector<ContactFace>  &faces,
+                                    std::vector<ContactPoint> &points) const
+  {
+    if (!impulses || impulses->general_contact() == nullptr)
+      return;
+    const GeneralResults &general = impulses->general_contact()->results();
+    for (const ContactFace &face : general.faces(contact.n_pairs()))
+      faces.push_back(face);
+    for (const ContactPoint &point : general.points(now.u, contact.n_pairs()))
+      points.push_back(point);
+  }
+
+
+
   std::string
   ExplicitStep::advice() const
   {

@@ -2,6 +2,7 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/results.h>
+#include <touchstone/drive/adjusted_start.h>
 #include <touchstone/drive/model_report.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
@@ -71,6 +72,7 @@ namespace Touchstone
     , log(folder, terminal, resume)
     , warnings(log)
     , forest(scene.forest_input(), folder_of_scene, communicator)
+    , adjusted(adjust_start(scene, forest, communicator))
     , solid(scene.bodies, scene.discretisation.degree, forest, communicator)
     , problem(Step::make(scene, forest, solid, timer))
     , refinement(scene.refinement, forest, solid)
@@ -268,6 +270,8 @@ namespace Touchstone
              scene.linear_solver.type);
     for (const std::string &text : scene.without_effect)
       warnings.add(text);
+    for (const std::string &line : adjusted)
+      log.line(line);
     // Start or resume; both return what is worth a line in the log.
     for (const std::string &line : origin.checkpoint ? resume() : problem->start())
       log.line(line);
@@ -307,9 +311,10 @@ namespace Touchstone
   std::vector<std::string>
   validate(const Scene &scene, const std::string &folder_of_scene, const MPI_Comm communicator)
   {
-    const auto   reference = make_reference(scene);
-    const Forest forest(scene.forest_input(), folder_of_scene, communicator);
-    Solid        solid(scene.bodies, scene.discretisation.degree, forest, communicator);
+    const auto reference = make_reference(scene);
+    Forest     forest(scene.forest_input(), folder_of_scene, communicator);
+    const auto adjusted = adjust_start(scene, forest, communicator);
+    Solid      solid(scene.bodies, scene.discretisation.degree, forest, communicator);
     reference->check_mesh(solid);
     const Probes probes(scene.probes, forest, solid);
     TimerOutput  timer(std::cout, TimerOutput::never, TimerOutput::wall_times);
@@ -330,6 +335,7 @@ namespace Touchstone
     add(describe_bodies(scene, forest, solid));
     for (const std::string &text : forest.warnings())
       lines.push_back("warning: " + text);
+    add(adjusted);
     add(start);
     if (!problem->held_by_contact().empty())
       lines.push_back("held by contact alone: " + problem->held_by_contact());

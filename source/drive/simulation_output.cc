@@ -38,7 +38,10 @@ namespace Touchstone
     if (scene.output.point_values())
       point_output.write(u, step, time);
     const Contact &contact = problem->state().contact;
-    contact_output.write(contact_faces(contact), contact_points(contact, u), step, time);
+    auto           faces   = contact_faces(contact);
+    auto           points  = contact_points(contact, u);
+    problem->add_contact_results(faces, points);
+    contact_output.write(faces, points, step, time);
     master_output.write(master_faces(contact), master_points(contact, u), step, time);
   }
 

@@ -198,7 +198,7 @@ namespace Touchstone
       {
         for (unsigned int node = 0; node < local.size(); ++node)
           v[local[node]] = solver.velocity[node];
-        const auto found = general->find_crossings(u, v, step);
+        const auto found = general->find_crossings(u, v, step, round);
         if (found == GeneralContact::Crossings::none)
           {
             counted.crossing_rounds += round;

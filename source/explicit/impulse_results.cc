@@ -148,6 +148,8 @@ namespace Touchstone
     tell_what_presses();
     contact.update(displacement, time);
     const double length = time - interval_start;
+    if (general)
+      general->end_interval(length);
     for (const ContactRow &row : contact.rows())
       {
         const RowHistory &h = history[row.index];

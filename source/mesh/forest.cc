@@ -140,6 +140,21 @@ namespace Touchstone
 
 
   void
+  Forest::vertex_has_moved(const unsigned int body,
+                           const Point<dim>  &before,
+                           const Point<dim>  &after)
+  {
+    const auto coordinates = [](const Point<dim> &x) {
+      return std::array<double, dim>{{x[0], x[1], x[2]}};
+    };
+    for (auto &[name, members] : node_sets[body])
+      if (members.count(coordinates(before)) > 0)
+        members.insert(coordinates(after));
+  }
+
+
+
+  void
   Forest::add_boundaries(const BodyMesh                                         &mesh,
                          const std::map<types::boundary_id, types::boundary_id> &ids,
                          const std::vector<std::string>                         &symmetry)

@@ -5,7 +5,8 @@ number of ranks (doc/general_contact.md)."""
 from math import pi
 
 from touchstone_test import below, check, contact_gives, finish, folder, launch, run
-from hexahedra import box, move, turn  # of tests/, which touchstone_test finds
+from fuzzing.vtu import read  # of contrib/, which touchstone_test finds
+from hexahedra import box, move, turn  # of tests/
 
 NOT_TURNED = turn((0, 0, 1), 0)
 
@@ -59,6 +60,19 @@ BARS = [block("lower", (-.5, -2, -.5), (.5, 2, .5), (1, 3, 1), UP, turn((0, 1, 0
               (0, 0, 1.45))]
 first, second = meet("bars", BARS), meet("bars", BARS, ranks=2)
 check(first.summary["motion"] == second.summary["motion"], "bars: one and two ranks differ")
+# Forces on the contact surface are what changes the momenta, on any number of ranks.
+for ranks in 1, 2:
+    drawn = run(f"drawn_{ranks}", folder / "bars.prm", ranks=ranks, vtu=1)
+    # Of several ranks there is a file of each, which have nodes between them both.
+    nodes = [node for step in range(1, 6) for node in
+             {node.position: node for file in drawn.folder.glob(f"contact_{step:04d}*.vtu") for node in read(file)}.values()]
+    for body, sign in ("lower", 1), ("upper", -1):
+        # The middles of the bars are 1.45 apart; steps of 0.2, masses of 4.
+        impulse = sum(0.2 * node.force[2] for node in nodes if (node.position[2] < 0.725) == (sign > 0))
+        change = 4 * (drawn.value("motion", "velocities", body, 2) - 0.5 * sign)
+        below(f"bars, impulse on the {body} one", abs(impulse / change - 1), 1e-5)
+    check(any(node.pressure > 0 for node in nodes) and all((node.status > 0) == any(node.force) for node in nodes),
+          "bars: no pressure, or status and force do not belong together")
 # A corner on a face, faces on faces of other cells, with friction.
 meet("corner", [block("lower", (-2, -2, -1), (2, 2, 0), (4, 4, 1), (0, 0, 0)),
                 block("upper", (0, 0, 0), (1, 1, 1), (2, 2, 2), (0, 0, -1),

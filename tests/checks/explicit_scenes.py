@@ -19,6 +19,9 @@ TURNED = turn((.3, -.7, .5), 1.234)
 UNSTABLE = "spike_spike_exact", "sheet_spike", "wedge_wedge_parallel", "edge_edge_parallel"
 # Many rows for the same motion: sweeps end at the tolerance, and at their limit in single cycles.
 TURNS_TO = {"slender": 1e-6, "sheet_edge": 1e-6}
+# The tips that meet here pass each other by 1e-3 of their own faces: surfaces are moved inwards by a
+# part of the mean face around a node, and those at the sides of a tip are 100 times as large as its own.
+BY_MEAN_FACES = "spike_spike_exact"
 SCENES, STEPS = {}, 5
 
 
@@ -156,7 +159,7 @@ for name, (_, _, _, allowed) in SCENES.items():
     files = sorted(result.folder.glob("solution_*.vtu"))
     check(len(files) >= STEPS, f"{name}: {len(files)} results written")
     for path in files if name != "inner_edges" else ():
-        places = crossings.find(path)
+        places = crossings.find(path, as_promised=name == BY_MEAN_FACES)
         check(not places, f"{name}: {len(places)} crossings in {path.name}, the first at {places[:1]}")
     motion = result.summary.get("motion", {})
     energies, velocities = motion.get("energies", {}), motion.get("velocities", {})

@@ -47,7 +47,9 @@ compare(reference, expected, 1e-3)
 text = whole.read_text(encoding="utf-8")
 friction = folder / "friction.prm"
 friction.write_text(text.replace(ITSELF, ITSELF + COULOMB), encoding="utf-8")
-compare(run("friction", friction), expected, 1e-3)
+rubbing = run("friction", friction)
+compare(rubbing, expected, 1e-3)
+same(rubbing, run("friction_cg", friction, CG), 1e-6)
 
 same(reference, run("multipliers", whole, MULTIPLIERS), 1e-7)
 same(reference, run("augmented", whole, AUGMENTED), 1e-6)

@@ -59,6 +59,9 @@ namespace Touchstone
     {
       return &counts;
     }
+    void
+    add_contact_results(std::vector<ContactFace>  &faces,
+                        std::vector<ContactPoint> &points) const override;
     std::string
     advice() const override;
     /** @throws dealii::ExcInternalError: scenes with refinement are refused

@@ -69,16 +69,18 @@ namespace Touchstone
     }
 
   private:
-    const Scene                       &scene;
-    const MPI_Comm                     communicator;
-    const FoundCheckpoint              origin;
-    const std::vector<std::string>     changed_parameters;
-    dealii::Timer                      wall;
-    dealii::TimerOutput                timer;
-    OutputFolder                       folder;
-    Log                                log;
-    Warnings                           warnings;
-    Forest                             forest;
+    const Scene                   &scene;
+    const MPI_Comm                 communicator;
+    const FoundCheckpoint          origin;
+    const std::vector<std::string> changed_parameters;
+    dealii::Timer                  wall;
+    dealii::TimerOutput            timer;
+    OutputFolder                   folder;
+    Log                            log;
+    Warnings                       warnings;
+    Forest                         forest;
+    /** What has become of surfaces that cross each other. */
+    const std::vector<std::string>     adjusted;
     Solid                              solid;
     std::unique_ptr<Step>              problem;
     Refinement                         refinement;

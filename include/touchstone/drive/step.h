@@ -209,6 +209,14 @@ namespace Touchstone
       return nullptr;
     }
 
+    /** @brief Add results of contact that belongs to no pair: of general contact. Its number is the
+     * one after those of all pairs. */
+    virtual void
+    add_contact_results(std::vector<ContactFace> & /*faces*/,
+                        std::vector<ContactPoint> & /*points*/) const
+    {
+    }
+
     /** @brief What to try if a run cannot go on, as a sentence. */
     virtual std::string
     advice() const

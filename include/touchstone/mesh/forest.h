@@ -154,6 +154,13 @@ namespace Touchstone
       return node_sets[body].at(name);
     }
 
+    /** @brief A corner of cells of a body has been moved: sets that it is in have it at its new
+     * place, too. */
+    void
+    vertex_has_moved(unsigned int              body,
+                     const dealii::Point<dim> &before,
+                     const dealii::Point<dim> &after);
+
     /** @brief The boundary ids of all of them together. Where no boundary has the name, 'all' are
      * those that are no planes of symmetry. */
     BoundaryIds

@@ -125,8 +125,28 @@ namespace Touchstone
         return contact(x, motion(time));
       }
 
+      // Explicit cycles ask for the motion at their two ends once for each node.
       RigidMotion
       motion(const double time) const override
+      {
+        for (const Prescribed &one : latest)
+          if (one.known && one.time == time)
+            return free.after(one.motion);
+        latest[1] = latest[0];
+        latest[0] = {true, time, prescribed_motion(time)};
+        return free.after(latest[0].motion);
+      }
+
+      void
+      set_free_motion(const ToolMotion &of_forces) override
+      {
+        free = of_forces;
+      }
+
+    private:
+      /** By formulas of the time alone. */
+      RigidMotion
+      prescribed_motion(const double time) const
       {
         RigidMotion result;
         for (unsigned int d = 0; d < dim; ++d)
@@ -139,16 +159,9 @@ namespace Touchstone
             result.shift += fixed - result.turn * fixed;
           }
         formulas.check(MPI_COMM_SELF); // the time is the same on all ranks
-        return free.after(result);
+        return result;
       }
 
-      void
-      set_free_motion(const ToolMotion &of_forces) override
-      {
-        free = of_forces;
-      }
-
-    private:
       /** Normal and gap vector of a point. */
       PointContact
       contact(const Point<dim> &x, const RigidMotion &now) const
@@ -166,6 +179,14 @@ namespace Touchstone
       Tensor<1, dim> axis;
       Point<dim>     fixed;
       ToolMotion     free;
+      /** The last two motions that were asked for. */
+      struct Prescribed
+      {
+        bool        known = false;
+        double      time  = 0.;
+        RigidMotion motion;
+      };
+      mutable std::array<Prescribed, 2> latest;
     };
   } // namespace
 

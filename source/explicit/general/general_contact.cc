@@ -21,6 +21,10 @@ namespace Touchstone
      */
     constexpr double cycles_ahead = 80., most_margin = 0.5, of_impulses = 2.2;
 
+    /** Where many places touch, one or the other always asks for an earlier kind of rows: after so
+     * many rounds none waits for others. */
+    constexpr unsigned int rounds_in_order = 3;
+
     /** For sums and products of lengths that have to be bounds. */
     constexpr double above_round_off = 1. + 1e-9;
   } // namespace
@@ -36,6 +40,7 @@ namespace Touchstone
     , surface(input, solid, nodes)
     , candidates(surface, nodes, solid.owned, parameters.search.name)
     , made_at(nodes.n_local())
+    , outcome(surface, nodes, solid.owned)
   {
     double size = std::numeric_limits<double>::max();
     for (const unsigned int node : surface.owned_nodes())
@@ -56,6 +61,8 @@ namespace Touchstone
     renew = true;
     candidates.begin_interval();
     rows.clear();
+    totals.clear();
+    outcome.begin_interval();
     numbers.clear();
     forget();
     normal_now.clear();
@@ -113,6 +120,7 @@ namespace Touchstone
                                    const double     step,
                                    const double     in_cycle)
   {
+    keep_totals();
     made_at             = u;
     const double wanted = parameters.margin_length();
     const double automatic =
@@ -121,6 +129,7 @@ namespace Touchstone
     candidates.find(u, v, step, margin);
     begin_candidates();
     rows.clear();
+    totals.clear();
     numbers.clear();
     new_rows = true;
     renew    = false;
@@ -230,7 +239,7 @@ namespace Touchstone
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
-      check_motion(/*ahead=*/true);
+      check_motion(/*ahead=*/true, /*in_order=*/true);
     else
       new_rows = Utilities::MPI::max(int(new_rows), nodes.communicator()) > 0;
   }
@@ -238,7 +247,10 @@ namespace Touchstone
 
 
   GeneralContact::Crossings
-  GeneralContact::find_crossings(const NodeField &u, const NodeField &v, const double step)
+  GeneralContact::find_crossings(const NodeField   &u,
+                                 const NodeField   &v,
+                                 const double       step,
+                                 const unsigned int round)
   {
     const Range moves = range(u, v, step);
     if (!candidates.any() || !std::isfinite(moves.in_cycle))
@@ -247,7 +259,8 @@ namespace Touchstone
       return Crossings::too_far;
     travels = moves.far_in_cycle;
     import(u, v);
-    return check_motion(/*ahead=*/false) ? Crossings::rows : Crossings::none;
+    return check_motion(/*ahead=*/false, round <= rounds_in_order) ? Crossings::rows
+                                                                   : Crossings::none;
   }
 
 
@@ -257,7 +270,7 @@ namespace Touchstone
   // if something still crosses. With free velocities all that is pressed together crosses, and
   // touches already: only what is new there is worth a look.
   bool
-  GeneralContact::check_motion(const bool ahead)
+  GeneralContact::check_motion(const bool ahead, const bool in_order)
   {
     looks_ahead = ahead;
     set_inner_positions();
@@ -277,7 +290,7 @@ namespace Touchstone
               const auto there = numbers.find(found[known].key);
               is_new |= there == numbers.end() || !rows[there->second].used;
             }
-          goes_on = Utilities::MPI::max(is_new, nodes.communicator()) == 0;
+          goes_on = !in_order || Utilities::MPI::max(is_new, nodes.communicator()) == 0;
         }
     if (goes_on && !ahead)
       for (const OpenFaces &faces : open_faces)
@@ -299,6 +312,7 @@ namespace Touchstone
     if (is_new)
       {
         rows.emplace_back();
+        totals.emplace_back();
         new_rows = true;
       }
     rows[there->second]      = row;

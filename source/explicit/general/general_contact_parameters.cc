@@ -82,6 +82,12 @@ namespace Touchstone
                       "anew; 'automatic' takes up to half a face, by the speed of the motion. "
                       "Results do not depend on it. [length]",
                       Patterns::Anything());
+    initial_overlap.declare(prm,
+                            "Initial overlap",
+                            "Surfaces that cross each other as the bodies are placed are an error "
+                            "to 'refuse', with the places, or a fault of the mesh to 'adjust': "
+                            "nodes are moved, without stress, until nothing overlaps. Overlaps of "
+                            "more than a quarter of a face are refused in any case.");
   }
 
 

@@ -126,6 +126,15 @@ namespace Touchstone
           energies.friction.add(slip);
           given.add(normal);
           given.add(-supplied);
+          GeneralResults::RowTotal &total = totals[k];
+          total.pressed                   = true;
+          total.gap                       = rows[k].gap;
+          total.slides                    = !row.friction || row.sliding || total.slides;
+          unsigned int node               = 0;
+          for (unsigned int side = 0; side < 2; ++side)
+            for (unsigned int i = 0; i < rows[k].sides[side].n; ++i)
+              total.impulses[node++] +=
+                (side == 0 ? 1. : -1.) * rows[k].sides[side].weights[i] * row.impulse;
           Pressed what;
           what.key         = row.key;
           what.impulse     = row.impulse;
@@ -142,5 +151,32 @@ namespace Touchstone
                 }
           remember(what);
         }
+  }
+
+
+
+  void
+  GeneralContact::keep_totals()
+  {
+    for (std::size_t k = 0; k < totals.size(); ++k)
+      if (totals[k].pressed)
+        {
+          std::array<Index, 8> dofs{};
+          unsigned int         n = 0;
+          for (const Side &side : rows[k].sides)
+            for (unsigned int i = 0; i < side.n; ++i)
+              dofs[n++] = candidates.dof(side.slots[i]);
+          outcome.add(dofs, n, totals[k]);
+          totals[k] = GeneralResults::RowTotal();
+        }
+  }
+
+
+
+  void
+  GeneralContact::end_interval(const double length)
+  {
+    keep_totals();
+    outcome.end_interval(length);
   }
 } // namespace Touchstone

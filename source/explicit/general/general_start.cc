@@ -2,7 +2,6 @@
 
 #include <touchstone/base/exchange.h>
 #include <touchstone/base/input_error.h>
-#include <touchstone/collision/first_crossing.h>
 #include <touchstone/explicit/general/general_contact.h>
 
 #include <algorithm>
@@ -54,11 +53,16 @@ namespace Touchstone
                        "name boundaries of the bodies, or write 'all'");
     const std::string text = crossings_at(u, inset, bodies);
     if (!text.empty())
-      throw InputError(parameters.section(),
-                       "",
-                       "",
-                       "surfaces cross each other at the start, " + text,
-                       "move the bodies apart, or take a finer mesh where round surfaces touch");
+      throw InputError(
+        parameters.section(),
+        "",
+        "",
+        "surfaces cross each other at the start, " + text,
+        parameters.initial_overlap == GeneralContactParameters::Overlap::adjust
+          ? "'Initial overlap = adjust' moves what overlaps by less than a quarter of "
+            "a face: move the bodies apart"
+          : "move the bodies apart, take a finer mesh where round surfaces touch, or "
+            "set 'Initial overlap' to 'adjust'");
   }
 
 
@@ -68,54 +72,20 @@ namespace Touchstone
                                const double                    inwards,
                                const std::vector<std::string> &bodies)
   {
-    const NodeField at_rest(nodes.n_local());
-    made_at = u;
-    margin  = least_margin * smallest;
-    candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
-    begin_candidates();
-    normal_now.clear();
-    set_normals(u);
-    import(u, at_rest);
-    cycle = 0.;
-    find_near(0.);
-    set_inner_positions(inwards);
-    std::vector<Place> places;
-    const auto         check = [&](const unsigned int of, const unsigned int face) {
-      for (unsigned int a = 0; a < 4; ++a)
-        {
-          const SurfacePoint begin = corner(of, a), end = corner(of, a + 1);
-          // An edge that hangs on the cell of the face meets it where it begins.
-          if (candidates.faces[face].of_cell(key(begin)) ||
-              candidates.faces[face].of_cell(key(end)))
-            continue;
-          const Point<dim> p = inner_position(begin, false), q = inner_position(end, false);
-          for (unsigned int t = 0; t < 4; ++t)
-            {
-              // The edge as the path of a node.
-              const FourPoints start{{p,
-                                      inner_position(corner(face, t), false),
-                                      inner_position(corner(face, t + 1), false),
-                                      inner_position(middle(face), false)}};
-              FourPoints       through = start;
-              through[0]               = q;
-              if (first_crossing_node_triangle(start, through))
-                {
-                  places.push_back({candidates.faces[of].key,
-                                    candidates.faces[of].body,
-                                    candidates.faces[face].body,
-                                    Point<dim>(0.5 * (p + q))});
-                  return;
-                }
-            }
-        }
-    };
-    for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
-      if (pair.inner_edges)
-        {
-          check(pair.one, pair.other);
-          check(pair.other, pair.one);
-        }
-    renew             = true;
+    look_at(u, inwards, least_margin * smallest);
+    std::vector<Place>                    places;
+    std::pair<unsigned int, unsigned int> last(numbers::invalid_unsigned_int, 0);
+    for_each_crossing([&](const unsigned int of, const unsigned int a, const unsigned int face) {
+      // One place for two faces.
+      if (last == std::make_pair(of, face))
+        return;
+      last = {of, face};
+      places.push_back({candidates.faces[of].key,
+                        candidates.faces[of].body,
+                        candidates.faces[face].body,
+                        Point<dim>(0.5 * (inner_position(corner(of, a), false) +
+                                          inner_position(corner(of, a + 1), false)))});
+    });
     const auto by_key = [](const Place &a, const Place &b) { return a.key < b.key; };
     std::sort(places.begin(), places.end(), by_key);
     const std::uint64_t n = Utilities::MPI::sum<std::uint64_t>(places.size(), nodes.communicator());

@@ -116,15 +116,11 @@ namespace Touchstone
 
 
 
-  void
-  GeneralContact::add_hit(const unsigned int pair, std::vector<Hit> &hits) const
+  std::optional<GeneralContact::Hit>
+  GeneralContact::over_face(const unsigned int pair) const
   {
     const auto &[node, face, of_faces] = candidates.node_faces[pair];
-
-    // The nodes of the other side only where they had to press in the cycle before.
-    if (!is_slave(node, face) && pressed_nodes.count(candidates.key(node)) == 0)
-      return;
-    const Tensor<1, dim>         &x = at(node).x;
+    const Tensor<1, dim>         &x    = at(node).x;
     std::array<Tensor<1, dim>, 4> corners;
     for (unsigned int i = 0; i < 4; ++i)
       corners[i] = at(corner(face, i).slot).x - x;
@@ -154,12 +150,28 @@ namespace Touchstone
         best.weights  = weights;
       }
     if (best.face == numbers::invalid_unsigned_int)
+      return {};
+    best.pair    = pair;
+    best.opposed = at(node).normal * best.normal;
+    return best;
+  }
+
+
+
+  void
+  GeneralContact::add_hit(const unsigned int pair, std::vector<Hit> &hits) const
+  {
+    const auto &[node, face, of_faces] = candidates.node_faces[pair];
+
+    // The nodes of the other side only where they had to press in the cycle before.
+    if (!is_slave(node, face) && pressed_nodes.count(candidates.key(node)) == 0)
       return;
-    const double h = std::min(at(node).size, size(corner(face, best.triangle)));
-    best.pair      = pair;
-    best.opposed   = at(node).normal * best.normal;
-    if (best.gap <= touching * h && best.gap >= -overlapping * h && best.opposed <= 0.)
-      hits.push_back(best);
+    const auto hit = over_face(pair);
+    if (!hit)
+      return;
+    const double h = std::min(at(node).size, size(corner(face, hit->triangle)));
+    if (hit->gap <= touching * h && hit->gap >= -overlapping * h && hit->opposed <= 0.)
+      hits.push_back(*hit);
   }
 
 
@@ -271,28 +283,32 @@ namespace Touchstone
 
 
 
+  std::optional<GeneralContact::Row>
+  GeneralContact::nearest_edges(const Points &ends) const
+  {
+    const Tensor<1, dim> a = mean(ends[0], &NodeMotion::x), e = mean(ends[1], &NodeMotion::x) - a,
+                         b = mean(ends[2], &NodeMotion::x), f = mean(ends[3], &NodeMotion::x) - b;
+    const Tensor<1, dim> across = cross_product_3d(e, f);
+    const double         square = across.norm_square();
+    if (!(square > 1e-12 * e.norm_square() * f.norm_square()))
+      return {}; // parallel: nodes on faces serve them
+    const double s = cross_product_3d(b - a, f) * across / square,
+                 t = cross_product_3d(b - a, e) * across / square;
+    if (std::min({s, t, 1. - s, 1. - t}) < -tie)
+      return {};
+    const Tensor<1, dim> normal =
+      (across * outward(ends) < 0. ? -1. : 1.) / std::sqrt(square) * across;
+    return edge_row(ends, {{s, t}}, normal);
+  }
+
+
+
   void
   GeneralContact::find_touching_edges()
   {
     for (const std::size_t number : watched)
-      {
-        const Points         ends = ends_of(candidates.edge_pairs[number]);
-        const Tensor<1, dim> a = at(ends[0].slot).x, e = at(ends[1].slot).x - a,
-                             b = at(ends[2].slot).x, f = at(ends[3].slot).x - b;
-        const Tensor<1, dim> across = cross_product_3d(e, f);
-        const double         square = across.norm_square();
-        if (!(square > 1e-12 * e.norm_square() * f.norm_square()))
-          continue; // parallel: nodes on faces serve them
-        const double s = cross_product_3d(b - a, f) * across / square,
-                     t = cross_product_3d(b - a, e) * across / square;
-        if (std::min({s, t, 1. - s, 1. - t}) < -tie)
-          continue;
-        const Tensor<1, dim> normal =
-          (across * outward(ends) < 0. ? -1. : 1.) / std::sqrt(square) * across;
-        const double gap = (a - b) * normal;
-        const double h   = std::min({size(ends[0]), size(ends[1]), size(ends[2]), size(ends[3])});
-        if (gap <= touching * h && gap >= -overlapping * h)
-          use(edge_row(ends, {{s, t}}, normal));
-      }
+      if (const auto row = nearest_edges(ends_of(candidates.edge_pairs[number]));
+          row && row->gap <= touching * row->size && row->gap >= -overlapping * row->size)
+        use(*row);
   }
 } // namespace Touchstone

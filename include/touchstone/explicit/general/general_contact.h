@@ -7,9 +7,11 @@
 #include <touchstone/collision/first_crossing.h>
 #include <touchstone/explicit/general/contact_candidates.h>
 #include <touchstone/explicit/general/general_contact_parameters.h>
+#include <touchstone/explicit/general/general_results.h>
 #include <touchstone/explicit/general/moving_points.h>
 #include <touchstone/explicit/impulse_solver.h>
 
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -55,6 +57,28 @@ namespace Touchstone
     std::string
     crossings_at(const NodeField &u, double inwards, const std::vector<std::string> &bodies);
 
+    /** @brief A row that is closed too far: a node within another body, or two edges that have
+     * passed each other. */
+    struct Overlap
+    {
+      RowKey key;
+      /** Of the slave side and, negative, of the master side, by first dofs of nodes; and the
+       * direction from the latter to the former. */
+      unsigned int           n = 0;
+      std::array<Index, 8>   dofs{};
+      std::array<double, 8>  weights{};
+      dealii::Tensor<1, dim> normal;
+      /** Length. */
+      double depth = 0.;
+    };
+
+    /** @brief Overlaps of up to a quarter of a face with the displacement @p u, of all ranks and in
+     * the order of their keys: for each node that of the face that it is nearest to; and where
+     * no node is so deep that surfaces cross, those of edges. What it has found for the present
+     * interval is forgotten. Collective. */
+    std::vector<Overlap>
+    overlaps(const NodeField &u);
+
     /** @brief The state is a committed one: forget what the interval before has left. */
     void
     begin_interval();
@@ -79,9 +103,10 @@ namespace Touchstone
     };
 
     /** @brief Look whether surfaces cross with the velocities @p v, and add the rows that prevent
-     * it. Collective. */
+     * it. Collective. @param round Of this cycle, from 1: in late ones rows of all kinds come at
+     * once. */
     Crossings
-    find_crossings(const NodeField &u, const NodeField &v, double step);
+    find_crossings(const NodeField &u, const NodeField &v, double step, unsigned int round);
 
     /** @name Rows in the solver, which are its last ones */
     /** @{ */
@@ -109,6 +134,14 @@ namespace Touchstone
                  std::size_t                                first,
                  const std::vector<dealii::Tensor<1, dim>> &v_before,
                  ExactSum                                  &given);
+    /** @brief The interval is over: results() are those of it. Collective. @param length Time. */
+    void
+    end_interval(double length);
+    const GeneralResults &
+    results() const
+    {
+      return outcome;
+    }
     /** @brief What there is to say when find_crossings() finds some in the shortest of cycles.
      * Collective. */
     std::string
@@ -261,6 +294,11 @@ namespace Touchstone
     std::set<std::uint64_t>   pressed_nodes;
     std::vector<std::size_t>  watched;
     Energy                    energies;
+    GeneralResults            outcome;
+    /** By row, since the candidates were made. */
+    std::vector<GeneralResults::RowTotal> totals;
+    void
+    keep_totals();
 
     /** By how much nodes have moved relative to each other since the candidates were made, and do
      * so in the cycle, along an axis, length. The latter is infinite if a velocity is not finite.
@@ -345,6 +383,21 @@ namespace Touchstone
     /** Crossings of the last check, with the rows that prevent them. */
     std::vector<Row> found;
 
+    /** Surfaces as they stand with the displacement @p u and, for the check of crossings, moved
+     * inwards by a part of the size of their faces: sets the candidates within a distance @p reach
+     * of each other, and what is known of their nodes. */
+    void
+    look_at(const NodeField &u, double inwards, double reach);
+    /** Edges that pass through faces there, those that hang on the cell of the face apart: calls
+     * @p found with the face of the edge, its corner, and the other face. */
+    void
+    for_each_crossing(
+      const std::function<void(unsigned int, unsigned int, unsigned int)> &found) const;
+    /** Of an edge that passes through a face the overlap with the edge of that face, or line from
+     * a corner to its middle, that is nearest; nothing if none is near. */
+    std::optional<Row>
+    passed_edge(const SurfacePoint &begin, const SurfacePoint &end, unsigned int face) const;
+
     /** The row takes part in the cycle, as it is or instead of the one of its key. */
     void
     use(const Row &row);
@@ -379,8 +432,15 @@ namespace Touchstone
     find_touching_edges();
     bool
     is_slave(std::size_t node, unsigned int face) const;
+    /** Where the node of a pair is over the face, or under it, whatever the gap. */
+    std::optional<Hit>
+    over_face(unsigned int pair) const;
     void
     add_hit(unsigned int pair, std::vector<Hit> &hits) const;
+    /** The row of two edges where they are nearest to each other; nothing if that is beyond their
+     * ends or if they are parallel. */
+    std::optional<Row>
+    nearest_edges(const Points &ends) const;
     bool
     stand_together(const Hit &one, const Hit &other, std::size_t node) const;
 
@@ -398,10 +458,10 @@ namespace Touchstone
 
     /** Check the motion through the cycle that import() has brought: #new_rows is the same on all
      * ranks then. @param ahead With free velocities: only nodes of the finer side that do not
-     * touch.
+     * touch. @param in_order Rows of a kind come only where no earlier kind brings new ones.
      * @return whether rows have been added or changed, on any rank. Collective. */
     bool
-    check_motion(bool ahead);
+    check_motion(bool ahead, bool in_order);
     /** Its parts: pairs of faces that no direction tells apart; what belongs to one, which is added
      * to #found, and how long that stays apart; a node and a face, two edges, inner edges. */
     void

@@ -30,6 +30,14 @@ namespace Touchstone
      * or "automatic". */
     Choice<Registry<BroadPhase>> search{"automatic"};
     std::string                  margin = "automatic";
+    /** What becomes of surfaces that cross each other as the bodies are placed. */
+    enum class Overlap
+    {
+      refuse,
+      adjust
+    };
+    Keyword<Overlap> initial_overlap{Overlap::refuse,
+                                     {{"refuse", Overlap::refuse}, {"adjust", Overlap::adjust}}};
 
     /** @brief "Contact pair NAME". */
     std::string

@@ -86,6 +86,13 @@ namespace Touchstone
       return sizes[place[node]];
     }
 
+    /** @brief A quarter of these faces together, length squared. */
+    double
+    area(const unsigned int node) const
+    {
+      return 0.25 * sizes[place[node]] * sizes[place[node]] * around[place[node]].size();
+    }
+
     /** @brief The owned nodes of the surface, local numbers. */
     const std::vector<unsigned int> &
     owned_nodes() const

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""A strip that a piston crumples in a box: general contact with itself and with the walls, and the energy
+balance. `crossings` looks for surfaces that cross, and contacts are counted
+(doc/general_contact.md, section 7). With two more arguments: cells along the strip, and travel of the piston."""
+
+import sys
+from collections import defaultdict
+from math import sin
+
+from touchstone_test import below, check, contact_gives, finish, folder, run
+import crossings  # of tests/, which touchstone_test finds
+from hexahedra import box
+
+MORE = sys.argv[4:]
+CELLS, TRAVEL = (int(MORE[0]), float(MORE[1])) if len(MORE) == 2 else (60, 25)
+LENGTH, HEIGHT, THICKNESS, WIDTH, SPEED, STEPS = CELLS / 2, 4, 0.3, 1, 1, 20
+
+
+def wavy(point):
+    """Not quite straight: which way the strip buckles is not left to round-off."""
+    x, y, z = point
+    return x, y, z + 0.05 * sin(0.7 * x) + 0.04 * sin(1.9 * x + 0.3 * y) + 0.03 * sin(0.31 * x + 1)
+
+
+WALLS = {"left": ((0, 0, 0), (1, 0, 0)), "right": ((LENGTH, 0, 0), (-1, 0, 0)),
+         "bottom": ((0, 0, -HEIGHT / 2), (0, 0, 1)), "top": ((0, 0, HEIGHT / 2), (0, 0, -1)),
+         "front": ((0, -1, 0), (0, 1, 0)), "back": ((0, 1, 0), (0, -1, 0))}
+box((0.01, -WIDTH / 2, -THICKNESS / 2), (LENGTH - 0.01, WIDTH / 2, THICKNESS / 2), (CELLS, 2, 2)).mapped(
+    wavy).written(folder / "strip.vtk")
+TEXT = f"""set Bodies = strip
+set Obstacles = {", ".join(WALLS)}
+set Contact pairs = {", ".join(WALLS)}, itself
+subsection Body strip
+  set Element = one point
+  subsection Geometry
+    set Type = file
+    set File = strip.vtk
+  end
+  subsection Material
+    set Law = neo-Hookean
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+    set Density = 1
+  end
+end
+subsection Contact pair itself
+  set Slave body = strip
+end
+subsection Time integration
+  set Scheme = central_differences
+end
+subsection Load stepping
+  set End time = {TRAVEL / SPEED}
+  set Steps = {STEPS}
+end
+"""
+for name, (point, direction) in WALLS.items():
+    motion = f"  set Motion x = -{SPEED}*t\n" if name == "right" else ""
+    TEXT += f"""subsection Obstacle {name}
+  set Shape = plane
+  set Point = {point[0]}, {point[1]}, {point[2]}
+  set Direction = {direction[0]}, {direction[1]}, {direction[2]}
+{motion}end
+subsection Contact pair {name}
+  set Slave body = strip
+  set Slave boundaries = all
+  set Obstacle = {name}
+end
+"""
+(folder / "strip.prm").write_text(TEXT, encoding="utf-8")
+
+
+def patches(step):
+    """Nodes that general contact presses, and groups of them that hang together on the surface: a fold that
+    touches another has one on each."""
+    nodes, cells = crossings.read(result.folder / f"solution_{step:04d}.vtu")
+    near = defaultdict(set)
+    for corners, _ in crossings.surface(nodes, cells):
+        for corner in corners:
+            near[tuple(corner[1])].update(tuple(other[1]) for other in corners)
+    pressed = {tuple(node.position) for node in result.contact_nodes(step)
+               if node.pair == len(WALLS) and node.status > 0}
+    n_pressed, groups = len(pressed), 0
+    while pressed:
+        groups += 1
+        front = [pressed.pop()]
+        while front:
+            found = near[front.pop()] & pressed
+            pressed -= found
+            front += found
+    return n_pressed, groups
+
+
+result = run("strip", folder / "strip.prm", vtu=1)
+files = sorted(result.folder.glob("solution_*.vtu"))
+for path in files:
+    places = crossings.find(path)
+    check(not places, f"{len(places)} crossings in {path.name}, the first at {places[:1]}")
+contacts = [patches(step) for step in range(len(files))]
+print("nodes that meet the strip itself, and groups of them:", contacts)
+check(bool(contacts) and max(contacts)[0] > 1.5 * CELLS, "the strip does not meet itself as it should")
+below("balance error", abs(result.value("motion", "energies", "balance_error")) /
+      result.value("motion", "energies", "external"), 1e-2)
+contact_gives(result, 1e-6)
+rounds = result.summary.get("general_contact", {})
+print(f"checks {rounds.get('checks_of_crossings')}, cycles with more than five {rounds.get('cycles_with_more_than_five')}, "
+      f"halvings {rounds.get('halvings')}")
+finish()
