@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/cyclic_lines.h>
 #include <touchstone/algebra/shared_lines.h>
 
 #include <deal.II/base/mpi.h>
@@ -15,10 +16,8 @@ namespace Touchstone
 
   namespace
   {
-    /**
-     * Smaller coefficients are round-off and are left out of constraint lines: references without
-     * meaning could close a cycle, which elimination cannot resolve.
-     */
+    /** Smaller coefficients are round-off and are left out of constraint lines: references without
+     * meaning would make chains longer. */
     constexpr double negligible = 1e-12;
   } // namespace
 
@@ -84,6 +83,7 @@ namespace Touchstone
               far.push_back(entry.first);
         if (Utilities::MPI::max(static_cast<int>(!far.empty()), communicator) == 0)
           {
+            resolve_cycles(result);
             result.close();
             return result;
           }

@@ -198,7 +198,8 @@ namespace Touchstone
      * With the residual r = b - A x of the solution x, without these forces, they are the
      * solution of r_p + sum_k mu_k F_kp = 0 for the dofs p that are eliminated, where F_k
      * is what condition k acts on. Conditions that refer to dofs which others eliminate
-     * are solved one after the other; that ends, since such references never lead back.
+     * are solved one after the other; that ends, or converges
+     * where small coefficients lead back (see resolve_cycles()).
      *
      * @param residual Out-of-balance forces of this rank's dofs.
      * @param condense Adds the forces on hanging nodes to the nodes that these follow.

@@ -34,14 +34,6 @@ namespace Touchstone
       }
 
     protected:
-      /** Conditions are substituted into each other, which never ends on a cycle, however small
-       * its coefficients are: all that exceed round-off count. */
-      double
-      cycle_threshold() const override
-      {
-        return 1e-12;
-      }
-
       ConstraintGraph::Treatment
       treatment(const ContactRow &row) const override
       {
@@ -122,18 +114,20 @@ namespace Touchstone
       std::set<std::size_t> kept;
 
       /** Forces of rows are found one after the other, the later ones from the earlier: rows
-       * between nodes that refer to each other's slave nodes have no such order. Collective.
+       * between nodes that refer to each other's slave nodes have no such order. References to
+       * slave nodes of other pairs are small, see CyclicConstraints. Collective.
        * @throws UnresolvedContactFailure */
       void
       check_order(const Contact &contact, const MPI_Comm communicator) const
       {
-        std::vector<std::pair<Index, Index>> mine;
+        using Slave = std::pair<unsigned int, Index>; // pair and node
+        std::vector<std::pair<Slave, Slave>> mine;
         for (const ContactRow &row : contact.rows())
           if (row_states[row].active())
             for (const StencilEntry &entry : row.stencil)
               if (entry.weight < 0.)
-                mine.emplace_back(row.slave, entry.node);
-        std::multimap<Index, Index> refers;
+                mine.emplace_back(Slave(row.pair, row.slave), Slave(row.pair, entry.node));
+        std::multimap<Slave, Slave> refers;
         for (const auto &of_rank : Utilities::MPI::all_gather(communicator, mine))
           refers.insert(of_rank.begin(), of_rank.end());
         // Nodes that refer to none are last in the order; what is left refers in a circle.

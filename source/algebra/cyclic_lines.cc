@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/algebra/cyclic_lines.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+#include <boost/graph/adjacency_list.hpp>
+#include <boost/graph/strong_components.hpp>
+#include <map>
+
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Line = AffineConstraints<double>::ConstraintLine;
+
+    /** Lines that refer to each other, or a line that refers to itself; in the order of their
+     * dofs, each list. */
+    std::vector<std::vector<const Line *>>
+    cycles(const AffineConstraints<double> &constraints)
+    {
+      std::map<Index, unsigned int> numbers;
+      std::vector<const Line *>     lines;
+      for (const Line &line : constraints.get_lines())
+        {
+          numbers.emplace(line.index, lines.size());
+          lines.push_back(&line);
+        }
+      std::vector<std::pair<unsigned int, unsigned int>> edges;
+      std::vector<bool>                                  own_cycle(lines.size(), false);
+      for (unsigned int i = 0; i < lines.size(); ++i)
+        for (const auto &[dof, coefficient] : lines[i]->entries)
+          if (const auto found = numbers.find(dof); found != numbers.end())
+            {
+              edges.emplace_back(i, found->second);
+              if (found->second == i)
+                own_cycle[i] = true;
+            }
+      const boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph(edges.begin(),
+                                                                                    edges.end(),
+                                                                                    lines.size());
+      std::vector<unsigned int> component(lines.size());
+      const unsigned int        n =
+        lines.empty()
+                 ? 0
+                 : boost::strong_components(graph,
+                                     boost::make_iterator_property_map(
+                                       component.begin(), boost::get(boost::vertex_index, graph)));
+      std::vector<std::vector<const Line *>> all(n), result;
+      // By dof: the order of the lines depends on the partition.
+      for (const auto &[dof, i] : numbers)
+        all[component[i]].push_back(lines[i]);
+      for (auto &lines_of_cycle : all)
+        if (lines_of_cycle.size() > 1 || own_cycle[numbers.at(lines_of_cycle[0]->index)])
+          result.push_back(std::move(lines_of_cycle));
+      return result;
+    }
+
+
+
+    /** The lines (I - C) x = E y + b of a cycle, with coefficients C of their own dofs and E of
+     * others, solved for x. */
+    std::vector<Line>
+    solve(const std::vector<const Line *> &lines)
+    {
+      const unsigned int            n = lines.size();
+      std::map<Index, unsigned int> own, other;
+      for (unsigned int i = 0; i < n; ++i)
+        own.emplace(lines[i]->index, i);
+      for (const Line *line : lines)
+        for (const auto &entry : line->entries)
+          if (own.count(entry.first) == 0)
+            other.emplace(entry.first, other.size());
+      // The last column is b.
+      FullMatrix<double> within{IdentityMatrix(n)}, outside(n, other.size() + 1),
+        result(n, other.size() + 1);
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          for (const auto &[dof, coefficient] : lines[i]->entries)
+            if (const auto found = own.find(dof); found != own.end())
+              within(i, found->second) -= coefficient;
+            else
+              outside(i, other.at(dof)) += coefficient;
+          outside(i, other.size()) = lines[i]->inhomogeneity;
+        }
+      within.gauss_jordan();
+      within.mmult(result, outside);
+      std::vector<Line> solved;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          solved.emplace_back(lines[i]->index);
+          for (const auto &[dof, column] : other)
+            if (result(i, column) != 0.)
+              solved.back().entries.emplace_back(dof, result(i, column));
+          solved.back().inhomogeneity = result(i, other.size());
+        }
+      return solved;
+    }
+  } // namespace
+
+
+
+  void
+  resolve_cycles(AffineConstraints<double> &constraints)
+  {
+    const std::vector<std::vector<const Line *>> found = cycles(constraints);
+    if (found.empty())
+      return;
+    std::map<Index, Line> solved;
+    for (const std::vector<const Line *> &lines : found)
+      for (Line &line : solve(lines))
+        {
+          const Index index = line.index;
+          solved.emplace(index, std::move(line));
+        }
+    AffineConstraints<double> result(constraints.get_local_lines());
+    for (const Line &before : constraints.get_lines())
+      {
+        const auto  other = solved.find(before.index);
+        const Line &line  = other == solved.end() ? before : other->second;
+        result.add_line(line.index);
+        result.add_entries(line.index, line.entries);
+        result.set_inhomogeneity(line.index, line.inhomogeneity);
+      }
+    constraints = std::move(result);
+  }
+} // namespace Touchstone
