@@ -240,7 +240,11 @@ namespace Touchstone
             const Face &other = masters[entry.second];
             if (pair.parameters().of_one_body() && SelfContact::share_node(face, other))
               continue;
-            const MeasuredFace master(other, pair.master()->exact_surface(other));
+            const AnalyticSurface *const exact = pair.master()->exact_surface(other);
+            // The normal case: most faces only face each other.
+            if (exact == nullptr && slave.clear_of(other, Tolerances::touching * slave.size()))
+              continue;
+            const MeasuredFace master(other, exact);
             // Both ways: a ridge between master nodes has none of them within.
             add_points(master, slave, face, worst, samples);
             add_points(slave, master, face, worst, samples);
