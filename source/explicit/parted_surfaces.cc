@@ -132,15 +132,17 @@ namespace Touchstone
         const ContactPair &pair = contact.pair(p);
         double             most = 0.;
         for (std::size_t k = 0; k < pair.rows().size(); ++k)
-          {
-            double outside = 0.;
-            for (const StencilEntry &entry : pair.rows()[k].stencil)
-              outside += std::max(0., -entry.weight);
-            if (pair.overlap(k) != 0.)
-              outside = std::numeric_limits<double>::max();
-            if (pair.rows()[k].has_partner)
-              most = std::max(most, outside);
-          }
+          if (const ContactRow &row = pair.rows()[k]; row.has_partner)
+            {
+              double outside = 0.;
+              for (const StencilEntry &entry : row.stencil)
+                outside += std::max(0., -entry.weight);
+              // Surfaces that have passed through each other have planes between them, too.
+              most =
+                std::max(most,
+                         row.gap < 0. || pair.overlap(k) != 0. ? std::numeric_limits<double>::max()
+                                                               : outside);
+            }
         all.push_back(most);
         for (const auto *list : {&pairs[p].slave, &pairs[p].master})
           {
@@ -155,10 +157,10 @@ namespace Touchstone
         const double *const values = &all[p * (1 + 2 * n)], *const slave = values + 1,
                             *const master = slave + n;
         Sides                     &pair   = pairs[p];
-        pair.outside                      = values[0];
-        if (pair.outside == std::numeric_limits<double>::max())
+        if (values[0] == std::numeric_limits<double>::max())
           return 0.;
-        double best = std::numeric_limits<double>::lowest();
+        pair.outside = values[0];
+        double best  = std::numeric_limits<double>::lowest();
         for (std::size_t d = 0; d < directions.size(); ++d)
           for (unsigned int sign = 0; sign < 2; ++sign)
             if (const double gap = gap_of(
