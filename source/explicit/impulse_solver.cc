@@ -148,8 +148,8 @@ namespace Touchstone
       }
     bool more = activate(0.);
     more      = Utilities::MPI::max(warm, nodes.communicator()) > 0 || more;
-    if (more)
-      std::fill(at_slots.begin(), at_slots.end(), Tensor<1, dim>());
+    if (more && !(along_normals && nodes.alone()))
+      clear_slots();
     while (more)
       {
         ++counts.rounds;
@@ -172,9 +172,14 @@ namespace Touchstone
                 }
             counts.converged = sweep(control, tolerance, counts);
           }
-        for (const std::size_t k : near)
-          present[k] = rows[k].impulse;
-        apply(present);
+        if (along_normals)
+          apply_normal(&NormalRow::impulse);
+        else
+          {
+            for (const std::size_t k : near)
+              present[k] = rows[k].impulse;
+            apply(present);
+          }
         for (const std::size_t k : near)
           rows[k].velocity = relative_velocity(rows[k]);
         more = !control.one_sweep && counts.sweeps < control.sweeps && activate(tolerance);

@@ -197,6 +197,7 @@ namespace Touchstone
     if (l + q <= 0.)
       return;
     const double alpha = l < 0. && q > 0. ? std::min(1., -l / q) : 0.;
+    clear_slots();
     for (const std::size_t k : near)
       rows[k].impulse *= alpha;
     for (const std::size_t k : near)

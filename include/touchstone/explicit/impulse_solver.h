@@ -9,6 +9,7 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace Touchstone
@@ -214,6 +215,12 @@ namespace Touchstone
     /** Set #velocity to what these impulses lead to. */
     void
     apply(const std::vector<dealii::Tensor<1, dim>> &impulses);
+    /** Slots of rows that take no part have no impulse. */
+    void
+    clear_slots()
+    {
+      std::fill(at_slots.begin(), at_slots.end(), dealii::Tensor<1, dim>());
+    }
     void
     set_metric();
     Metric
