@@ -297,7 +297,11 @@ namespace Touchstone
             const Face &other = masters[entry.second];
             if (pair.parameters().of_one_body() && SelfContact::share_node(face, other))
               continue;
-            const MeasuredFace  master(other, pair.master()->exact_surface(other));
+            const AnalyticSurface *const exact = pair.master()->exact_surface(other);
+            // The normal case: most faces only face each other.
+            if (exact == nullptr && slave.clear_of(other, Tolerances::touching * slave.size()))
+              continue;
+            const MeasuredFace  master(other, exact);
             Overlap             worst;
             std::vector<Sample> samples;
             worst.place.size = slave.size();

@@ -113,7 +113,7 @@ namespace Touchstone
     for (std::size_t k = 0; k < now.support.size(); ++k)
       {
         const unsigned int i = supports.nodes()[k];
-        work[i].external += 0.5 * between * (now.support[k] * (v_before[i] + now.v[i]));
+        work.external[i] += 0.5 * between * (now.support[k] * (v_before[i] + now.v[i]));
       }
   }
 
@@ -210,9 +210,9 @@ namespace Touchstone
       {
         const Tensor<1, dim> half = 0.5 * length * now.v[i];
         if (!loads.empty())
-          work[i].external += half * now.external[i];
+          work.external[i] += half * now.external[i];
         if (viscous)
-          work[i].viscous -= half * now.viscous[i];
+          work.viscous[i] -= half * now.viscous[i];
       }
   }
 
@@ -226,7 +226,7 @@ namespace Touchstone
     for (unsigned int i = 0; i < damping.size(); ++i)
       {
         const Tensor<1, dim> mean = 0.5 * (v_before[i] + now.v[i]);
-        work[i].damping += between * damping[i] * cells.masses()[i] * (mean * mean);
+        work.damping[i] += between * damping[i] * cells.masses()[i] * (mean * mean);
       }
   }
 } // namespace Touchstone

@@ -13,12 +13,10 @@ namespace Touchstone
 
   // Half a cycle's work of what a support takes of the forces at this time.
   double
-  ExplicitStep::work_ahead(const State &at, const unsigned int node) const
+  ExplicitStep::work_ahead(const State &at, const Tensor<1, dim> &v, const unsigned int node) const
   {
-    if (!supports.supported(node))
-      return 0.;
     const Tensor<1, dim> force = at.force(node);
-    return 0.5 * at.length * (at.v[node] * (force - supports.free_part(node, force)));
+    return 0.5 * at.length * (v * (force - supports.free_part(node, force)));
   }
 
 
@@ -36,12 +34,20 @@ namespace Touchstone
         const Tensor<1, dim> force = now.force(i);
         kinetic.add(0.5 *
                     (cells.masses()[i] * (now.v[i] * now.v[i]) + now.length * (now.v[i] * force)));
-        kinetic.add(-work_ahead(now, i));
-        external.add(work[i].external);
-        external.add(work_ahead(kept, i));
-        external.add(-work_ahead(now, i));
-        viscous.add(work[i].viscous);
-        damped.add(work[i].damping);
+        if (!work.external.empty())
+          external.add(work.external[i]);
+        if (!work.viscous.empty())
+          viscous.add(work.viscous[i]);
+        if (!work.damping.empty())
+          damped.add(work.damping[i]);
+      }
+    for (std::size_t k = 0; k < supports.nodes().size(); ++k)
+      {
+        const unsigned int i     = supports.nodes()[k];
+        const double       ahead = work_ahead(now, now.v[i], i);
+        kinetic.add(-ahead);
+        external.add(-ahead);
+        external.add(work_ahead(kept, kept.v[k], i));
       }
     const MPI_Comm                communicator = solid.communicator;
     const ExplicitCells::Energies of_cells     = cells.energies(now.u);
@@ -83,9 +89,9 @@ namespace Touchstone
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       {
         const double         mass     = cells.masses()[i];
-        const Tensor<1, dim> momentum = mass * kept.v[i];
+        const Tensor<1, dim> momentum = mass * now.v[i];
         const Tensor<1, dim> angular =
-          cross_product_3d(Tensor<1, dim>(map.positions()[i] + kept.u[i]), momentum);
+          cross_product_3d(Tensor<1, dim>(map.positions()[i] + now.u[i]), momentum);
         Sums &sum = sums[map.body(i)];
         sum.mass.add(mass);
         for (unsigned int d = 0; d < dim; ++d)

@@ -81,15 +81,14 @@ namespace Touchstone
     // After what is not stable, which inverts cells, too.
     if (smallest_part <= 1.)
       check_inverted();
-    committed       = end;
-    kept            = now;
+    committed = end;
+    keep();
     obstacles_ahead = obstacles_ahead_now;
     oblique         = oblique_now;
     if (impulses)
       impulses->commit();
     cells.commit();
-    std::fill(work.begin(), work.end(), NodalWork());
-    update_results();
+    work.reset();
     contact.commit();
     return 1.;
   }
@@ -97,10 +96,19 @@ namespace Touchstone
 
 
   void
-  ExplicitStep::update_results()
+  ExplicitStep::keep()
   {
-    map.to_vector(kept.u, displacement);
-    map.to_vector(kept.v, velocity);
+    map.to_vector(now.u, displacement);
+    map.to_vector(now.v, velocity);
+    kept.time     = now.time;
+    kept.length   = now.length;
+    kept.external = now.external;
+    kept.internal = now.internal;
+    kept.viscous  = now.viscous;
+    kept.support  = now.support;
+    kept.v.clear();
+    for (const unsigned int node : supports.nodes())
+      kept.v.push_back(now.v[node]);
   }
 
 
@@ -108,11 +116,18 @@ namespace Touchstone
   void
   ExplicitStep::rollback()
   {
-    now = kept;
+    now.time     = kept.time;
+    now.length   = kept.length;
+    now.external = kept.external;
+    now.internal = kept.internal;
+    now.viscous  = kept.viscous;
+    now.support  = kept.support;
+    map.from_vector(displacement, now.u);
+    map.from_vector(velocity, now.v);
     if (impulses)
       impulses->rollback();
     cells.rollback();
-    std::fill(work.begin(), work.end(), NodalWork());
+    work.reset();
     contact.rollback();
   }
 
@@ -138,14 +153,15 @@ namespace Touchstone
   void
   ExplicitStep::save(ArchiveWriter &archive)
   {
+    // After a commit or a rollback: the present state is the committed one.
     archive.put("committed time", kept.time);
     archive.put("cycle", kept.length);
     archive.put("energies", committed);
     Vector field(displacement);
-    for (const auto &[name, values] : {std::make_pair("displacement", &kept.u),
-                                       std::make_pair("velocity", &kept.v),
-                                       std::make_pair("internal force", &kept.internal),
-                                       std::make_pair("viscous force", &kept.viscous)})
+    for (const auto &[name, values] : {std::make_pair("displacement", &now.u),
+                                       std::make_pair("velocity", &now.v),
+                                       std::make_pair("internal force", &now.internal),
+                                       std::make_pair("viscous force", &now.viscous)})
       {
         map.to_vector(*values, field);
         archive.put_field(name, field);
@@ -191,10 +207,8 @@ namespace Touchstone
       map.from_vector(archive.field("external force"), now.external);
     solid.load(archive);
     cells.forget();
-    kept = now;
-    std::fill(work.begin(), work.end(), NodalWork());
-    map.to_vector(kept.u, displacement);
-    map.to_vector(kept.v, velocity);
+    keep();
+    work.reset();
     contact.load(archive);
     if (archive.has("work of obstacles ahead")) // not in checkpoints of earlier versions
       obstacles_ahead = archive.get<double>("work of obstacles ahead");

@@ -36,7 +36,6 @@ namespace Touchstone
     , supports(boundary_conditions, map)
     , loads(boundary_conditions, solid, map)
     , cells(map, scene.bodies, parameters)
-    , work(map.n_owned())
     , displacement(solid.owned, solid.communicator)
     , velocity(displacement)
   {
@@ -75,6 +74,12 @@ namespace Touchstone
         damping.resize(map.n_owned());
     for (unsigned int n = 0; n < damping.size(); ++n)
       damping[n] = scene.bodies[map.body(n)].material.rayleigh_mass;
+    // Work of the kinds that there are.
+    if (!loads.empty() || !supports.nodes().empty())
+      work.external.resize(map.n_owned());
+    if (parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.)
+      work.viscous.resize(map.n_owned());
+    work.damping.resize(damping.size());
     solid.keep_history_in(&cells);
   }
 
@@ -183,14 +188,13 @@ namespace Touchstone
         impulses->project_before(now.u, at_start, now.v, 0., now.length);
         map.update_ghosts(now.v);
       }
-    kept = now;
+    keep();
     cells.commit();
     if (impulses)
       impulses->tool_nodes().commit();
     committed         = energies();
     committed.initial = committed.present();
     committed.update_largest();
-    update_results();
     contact.update(displacement, 0.);
     contact.commit();
     char text[200];

@@ -40,6 +40,7 @@ namespace Touchstone
     , solver(nodes.communicator())
     , motion(contact, nodes)
     , surfaces(contact, nodes)
+    , planes(contact, nodes)
     , displacement(contact.solid_model().owned, contact.communicator())
     , general(std::move(general))
     , tools(obstacles, contact)
@@ -118,11 +119,11 @@ namespace Touchstone
     fastest   = std::max(fastest, speeds_before.apart);
     if (general)
       general->begin_cycle(u, v, step);
-    const bool imported = !start_interval(u, time) && renew_if_moved(u, before, v, time, step);
+    const bool imported = bring_rows(u, before, v, time, step);
     if (general && general->must_lay_out())
       lay_out(u);
     last_step = step;
-    if (all_asleep(time, step) && !(general && general->any()))
+    if (parted || (all_asleep(time, step) && !(general && general->any())))
       {
         ++counted.cycles;
         end_of_action();

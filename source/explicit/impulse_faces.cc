@@ -62,6 +62,7 @@ namespace Touchstone
           sum.add(term(k));
       return sum.value(communicator);
     };
+    clear_slots();
     for (const std::size_t k : near)
       direction[k] = active[k] ? rows[k].impulse : Tensor<1, dim>();
     apply(direction);

@@ -14,10 +14,6 @@ namespace Touchstone
 
   namespace
   {
-    /** A mobility below this part of all that of the nodes of a row is round-off: supports decide
-     * along that direction. */
-    constexpr double immobile = 1e-10;
-
     /** Two unit vectors that are perpendicular to a unit vector and to each other. */
     std::array<Tensor<1, dim>, 2>
     plane_of(const Tensor<1, dim> &normal)
@@ -52,7 +48,7 @@ namespace Touchstone
             at_slots[s][0] = std::abs(weights[s]);
           if (row.levered)
             for (const std::size_t end = s + row.n_lever; s < end; ++s)
-              at_slots[s][0] = levers[s].norm();
+              at_slots[s][0] = row.along_normal ? on_normals[s].norm() : levers[s].norm();
         }
     nodes.sum(at_slots, sums);
     nodes.forward(sums);
@@ -76,7 +72,16 @@ namespace Touchstone
         d += part * mobility[node];
         whole += part * mobility[node].norm();
       }
-    if (row.levered)
+    if (row.levered && row.along_normal)
+      {
+        double levered = 0.;
+        for (const std::size_t end = s + row.n_lever; s < end; ++s)
+          if (const double size = on_normals[s].norm(); size > 0.)
+            levered += sums[nodes.node(s)][0] / size *
+                       (on_normals[s] * (mobility[nodes.node(s)] * on_normals[s]));
+        d += levered * symmetrize(outer_product(row.normal, row.normal));
+      }
+    else if (row.levered)
       for (const std::size_t end = s + row.n_lever; s < end; ++s)
         if (const double size = levers[s].norm(); size > 0.)
           {

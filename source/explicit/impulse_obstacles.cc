@@ -98,8 +98,13 @@ namespace Touchstone
       {
         row.levered = true;
         // Behind the slave node and the obstacle's own.
-        solver.levers[row.first + row.n_nodes] =
+        const std::size_t    slot = row.first + row.n_nodes;
+        const Tensor<2, dim> lever =
           tools.lever(of.pair, row.tied ? x : Point<dim>(x - here->gap_vector), time);
+        if (row.along_normal)
+          solver.on_normals[slot] = lever * row.normal;
+        else
+          solver.levers[slot] = lever;
       }
     if (row.tied)
       {

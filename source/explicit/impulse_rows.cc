@@ -75,15 +75,25 @@ namespace Touchstone
 
 
   void
-  ImpulseContact::renew(const NodeField &u, const double time)
+  ImpulseContact::update_contact(const NodeField &u, const double time)
   {
-    ++counted.renewals;
     nodes.to_vector(u, displacement);
     if (!renew_rows)
       tell_what_presses();
     contact.update(displacement, time);
     contact.commit_positions();
-    make_rows(u);
+  }
+
+
+
+  void
+  ImpulseContact::renew(const NodeField &u, const double time, const double step)
+  {
+    ++counted.renewals;
+    update_contact(u, time);
+    part_sides(u, time, step);
+    if (!parted)
+      make_rows(u);
   }
 
 

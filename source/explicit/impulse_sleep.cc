@@ -41,8 +41,55 @@ namespace Touchstone
       moved[node] = u_nodes[node] + step * solver.velocity[node] - made_at[node];
     if (!motion.demands_rows(u, v, step, solver, moved, travelled, ahead, largest_weights))
       return true;
-    renew(u, time);
+    renew(u, time, step);
     return false;
+  }
+
+
+
+  bool
+  ImpulseContact::bring_rows(const NodeField &u,
+                             const NodeField &before,
+                             const NodeField &v,
+                             const double     time,
+                             const double     step)
+  {
+    if (parted)
+      {
+        if (!stays_parted(u, time, step))
+          renew(u, time, step);
+        return false;
+      }
+    return !start_interval(u, time, step) && renew_if_moved(u, before, v, time, step);
+  }
+
+
+
+  void
+  ImpulseContact::part_sides(const NodeField &u, const double time, const double step)
+  {
+    parted = false;
+    if (general || rule.springs())
+      return;
+    parted_gap    = planes.part(u);
+    parted_travel = RowTravel();
+    parted        = parted_gap > reach(time, step);
+  }
+
+
+
+  // The same planes as when the rows of Contact were those of the state: what nodes have passed
+  // since is on a straight line on one side of them.
+  bool
+  ImpulseContact::stays_parted(const NodeField &u, const double time, const double step)
+  {
+    const double needed = reach(time, step);
+    parted_travel.add(last_step, speeds_before);
+    if (parted_gap - parted_travel.apart > needed)
+      return true;
+    parted_gap    = planes.gap(u);
+    parted_travel = RowTravel();
+    return parted_gap > needed;
   }
 
 

@@ -31,8 +31,21 @@ namespace Touchstone
   void
   ImpulseSolver::resize()
   {
+    int others = 0;
+    for (ImpulseRow &row : rows)
+      {
+        row.along_normal = !row.tied && row.friction == nullptr;
+        others |= !row.along_normal;
+      }
+    along_normals = Utilities::MPI::max(others, nodes.communicator()) == 0;
+    by_key.resize(along_normals ? rows.size() : 0);
+    std::iota(by_key.begin(), by_key.end(), 0);
+    std::sort(by_key.begin(), by_key.end(), [&](const std::size_t a, const std::size_t b) {
+      return rows[a].key < rows[b].key;
+    });
     weights.assign(nodes.n_slots(), 0.);
-    levers.assign(nodes.n_slots(), Tensor<2, dim>());
+    levers.assign(others ? nodes.n_slots() : 0, Tensor<2, dim>());
+    on_normals.assign(nodes.n_slots(), Tensor<1, dim>());
     at_slots.assign(nodes.n_slots(), Tensor<1, dim>());
     order.resize(nodes.n_slots());
     std::iota(order.begin(), order.end(), 0);
@@ -59,6 +72,14 @@ namespace Touchstone
     std::size_t    s = row.first;
     for (const std::size_t end = s + row.n_nodes; s < end; ++s)
       w += weights[order[s]] * v[nodes.node(order[s])];
+    if (row.along_normal)
+      {
+        double along = (w - row.drive) * row.normal;
+        if (row.levered)
+          for (const std::size_t end = s + row.n_lever; s < end; ++s)
+            along += on_normals[s] * v[nodes.node(s)];
+        return along * row.normal;
+      }
     if (row.levered)
       for (const std::size_t end = s + row.n_lever; s < end; ++s)
         w += v[nodes.node(s)] * levers[s]; // transposed
@@ -80,8 +101,11 @@ namespace Touchstone
           for (const std::size_t end = s + row.n_nodes; s < end; ++s)
             at_slots[s] = weights[s] * impulses[k];
           if (row.levered)
-            for (const std::size_t end = s + row.n_lever; s < end; ++s)
-              at_slots[s] = levers[s] * impulses[k];
+            {
+              const double along = impulses[k] * row.normal;
+              for (const std::size_t end = s + row.n_lever; s < end; ++s)
+                at_slots[s] = row.along_normal ? along * on_normals[s] : levers[s] * impulses[k];
+            }
         }
     nodes.sum(at_slots, sums);
     for (unsigned int node = 0; node < nodes.n_owned(); ++node)
@@ -124,24 +148,38 @@ namespace Touchstone
       }
     bool more = activate(0.);
     more      = Utilities::MPI::max(warm, nodes.communicator()) > 0 || more;
-    if (more)
-      std::fill(at_slots.begin(), at_slots.end(), Tensor<1, dim>());
+    if (more && !(along_normals && nodes.alone()))
+      clear_slots();
     while (more)
       {
         ++counts.rounds;
         const double tolerance = velocity_tolerance(control.tolerance);
-        set_metric();
-        if (control.relaxation != 1.)
-          for (Metric &m : metric)
-            {
-              m.normal /= control.relaxation;
-              m.tangential /= control.relaxation;
-              m.tied /= control.relaxation;
-            }
-        counts.converged = sweep(control, tolerance, counts);
-        for (const std::size_t k : near)
-          present[k] = rows[k].impulse;
-        apply(present);
+        if (along_normals)
+          {
+            collect_acting();
+            set_normal_metric(control.relaxation);
+            counts.converged = sweep_normal(control, tolerance, counts);
+          }
+        else
+          {
+            set_metric();
+            if (control.relaxation != 1.)
+              for (Metric &m : metric)
+                {
+                  m.normal /= control.relaxation;
+                  m.tangential /= control.relaxation;
+                  m.tied /= control.relaxation;
+                }
+            counts.converged = sweep(control, tolerance, counts);
+          }
+        if (along_normals)
+          apply_normal(&NormalRow::impulse);
+        else
+          {
+            for (const std::size_t k : near)
+              present[k] = rows[k].impulse;
+            apply(present);
+          }
         for (const std::size_t k : near)
           rows[k].velocity = relative_velocity(rows[k]);
         more = !control.one_sweep && counts.sweeps < control.sweeps && activate(tolerance);

@@ -28,7 +28,7 @@ namespace Touchstone
     // Springs of the size f m / h^2 leave the step as it is.
     if (rule.method != ImpulseRule::Method::bulk_springs)
       return 0.;
-    start_interval(u, time);
+    start_interval(u, time, step);
     for (unsigned int node = 0; node < local.size(); ++node)
       u_nodes[node] = u[local[node]];
     solver.nodes.forward(u_nodes);

@@ -16,6 +16,7 @@ namespace Touchstone
     renew_rows = true;
     counted    = ImpulseWork();
     untouched  = false;
+    parted     = false;
     if (general)
       general->begin_interval();
     fastest = 0.;
@@ -31,14 +32,17 @@ namespace Touchstone
 
 
   bool
-  ImpulseContact::start_interval(const NodeField &u, const double time)
+  ImpulseContact::start_interval(const NodeField &u, const double time, const double step)
   {
     if (!renew_rows)
       return false;
     interval_start = time;
+    renew_rows     = false;
     // The rows of the committed state are those of the end of the interval before, and a checkpoint
     // has them.
-    make_rows(u);
+    part_sides(u, time, step);
+    if (!parted)
+      make_rows(u);
     return true;
   }
 
@@ -63,7 +67,9 @@ namespace Touchstone
         general->begin_interval();
         general->begin_cycle(u, v, step, /*only_touching=*/true);
       }
-    renew(u, time);
+    ++counted.renewals;
+    update_contact(u, time);
+    make_rows(u);
     if (surfaces.needed())
       surfaces.measure({{&start, &speeds_before}, {&v, &speeds}});
     import(u, start, v);

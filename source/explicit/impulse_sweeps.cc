@@ -12,15 +12,6 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  namespace
-  {
-    /** After so many sweeps the face that they have found is explored, and again after so many
-     * more. Those of declared pairs, whose rows say different things, mostly end before. */
-    constexpr unsigned int first_exploration = 20, between_explorations = 1;
-  } // namespace
-
-
-
   // The minimum of the bound in the impulse of one row: Coulomb's law with the radius of the new
   // normal impulse, so that friction opposes the slip at the end of the cycle and normal impulses
   // see no dilation.
@@ -206,6 +197,7 @@ namespace Touchstone
     if (l + q <= 0.)
       return;
     const double alpha = l < 0. && q > 0. ? std::min(1., -l / q) : 0.;
+    clear_slots();
     for (const std::size_t k : near)
       rows[k].impulse *= alpha;
     for (const std::size_t k : near)

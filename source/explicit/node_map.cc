@@ -168,6 +168,10 @@ namespace Touchstone
         number_owned += (node.owner == me);
       }
     AssertThrow(dim * std::size_t(number_owned) == solid.owned.n_elements(), ExcInternalError());
+    local_numbers.shrink_to_fit();
+    first_dofs.shrink_to_fit();
+    keys.shrink_to_fit();
+    bodies.shrink_to_fit();
 
     std::sort(local_numbers.begin(), local_numbers.end());
 

@@ -90,7 +90,15 @@ namespace Touchstone
     row.levered        = determinant(inertia) > on_a_line * scale * scale * scale;
     if (!row.levered)
       return;
-    const Tensor<2, dim> turn = invert(inertia) * cross_matrix(d);
+    const Tensor<2, dim> inverse = invert(inertia);
+    if (row.along_normal)
+      {
+        const Tensor<1, dim> turn = c * (inverse * cross_product_3d(d, normal));
+        for (std::size_t s = first; s < last; ++s)
+          solver.on_normals[s] = cross_product_3d(position(s) - mean, turn);
+        return;
+      }
+    const Tensor<2, dim> turn = inverse * cross_matrix(d);
     for (std::size_t s = first; s < last; ++s)
       solver.levers[s] = c * cross_matrix(position(s) - mean) * turn;
   }

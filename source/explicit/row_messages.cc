@@ -78,8 +78,7 @@ namespace Touchstone
 
 
   void
-  RowNodes::sum(const std::vector<Tensor<1, dim>> &at_slots,
-                std::vector<Tensor<1, dim>>       &sums) const
+  RowNodes::exchange_slots(const std::vector<Tensor<1, dim>> &at_slots) const
   {
     std::size_t place = 0;
     for (const Neighbour &neighbour : neighbours)
@@ -98,16 +97,42 @@ namespace Touchstone
         place += neighbour.sent_slots.size();
       }
     messages.wait();
+  }
+
+
+
+  Tensor<1, dim>
+  RowNodes::sum_at(const unsigned int node, const std::vector<Tensor<1, dim>> &at_slots) const
+  {
     const std::size_t n_own = nodes_of_slots.size();
-    for (unsigned int node = 0; node < first_ghost; ++node)
+    Tensor<1, dim>    total;
+    for (std::size_t c = begin[node]; c < begin[node + 1]; ++c)
       {
-        Tensor<1, dim> total;
-        for (std::size_t c = begin[node]; c < begin[node + 1]; ++c)
-          {
-            const std::size_t slot = contributions[c];
-            total += slot < n_own ? at_slots[slot] : received[slot - n_own];
-          }
-        sums[node] = total;
+        const std::size_t slot = contributions[c];
+        total += slot < n_own ? at_slots[slot] : received[slot - n_own];
       }
+    return total;
+  }
+
+
+
+  void
+  RowNodes::sum(const std::vector<Tensor<1, dim>> &at_slots,
+                std::vector<Tensor<1, dim>>       &sums) const
+  {
+    exchange_slots(at_slots);
+    for (unsigned int node = 0; node < first_ghost; ++node)
+      sums[node] = sum_at(node, at_slots);
+  }
+
+
+
+  void
+  RowNodes::sum_shared(const std::vector<Tensor<1, dim>> &at_slots,
+                       std::vector<Tensor<1, dim>>       &sums) const
+  {
+    exchange_slots(at_slots);
+    for (const unsigned int node : shared)
+      sums[node] = sum_at(node, at_slots);
   }
 } // namespace Touchstone

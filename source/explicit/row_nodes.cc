@@ -200,5 +200,11 @@ namespace Touchstone
                 });
     for (std::size_t c = 0; c < all.size(); ++c)
       contributions[c] = all[c].slot;
+    shared.clear();
+    for (const auto &of_rank : asked)
+      for (const SlotRequest &request : of_rank.second)
+        shared.push_back(number(owned, request.dof));
+    std::sort(shared.begin(), shared.end());
+    shared.erase(std::unique(shared.begin(), shared.end()), shared.end());
   }
 } // namespace Touchstone

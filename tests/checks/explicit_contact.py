@@ -191,14 +191,13 @@ for name, scene, several, settings in (
           (one.folder / "statistics").read_text(encoding="utf-8"),
           f"{name}: other results after a restart")
 
-# Rows of plates that part are made anew as their gap grows, not as waves turn their faces or as nodes beyond
-# the edge of the other plate move away.
+# Plates that part have no rows any more as soon as rows would be made anew: there are planes between them.
 SMALL = {f"Body {body}/Geometry/{key}": value for body, key, value in (
     ("upper", "Cells", "8, 8, 1"), ("upper", "Upper corner", "8.004, 8.003, 1.00001"),
     ("lower", "Cells", "8, 8, 1"), ("lower", "Upper corner", "8, 8, 0"))}
 plates = run("plates", checks / "explicit_plates.prm", SMALL)
 renewals = sum(plates.column("contact renewals"))
 print(f"plates: {renewals:g} renewals")
-check(1 <= renewals <= 5, f"plates: {renewals:g} renewals of rows")
+check(1 <= renewals <= 2, f"plates: {renewals:g} renewals of rows")
 
 finish()

@@ -9,6 +9,7 @@
 #include <touchstone/explicit/nodal_loads.h>
 #include <touchstone/explicit/node_supports.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -111,10 +112,18 @@ namespace Touchstone
       }
     };
 
-    /** Work since the committed state by owned node, force times length. */
+    /** Work since the committed state by owned node, force times length; empty where there is none
+     * of the kind. */
     struct NodalWork
     {
-      double external = 0., viscous = 0., damping = 0.;
+      std::vector<double> external, viscous, damping;
+
+      void
+      reset()
+      {
+        for (std::vector<double> *kind : {&external, &viscous, &damping})
+          std::fill(kind->begin(), kind->end(), 0.);
+      }
     };
 
     const Scene              &scene;
@@ -129,8 +138,11 @@ namespace Touchstone
     std::unique_ptr<ImpulseContact> impulses;
     NodalLoads                      loads;
     ExplicitCells                   cells;
-    State                           now, kept;
-    std::vector<NodalWork>          work;
+    State                           now;
+    /** The committed state. Its displacements and velocities are those of the vectors for results,
+     * and here alone are velocities of supported nodes, by place. */
+    State     kept;
+    NodalWork work;
     /** Velocity before a cycle, and forces of supports as in State::support. */
     NodeField v_before, support_before;
     /** Stable step of all cells together over that of the cells by themselves, at least 1. */
@@ -242,12 +254,13 @@ namespace Touchstone
     double
     round_off_of_energies() const;
     double
-    work_ahead(const State &at, unsigned int node) const;
+    work_ahead(const State &at, const dealii::Tensor<1, dim> &v, unsigned int node) const;
     /** Energies at the end of the present interval. Collective. */
     Energies
     energies();
+    /** The present state is the committed one from here on. */
     void
-    update_results();
+    keep();
   };
 } // namespace Touchstone
 

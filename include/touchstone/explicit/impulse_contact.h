@@ -9,6 +9,7 @@
 #include <touchstone/explicit/impulse_solver.h>
 #include <touchstone/explicit/impulse_work.h>
 #include <touchstone/explicit/node_map.h>
+#include <touchstone/explicit/parted_surfaces.h>
 #include <touchstone/explicit/row_motion.h>
 #include <touchstone/explicit/surface_speeds.h>
 #include <touchstone/explicit/tool_nodes.h>
@@ -175,6 +176,7 @@ namespace Touchstone
     ImpulseSolver            solver;
     RowMotion                motion;
     SurfaceSpeeds            surfaces;
+    PartedSurfaces           planes;
     Vector                   displacement;
     double                   interval_start = 0.;
     bool                     renew_rows     = true;
@@ -188,6 +190,11 @@ namespace Touchstone
     /** The velocities of the cycle before are its free ones, whose speeds are known. */
     bool      untouched = false;
     RowTravel travelled;
+    /** There are planes between all sides, farther from them than within reach: there are no rows.
+     * Their least gap when it was last measured, length, and the travel since. */
+    bool      parted     = false;
+    double    parted_gap = 0.;
+    RowTravel parted_travel;
     /** Half the largest sum of the absolute weights of a row and its slave node, over all ranks: by
      * so much a row can move faster than its nodes do apart. */
     double largest_weights = 1.;
@@ -274,9 +281,26 @@ namespace Touchstone
     check_obstacles(double time, double step) const;
     /** Make the rows of the committed state if an interval begins. @return whether it does. */
     bool
-    start_interval(const NodeField &u, double time);
+    start_interval(const NodeField &u, double time, double step);
+    /** Bring Contact to the present state. */
     void
-    renew(const NodeField &u, double time);
+    update_contact(const NodeField &u, double time);
+    /** Rows of the present state, unless there are planes between the sides. */
+    void
+    renew(const NodeField &u, double time, double step);
+    /** Look for planes between the sides; the rows of Contact are those of the state. */
+    void
+    part_sides(const NodeField &u, double time, double step);
+    /** Whether the planes are still there. */
+    bool
+    stays_parted(const NodeField &u, double time, double step);
+    /** The rows of this cycle. @return whether the fields were imported. */
+    bool
+    bring_rows(const NodeField &u,
+               const NodeField &before,
+               const NodeField &v,
+               double           time,
+               double           step);
     /** Rows of Contact that pressed in the last cycle leave an edge later than open ones arrive
      * there. */
     void

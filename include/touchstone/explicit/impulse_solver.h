@@ -9,6 +9,7 @@
 
 #include <deal.II/base/symmetric_tensor.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace Touchstone
@@ -32,6 +33,9 @@ namespace Touchstone
     /** Null without friction. */
     const FrictionRow *friction = nullptr;
     double             area     = 0.;
+    /** Neither joined nor with friction when the rows were laid out: forces act along the normal.
+     * Set by ImpulseSolver::resize(). */
+    bool along_normal = false;
     /** @} */
 
     /** @name Input of the cycle */
@@ -112,15 +116,18 @@ namespace Touchstone
      * distant and have no impulse. All after resize(). */
     std::vector<std::size_t> near;
     /** By slot: the weight, or of lever entries the matrix by which the impulse acts on the
-     * node. */
+     * node; of rows that act along their normal what it does to the normal. The matrices only if
+     * there are other rows. */
     std::vector<double>                 weights;
     std::vector<dealii::Tensor<2, dim>> levers;
+    std::vector<dealii::Tensor<1, dim>> on_normals;
     /** By node: inverse mass, without the directions of supports; and velocities, ghosts as well.
      */
     std::vector<dealii::SymmetricTensor<2, dim>> mobility;
     std::vector<dealii::Tensor<1, dim>>          velocity;
 
-    /** @brief Take the arrays by node and slot to their lengths, after nodes.reinit(). */
+    /** @brief Take the arrays by node and slot to their lengths, after nodes.reinit(), for the
+     * rows that are there. Collective. */
     void
     resize();
 
@@ -162,6 +169,12 @@ namespace Touchstone
     mobilities();
 
   private:
+    /** After so many sweeps the face that they have found is explored, and again after so many
+     * more. Those of declared pairs, whose rows say different things, mostly end before. */
+    static constexpr unsigned int first_exploration = 20, between_explorations = 1;
+    /** A mobility below this part of all that of the nodes of a row is round-off: supports decide
+     * along that direction. */
+    static constexpr double immobile = 1e-10;
     /** Bounds of the mobility that a row shares, inverse mass. */
     struct Metric
     {
@@ -174,6 +187,26 @@ namespace Touchstone
     std::vector<unsigned char>          active; // 0 or 1
     std::vector<std::size_t>            order;
 
+    /** @name Sweeps over rows that act along their normals, all of all ranks */
+    /** @{ */
+    bool                     along_normals = false;
+    std::vector<std::size_t> by_key;
+    /** What an impulse of one along the normal does to a node. */
+    struct NormalEntry
+    {
+      dealii::Tensor<1, dim> c;
+      unsigned int           node, slot;
+    };
+    /** A row that takes part, with what comes before its first entry: the next row has its end. */
+    struct NormalRow
+    {
+      std::size_t row, first;
+      double      allowed, drive, mobility, impulse, extrapolated, present;
+    };
+    std::vector<NormalEntry> entries;
+    std::vector<NormalRow>   acting;
+    /** @} */
+
     dealii::Tensor<1, dim>
     relative_velocity(const ImpulseRow &row) const
     {
@@ -182,6 +215,12 @@ namespace Touchstone
     /** Set #velocity to what these impulses lead to. */
     void
     apply(const std::vector<dealii::Tensor<1, dim>> &impulses);
+    /** Slots of rows that take no part have no impulse. */
+    void
+    clear_slots()
+    {
+      std::fill(at_slots.begin(), at_slots.end(), dealii::Tensor<1, dim>());
+    }
     void
     set_metric();
     Metric
@@ -199,6 +238,26 @@ namespace Touchstone
     velocity_tolerance(double relative) const;
     bool
     sweep(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
+    /** @name The same with #acting in place of vectors for each row */
+    /** @{ */
+    /** Collect the active rows, in the order of their keys. */
+    void
+    collect_acting();
+    void
+    set_normal_metric(double relaxation);
+    /** Sum over the entries of each node what @p of_entry says. */
+    template <class Value>
+    void
+    sum_entries(const Value &of_entry);
+    void
+    apply_normal(double NormalRow::*impulse);
+    bool
+    sweep_normal(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
+    void
+    put_impulses();
+    void
+    take_impulses();
+    /** @} */
     /** Conjugate gradients from the present impulses on. */
     void
     explore_face(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);

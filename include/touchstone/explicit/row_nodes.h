@@ -109,6 +109,19 @@ namespace Touchstone
     sum(const std::vector<dealii::Tensor<1, dim>> &at_slots,
         std::vector<dealii::Tensor<1, dim>>       &sums) const;
 
+    /** @brief The same for the nodes alone that rows of other ranks refer to; the caller has summed
+     * the others. */
+    void
+    sum_shared(const std::vector<dealii::Tensor<1, dim>> &at_slots,
+               std::vector<dealii::Tensor<1, dim>>       &sums) const;
+
+    /** @brief No other rank has rows or nodes in common with this one. */
+    bool
+    alone() const
+    {
+      return neighbours.empty();
+    }
+
     MPI_Comm
     communicator() const
     {
@@ -137,6 +150,8 @@ namespace Touchstone
     /** Slots of all ranks on each owned node, in the order of row keys: own slots, and from
      * n_slots() on received ones. */
     std::vector<std::size_t> begin, contributions;
+    /** Owned nodes with received slots. */
+    std::vector<unsigned int> shared;
 
     /** A slot on a node of the rank that is asked, and those that each rank asks for. */
     struct SlotRequest
@@ -175,6 +190,10 @@ namespace Touchstone
                         const Requests                              &asked);
     void
     exchange(char *values, std::size_t size) const;
+    void
+    exchange_slots(const std::vector<dealii::Tensor<1, dim>> &at_slots) const;
+    dealii::Tensor<1, dim>
+    sum_at(unsigned int node, const std::vector<dealii::Tensor<1, dim>> &at_slots) const;
   };
 } // namespace Touchstone
 

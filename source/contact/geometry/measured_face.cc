@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 // How deep points lie behind faces, for the search for contact that no row has seen (doc/theory.md
@@ -69,6 +70,41 @@ namespace Touchstone
     xi                    = foot.xi;
     const FacePoint point = geometry.evaluate(xi);
     return (point.x - x) * point.normal();
+  }
+
+
+
+  // The product of the tangents of a bilinear face is linear in its coordinates, and so its angle
+  // to a direction is bounded at the corners. Along the normal here, points of the other face lie
+  // no lower than 'lowest' and those of this one no higher than 'highest'; a point d behind a face
+  // with the normal N is d |N . normal| or more behind a point of that face along the direction.
+  bool
+  MeasuredFace::clear_of(const Face &other, const double least) const
+  {
+    if (face.degree != 1 || exact != nullptr || other.degree != 1)
+      return false;
+    double lowest = std::numeric_limits<double>::max(), highest = -lowest;
+    for (unsigned int m = 0; m < 4; ++m)
+      {
+        highest = std::max(highest, (face.position(m) - centre.x) * normal);
+        lowest  = std::min(lowest, (other.position(m) - centre.x) * normal);
+      }
+    const auto steepest = [&](const Face &of, const double sign) {
+      double least_along = std::numeric_limits<double>::max(), longest = 0.;
+      for (const auto &[corner, one, two] :
+           {std::array<unsigned int, 3>{{0, 1, 2}}, {{1, 0, 3}}, {{2, 3, 0}}, {{3, 2, 1}}})
+        {
+          Tensor<1, dim> product = cross_product_3d(of.position(one) - of.position(corner),
+                                                    of.position(two) - of.position(corner));
+          if (corner == 1 || corner == 2)
+            product *= -1.;
+          least_along = std::min(least_along, sign * (product * normal));
+          longest     = std::max(longest, product.norm());
+        }
+      return longest > 0. ? least_along / longest : 0.;
+    };
+    const double cosine = std::min(steepest(face, 1.), steepest(other, -1.));
+    return cosine > 0. && highest - lowest <= cosine * least;
   }
 
 

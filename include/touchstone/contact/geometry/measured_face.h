@@ -61,6 +61,12 @@ namespace Touchstone
     std::optional<double>
     depth(const dealii::Point<dim> &x, double least, Xi &xi) const;
 
+    /** @brief Whether it is plain that neither of two faces has a point that lies behind the other
+     * by more than @p least: a plane is between them, but for what is less. Facets alone are
+     * looked at. @param other A face with a straight edge at each side, no exact surface. */
+    bool
+    clear_of(const Face &other, double least) const;
+
     /** @brief From the point at @p xi to that between straight edges, as of the cells of
      * DeformedCells. */
     dealii::Tensor<1, dim>
