@@ -3,6 +3,7 @@
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/pairing/sets_of_points.h>
 #include <touchstone/contact/points_in_faces.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 // Which points inside slave faces have rows (doc/theory.md 4.2). It follows from states of balance
 // alone, each with fewer points than the next, the first of a step without any: so it depends
@@ -23,9 +23,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Nearer to each other than this, in face coordinates or weights, two points are one. */
-    constexpr double same_place = 1e-3;
-
     /** What the row of a point has to know of the slave nodes, with ghosts: components of a vector
      * over the nodes. */
     enum SlaveFlag
@@ -101,198 +98,6 @@ namespace Touchstone
                    const std::vector<MaterialPoint> &others,
                    const std::vector<MaterialPoint> &wanted) const;
     };
-
-
-
-    bool
-    has_node(const MaterialPoint &point, const Index node)
-    {
-      const auto end = point.nodes.begin() + point.n;
-      return std::find(point.nodes.begin(), end, node) != end;
-    }
-
-
-
-    bool
-    share_node(const MaterialPoint &one, const MaterialPoint &other)
-    {
-      return std::any_of(one.nodes.begin(), one.nodes.begin() + one.n, [&](const Index node) {
-        return has_node(other, node);
-      });
-    }
-
-
-
-    double
-    weight(const MaterialPoint &point, const Index node)
-    {
-      double result = 0.;
-      for (unsigned int a = 0; a < point.n; ++a)
-        if (point.nodes[a] == node)
-          result += point.weights[a];
-      return result;
-    }
-
-
-
-    /** Whether the row of a point refers to a node. */
-    bool
-    refers_to(const MaterialPoint &point, const Index node)
-    {
-      return std::abs(weight(point, node)) > Tolerances::negligible_weight;
-    }
-
-
-
-    /** The part of a point that is on the nodes of another one's face: 1 on an edge between both.
-     */
-    double
-    part_on(const MaterialPoint &other, const MaterialPoint &point)
-    {
-      double part = 0.;
-      for (unsigned int a = 0; a < point.n; ++a)
-        if (has_node(other, point.nodes[a]))
-          part += point.weights[a];
-      return part;
-    }
-
-
-
-    /** Whether two points are one, perhaps of two faces on the edge between them. */
-    bool
-    coincide(const MaterialPoint &one, const MaterialPoint &other)
-    {
-      for (const auto &[a, b] : {std::make_pair(&one, &other), std::make_pair(&other, &one)})
-        for (unsigned int k = 0; k < a->n; ++k)
-          if (std::abs(a->weights[k] - weight(*b, a->nodes[k])) > same_place)
-            return false;
-      return true;
-    }
-
-
-
-    /** Two points in faces that share a node and are about equally deep: round-off, or the numbers
-     * of the nodes, would choose one of them, and the result would be less symmetric than the
-     * scene. */
-    bool
-    equals(const MaterialPoint &one, const MaterialPoint &other)
-    {
-      constexpr double equal = 0.99;
-      return share_node(one, other) &&
-             std::min(one.depth, other.depth) > equal * std::max(one.depth, other.depth);
-    }
-
-
-
-    /** Whether a point is the end of an overlap that another point is nearer to the middle of, in
-     * the next face: overlaps do not end at edges, and one of them needs one point. */
-    bool
-    is_end_of(const MaterialPoint &other, const MaterialPoint &point)
-    {
-      const double part = part_on(other, point);
-      return part > Tolerances::at_node && part > part_on(point, other) + same_place;
-    }
-
-
-
-    /** Move a point to the middle between it and its mirror image in the next face, on the edge
-     * between both. @return false if a node of its face hangs: nothing is done. */
-    bool
-    move_to_edge(MaterialPoint &point, const MaterialPoint &image)
-    {
-      const unsigned int degree =
-        static_cast<unsigned int>(std::lround(std::sqrt(double(point.n)))) - 1;
-      const auto coordinates = [&](const auto &weight_of) {
-        // Shape functions reproduce the coordinates.
-        MeasuredFace::Xi xi{};
-        double           sum = 0.;
-        for (unsigned int a = 0; a < point.n; ++a)
-          {
-            const double w = weight_of(a);
-            sum += w;
-            xi[0] += w * (2. * (a % (degree + 1)) / degree - 1.);
-            xi[1] += w * (2. * (a / (degree + 1)) / degree - 1.);
-          }
-        for (double &value : xi)
-          value = std::clamp(value / sum, -1., 1.);
-        return xi;
-      };
-      const MeasuredFace::Xi own =
-        coordinates([&](const unsigned int a) { return point.weights[a]; });
-      if (std::hypot(own[0] - point.xi[0], own[1] - point.xi[1]) > same_place)
-        return false;
-      point.xi      = coordinates([&](const unsigned int a) {
-        return has_node(image, point.nodes[a]) ? point.weights[a] + weight(image, point.nodes[a])
-                                                    : 0.;
-      });
-      point.weights = FaceShapes(degree, point.xi).value;
-      point.depth   = std::max(point.depth, image.depth);
-      return true;
-    }
-
-
-
-    /** Two points beside the edge between their faces, each as near to it as the other, are one on
-     * the edge. @param wanted The deepest first. */
-    std::vector<MaterialPoint>
-    on_edges(std::vector<MaterialPoint> wanted)
-    {
-      for (std::size_t i = 0; i < wanted.size(); ++i)
-        for (std::size_t j = i + 1; j < wanted.size(); ++j)
-          if (const double part = part_on(wanted[j], wanted[i]);
-              part > Tolerances::at_node && equals(wanted[i], wanted[j]) &&
-              std::abs(part - part_on(wanted[i], wanted[j])) < same_place &&
-              move_to_edge(wanted[i], wanted[j]))
-            {
-              wanted.erase(wanted.begin() + j);
-              break;
-            }
-      return wanted;
-    }
-
-
-
-    /** Of points in faces that share a node the deepest, and its equals: with rows there the other
-     * faces may touch nothing. @param wanted The deepest first. */
-    std::vector<MaterialPoint>
-    deepest_of_neighbours(const std::vector<MaterialPoint> &wanted)
-    {
-      std::vector<MaterialPoint> result;
-      for (const MaterialPoint &point : wanted)
-        if (std::none_of(wanted.begin(),
-                         wanted.end(),
-                         [&](const MaterialPoint &other) {
-                           return equals(point, other) && is_end_of(other, point);
-                         }) &&
-            std::none_of(result.begin(), result.end(), [&](const MaterialPoint &other) {
-              return share_node(point, other) && (!equals(point, other) || coincide(point, other));
-            }))
-          result.push_back(point);
-      return result;
-    }
-
-
-
-    /** Whether rows refer to each other's slave nodes in a circle: an iterative solver, which
-     * eliminates them, could not do so. */
-    bool
-    in_circle(std::vector<MaterialPoint> points)
-    {
-      // Rows that refer to no other are put aside, one after the other.
-      while (!points.empty())
-        {
-          const auto next =
-            std::find_if(points.begin(), points.end(), [&](const MaterialPoint &point) {
-              return std::none_of(points.begin(), points.end(), [&](const MaterialPoint &other) {
-                return other.face != point.face && refers_to(point, other.nodes[other.slave]);
-              });
-            });
-          if (next == points.end())
-            return true;
-          points.erase(next);
-        }
-      return false;
-    }
 
 
 
@@ -380,7 +185,7 @@ namespace Touchstone
           if (!choose_slave(point, before == result.end() ? nullptr : &*before, others, wanted))
             {
               if (std::any_of(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
-                    return other.face != point.face && equals(point, other);
+                    return other.face != point.face && equally_deep(point, other);
                   }))
                 return false;
               continue;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_pairing_sets_of_points_h
+#define touchstone_contact_pairing_sets_of_points_h
+
+#include <touchstone/contact/pairing/material_point.h>
+
+#include <vector>
+
+// Which of the points that overlaps suggest are to have rows (doc/theory.md 4.2).
+namespace Touchstone
+{
+  /** @brief Nearer to each other than this, in face coordinates or weights, two points are one. */
+  constexpr double same_place = 1e-3;
+
+  /** @brief Whether the row of a point refers to a node. */
+  bool
+  refers_to(const MaterialPoint &point, Index node);
+
+  /** @brief Two points in faces that share a node and are about equally deep: round-off, or the
+   * numbers of the nodes, would choose one of them, and the result would be less symmetric than
+   * the scene. */
+  bool
+  equally_deep(const MaterialPoint &one, const MaterialPoint &other);
+
+  /** @brief Two points beside the edge between their faces, each as near to it as the other, are
+   * one on the edge. @param wanted The deepest first. */
+  std::vector<MaterialPoint>
+  on_edges(std::vector<MaterialPoint> wanted);
+
+  /** @brief Of points in faces that share a node the deepest, and those that are equally_deep():
+   * with rows there the other faces may touch nothing. @param wanted The deepest first. */
+  std::vector<MaterialPoint>
+  deepest_of_neighbours(const std::vector<MaterialPoint> &wanted);
+
+  /** @brief Whether rows refer to each other's slave nodes in a circle: an iterative solver, which
+   * eliminates them, could not do so. */
+  bool
+  in_circle(std::vector<MaterialPoint> points);
+} // namespace Touchstone
+
+#endif

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/geometry/deformed_cells.h>
+#include <touchstone/contact/geometry/face_area.h>
+#include <touchstone/contact/geometry/measured_face.h>
+#include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/search/self_contact.h>
+#include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+// Where the slave and master faces of a pair lie within each other: points of each in the other
+// (doc/theory.md 4.1). For obstacles see missed_obstacle.cc.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Box = BoundingBox<dim>;
+    using Xi  = MeasuredFace::Xi;
+  } // namespace
+
+
+
+  std::vector<Face>
+  MissedContact::master_faces(const std::vector<Face> &slaves) const
+  {
+    Box own;
+    for (std::size_t k = 0; k < slaves.size(); ++k)
+      if (const Box box =
+            MeasuredFace::box_around(slaves[k], MeasuredFace(slaves[k], nullptr).size());
+          k == 0)
+        own = box;
+      else
+        own.merge_with(box);
+    const MPI_Comm         communicator = contact.communicator();
+    const std::vector<Box> boxes        = Utilities::MPI::all_gather(communicator, own);
+    const std::vector<int> any =
+      Utilities::MPI::all_gather(communicator, static_cast<int>(!slaves.empty()));
+    std::map<unsigned int, std::vector<Face>> messages;
+    for (const Face &face : pair.master()->owned_faces())
+      {
+        // Of one body a face that carries may be slave and master: its rows resist as well.
+        if (pair.parameters().of_one_body() && !carries_nothing(face))
+          continue;
+        const Face now = present(face);
+        const Box  box = MeasuredFace::box_around(now, 0.);
+        for (unsigned int rank = 0; rank < boxes.size(); ++rank)
+          if (any[rank] && boxes[rank].get_neighbor_type(box) != NeighborType::not_neighbors)
+            messages[rank].push_back(now);
+      }
+    std::vector<Face> result;
+    for (const auto &[rank, faces] : exchange_records(messages, communicator))
+      result.insert(result.end(), faces.begin(), faces.end());
+    return result;
+  }
+
+
+
+  void
+  MissedContact::add_points(const MeasuredFace  &of,
+                            const MeasuredFace  &in,
+                            const Face          &slave,
+                            Overlap             &worst,
+                            std::vector<Sample> &samples) const
+  {
+    const double size  = worst.place.size,
+                 least = Tolerances::touching * size + of.sagitta() + in.sagitta();
+    for (const double a : MeasuredFace::samples)
+      for (const double b : MeasuredFace::samples)
+        {
+          const Xi        xi    = {{a, b}};
+          const FacePoint point = evaluate(of.face, of.exact, xi);
+          if (!in.meets(point.normal()))
+            continue;
+          Xi         foot;
+          const auto depth = in.depth(point.x, least, foot);
+          // Deeper points belong to another side of the body, or contact_checks finds the bodies
+          // within each other.
+          if (!depth || *depth > size)
+            continue;
+          if (pair.parameters().of_one_body())
+            {
+              const FacePoint there = evaluate(MeasuredFace::in_reference(in.face), in.exact, foot);
+              if (SelfContact::through_body(
+                    evaluate(MeasuredFace::in_reference(of.face), of.exact, xi).x,
+                    there.x,
+                    there.normal(),
+                    *depth))
+                continue;
+            }
+          double counts = *depth;
+          if (const double part = part_adjusted(); part > 0.)
+            {
+              const Face before = MeasuredFace::in_reference(of.face),
+                         there  = MeasuredFace::in_reference(in.face);
+              Xi unused;
+              // None if the point has slid here from another face: then what rows have at most.
+              const auto start =
+                MeasuredFace(there, in.exact).depth(evaluate(before, of.exact, xi).x, 0., unused);
+              const double taken_out = std::max(adjusted, part * start.value_or(0.));
+              counts -= taken_out;
+              // The gap of a row there would have to be less by it, too. Round-off of surfaces that
+              // touch is no overlap.
+              if (taken_out > Tolerances::touches_at_start * size)
+                worst.adjusted = true;
+            }
+          // Facets of curved surfaces may be off by as much: told of, but no measure of the area.
+          const double sure = Tolerances::touching * size + of.facet_error() + in.facet_error();
+          const double area = counts > sure ? face_area(slave) : worst.place.area;
+          if (counts > least)
+            samples.push_back({&of.face == &slave ? xi : foot, counts - least});
+          if (counts > std::max(least, worst.place.depth))
+            worst = {{counts, point.x, size, area},
+                     in.face.body,
+                     point.x + in.to_straight_edges(foot),
+                     true,
+                     worst.adjusted,
+                     &of.face == &slave ? xi : foot,
+                     {}};
+        }
+  }
+
+
+
+  // Of equally deep samples, as along a ridge, round-off must not choose one. This power leaves
+  // hardly more than the deepest, and is as smooth a function of the state as the depths. Those
+  // that are half as deep do not count at all: whether they lie within the body can be in doubt.
+  MeasuredFace::Xi
+  MissedContact::middle(const std::vector<Sample> &samples)
+  {
+    double deepest = 0.;
+    for (const Sample &sample : samples)
+      deepest = std::max(deepest, sample.depth);
+    Xi     result{};
+    double sum = 0.;
+    for (const Sample &sample : samples)
+      {
+        const double weight = std::pow(std::max(0., 2. * sample.depth / deepest - 1.), 4);
+        sum += weight;
+        for (unsigned int a = 0; a < 2; ++a)
+          result[a] += weight * sample.xi[a];
+      }
+    for (double &value : result)
+      value = std::clamp(value / sum, -1., 1.);
+    return result;
+  }
+
+
+
+  MeasuredFace::Xi
+  MissedContact::rounded(Xi xi)
+  {
+    // Before it touches anything a body is as exact as a solver leaves what is nearly no force.
+    constexpr double step = 1e-3;
+    for (double &value : xi)
+      value = step * std::round(value / step);
+    return xi;
+  }
+
+
+
+  std::vector<MissedContact::Overlap>
+  MissedContact::within_faces(const std::vector<Face> &slaves,
+                              const std::vector<Face> &masters) const
+  {
+    std::vector<std::pair<Box, std::size_t>> boxes;
+    for (std::size_t i = 0; i < masters.size(); ++i)
+      boxes.emplace_back(MeasuredFace::box_around(masters[i], 0.), i);
+    const auto tree = pack_rtree(boxes);
+    // Of each two faces: that a point is behind a face does not say that it lies within the body,
+    // and what does not must not hide what does.
+    std::vector<Overlap>             found;
+    std::vector<std::vector<Sample>> of_found;
+    for (const Face &face : slaves)
+      {
+        const MeasuredFace slave(face, pair.slave().exact_surface(face));
+        const Box          box = MeasuredFace::box_around(face, slave.size());
+        namespace query        = boost::geometry::index;
+        for (const auto &entry : tree | query::adaptors::queried(query::intersects(box)))
+          {
+            const Face &other = masters[entry.second];
+            if (pair.parameters().of_one_body() && SelfContact::share_node(face, other))
+              continue;
+            const AnalyticSurface *const exact = pair.master()->exact_surface(other);
+            // The normal case: most faces only face each other.
+            if (exact == nullptr && slave.clear_of(other, Tolerances::touching * slave.size()))
+              continue;
+            const MeasuredFace  master(other, exact);
+            Overlap             worst;
+            std::vector<Sample> samples;
+            worst.place.size = slave.size();
+            // Both ways: a ridge between master nodes has none of them within.
+            add_points(master, slave, face, worst, samples);
+            add_points(slave, master, face, worst, samples);
+            if (worst.place.depth > 0.)
+              {
+                found.push_back(worst);
+                found.back().point.face = face.key;
+                of_found.push_back(samples);
+              }
+          }
+      }
+    const std::vector<bool> inside = lie_within_bodies(found);
+    std::vector<Overlap>    result;
+    std::size_t             k = 0;
+    for (const Face &face : slaves)
+      {
+        Overlap             worst;
+        std::vector<Sample> samples;
+        bool                some_adjusted = false;
+        for (; k < found.size() && found[k].point.face == face.key; ++k)
+          if (inside[k])
+            {
+              samples.insert(samples.end(), of_found[k].begin(), of_found[k].end());
+              const double area = std::max(worst.place.area, found[k].place.area);
+              some_adjusted     = some_adjusted || found[k].adjusted;
+              if (found[k].place.depth > worst.place.depth)
+                worst = found[k];
+              worst.place.area = area;
+            }
+        if (worst.place.depth == 0.)
+          continue;
+        if (!some_adjusted)
+          worst.point = MaterialPoint(face, pair.slave().trace(face), rounded(middle(samples)));
+        worst.point.face = face.key;
+        result.push_back(worst);
+      }
+    return result;
+  }
+
+
+
+  std::vector<bool>
+  MissedContact::lie_within_bodies(const std::vector<Overlap> &found) const
+  {
+    const MPI_Comm communicator = contact.communicator();
+    // Nothing on any rank, the normal case: no cells need be gathered in trees.
+    if (Utilities::MPI::max(found.size(), communicator) == 0)
+      return {};
+    // The cells around a point may belong to any rank.
+    std::vector<Overlap> all;
+    std::size_t          first = 0;
+    const auto           parts = gather_records(found, communicator);
+    for (std::size_t rank = 0; rank < parts.size(); ++rank)
+      {
+        if (rank == Utilities::MPI::this_mpi_process(communicator))
+          first = all.size();
+        all.insert(all.end(), parts[rank].begin(), parts[rank].end());
+      }
+    std::map<unsigned int, DeformedCells> cells;
+    for (const Overlap &overlap : all)
+      cells.try_emplace(overlap.body,
+                        contact.solid_model(),
+                        overlap.body,
+                        contact.ghosted_displacement());
+    std::vector<int> inside;
+    for (const Overlap &overlap : all)
+      inside.push_back(!overlap.in_doubt || cells.at(overlap.body).contain(overlap.inside));
+    Utilities::MPI::max(inside, communicator, inside);
+    const auto mine = inside.begin() + first;
+    return {mine, mine + found.size()};
+  }
+} // namespace Touchstone
