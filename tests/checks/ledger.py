@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The ledger of implicit dynamics closes where energy comes with overlaps that bodies are placed
-with, in one step or as a ramp, with heat, and with loads that begin to grow; plastic impacts."""
+with, in one step or as a ramp, with heat, and with loads that begin to grow; bodies that yield when
+they are hit."""
 
 from touchstone_test import STEPS, below, checks, finish, run, tests
 

@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Shipped scenes with features that they do not have, always the same ones: what converges has the
+same result on two ranks and with another exact formulation, and nothing ends without a reason."""
+
+import subprocess
+import sys
+
+from touchstone_test import folder, processors, program, source
+
+with processors():
+    sys.exit(subprocess.call([sys.executable, source / "contrib/fuzz_features", "--program", program,
+                              "--output", folder, "12", "1"]))
