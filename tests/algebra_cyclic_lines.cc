@@ -19,7 +19,7 @@ namespace
   Lines
   lines(const AffineConstraints<double> &constraints)
   {
-    return {constraints.get_lines().begin(), constraints.get_lines().end()};
+    return Lines(constraints.get_lines().begin(), constraints.get_lines().end());
   }
 
   /** What is missing in the line of a dof. */
@@ -43,7 +43,7 @@ main()
                        const std::vector<std::pair<Index, double>> &entries,
                        const double                                 value) {
     constraints.add_line(line);
-    constraints.add_entries(line, {entries.begin(), entries.end()});
+    constraints.add_entries(line, entries);
     constraints.set_inhomogeneity(line, value);
   };
   // A cycle of three, one of two that refers to it, a line that refers to itself, and a chain.
