@@ -37,6 +37,19 @@ namespace Touchstone
       Point<dim> reference;
     };
 
+    /** The component with the largest coefficient. */
+    unsigned int
+    largest_component(const Tensor<1, dim> &coefficients)
+    {
+      unsigned int result = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(coefficients[d]) > std::abs(coefficients[result]))
+          result = d;
+      return result;
+    }
+
+
+
     /** The dofs of a node with coefficients above the threshold. */
     void
     add_components(const Index           node,
@@ -49,7 +62,10 @@ namespace Touchstone
           dofs.push_back(dim * node + d);
     }
 
-    /** @param free The part of the normal that the slave node can move along.
+    /** A row determines one dof of its node, along the largest component of its normal (that is not
+     * always the one that elimination chooses, but rows that say the same depend on each other's
+     * in any case: no largest component of a unit normal is below the threshold).
+     * @param free The part of the normal that the slave node can move along.
      * @param own_body The stencil is of the body of the slave node.
      * @param threshold Smaller coefficients do not count. */
     Dependence
@@ -62,10 +78,12 @@ namespace Touchstone
       Dependence           result{row.slave, {}, {}, row.reference};
       const Tensor<1, dim> all({1., 1., 1.});
       // A row that sticks or is tied determines all components of its node by all components of the
-      // stencil. Otherwise the direction that counts is that part of the normal which supports
-      // leave free, of unit length so that the threshold has the same meaning for all rows.
+      // stencil.
       const bool fully = state.fully_constrained();
-      add_components(row.slave, fully ? all : free / free.norm(), threshold, result.dofs);
+      if (fully)
+        add_components(row.slave, all, threshold, result.dofs);
+      else
+        result.dofs.push_back(dim * row.slave + largest_component(free));
       for (const StencilEntry &entry : row.stencil)
         if (std::abs(entry.weight) > Tolerances::negligible_weight)
           add_components(entry.node, fully ? all : row.normal, threshold, result.on);
