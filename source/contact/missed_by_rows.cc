@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/missed_contact.h>
+#include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/tolerances.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +22,7 @@ namespace Touchstone
 
   namespace
   {
+    /** What reaches into the slave body, by how much and where. */
     std::string
     text(const ContactPairParameters &pair, const MissedContact::Place &place)
     {
@@ -29,13 +33,71 @@ namespace Touchstone
       for (unsigned int d = 0; d < dim; ++d)
         r[d] = std::abs(place.x[d]) > 1e-4 * place.x.norm() ? place.x[d] : 0.;
       std::snprintf(at, sizeof(at), "(%.3g, %.3g, %.3g)", r[0], r[1], r[2]);
-      const bool obstacle = !pair.obstacle.empty();
-      return "contact pair '" + pair.name +
-             "': " + (obstacle ? "the obstacle '" + pair.obstacle : "'" + pair.master_body) +
-             "' reaches " + of + " into '" + pair.slave_body + "' at " + at +
+      return "contact pair '" + pair.name + "': " +
+             (pair.obstacle.empty() ? "'" + pair.master_body : "the obstacle '" + pair.obstacle) +
+             "' reaches " + of + " into '" + pair.slave_body + "' at " + at;
+    }
+
+
+
+    bool
+    can_be_exchanged(const ContactPairParameters &pair)
+    {
+      return pair.obstacle.empty() && !pair.of_one_body();
+    }
+
+
+
+    std::string
+    between_nodes(const ContactPairParameters &pair, const MissedContact::Place &place)
+    {
+      return text(pair, place) +
              ", between slave nodes that touch nothing. Rows of slave nodes cannot describe this "
              "contact: refine the slave surface" +
-             (obstacle || pair.of_one_body() ? "" : ", or exchange slave and master");
+             (can_be_exchanged(pair) ? ", or exchange slave and master" : "");
+    }
+
+
+
+    std::string
+    at_held_nodes(const ContactPairParameters &pair, const MissedContact::Place &place)
+    {
+      return text(pair, place) +
+             ", where a slave node cannot follow: its displacement along the normal is prescribed, "
+             "or another pair decides on it. " +
+             (can_be_exchanged(pair) ? "Exchange slave and master, or prescribe" : "Prescribe") +
+             " displacements at a boundary that is not in contact";
+    }
+
+
+
+    /** The deepest of the slave nodes of a pair that touch and whose row was refused, and the area
+     * of all of them; the same on all ranks. Collective. */
+    MissedContact::Place
+    held_nodes(const Contact &contact, const ContactPair &pair)
+    {
+      std::vector<MissedContact::Place> mine;
+      for (const ContactRow &row : pair.rows())
+        if (const double depth = -row.gap / row.share;
+            row.has_partner && !row.between_nodes && contact.state(row).active() &&
+            contact.state(row).dropped() && depth > Tolerances::touching * row.size)
+          mine.push_back({depth, row.position, row.size, row.area});
+      MissedContact::Place result;
+      double               deepest = 0., area = 0.;
+      const auto           all = gather_records(mine, contact.communicator());
+      for (const auto &of_rank : all)
+        for (const MissedContact::Place &place : of_rank)
+          {
+            deepest = std::max(deepest, place.depth);
+            area += place.area;
+          }
+      for (const auto &of_rank : all)
+        for (const MissedContact::Place &place : of_rank)
+          if (result.depth == 0. || overlap_order(place.depth, place.x, deepest) <
+                                      overlap_order(result.depth, result.x, deepest))
+            result = place;
+      result.area = area;
+      return result;
     }
 
 
@@ -97,14 +159,21 @@ namespace Touchstone
           carried.insert(bodies);
         else if (pair.master())
           idle.emplace(bodies, pair.parameters().name);
+        MissedByRows              &found = result[pair.parameters().name];
+        const MissedContact::Place held  = held_nodes(contact, pair);
+        if (held.depth > 0.)
+          found = {at_held_nodes(pair.parameters(), held),
+                   MissedContact::deep(held),
+                   missed.share(held)};
         // Surfaces that slide farther than small sliding knows may overlap anywhere; but a pair
         // without any force has missed what it is for.
-        if (pair.small_sliding() && !nothing)
-          continue;
-        if (const MissedContact::Place place = missed.deepest(); place.depth > 0.)
-          result[pair.parameters().name] = {text(pair.parameters(), place),
-                                            MissedContact::deep(place),
-                                            missed.share(place)};
+        else if (!pair.small_sliding() || nothing)
+          if (const MissedContact::Place place = missed.deepest(); place.depth > 0.)
+            found = {between_nodes(pair.parameters(), place),
+                     MissedContact::deep(place),
+                     missed.share(place)};
+        if (found.text.empty())
+          result.erase(pair.parameters().name);
       }
     for (const auto &bodies : carried)
       idle.erase(bodies);

@@ -284,6 +284,7 @@ namespace Touchstone
     dropped = Utilities::MPI::sum(dropped, solid.communicator);
     if (dropped > 0)
       // A remark and no error: what the dropped conditions would determine is determined already.
+      // Where that leaves an overlap missed_contact() tells of it.
       text = std::to_string(dropped) +
              " contact row(s) dropped: prescribed displacements or other pairs decide there";
     if (const unsigned int points = n_points_in_contact(contact); points > 0)
