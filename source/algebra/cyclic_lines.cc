@@ -17,8 +17,8 @@ namespace Touchstone
   {
     using Line = AffineConstraints<double>::ConstraintLine;
 
-    /** Lines that refer to each other, or a line that refers to itself; in the order of their
-     * dofs, each list. */
+    /** Lines that refer to each other; in the order of their dofs, each list. (None refers to
+     * itself, which deal.II does not allow.) */
     std::vector<std::vector<const Line *>>
     cycles(const AffineConstraints<double> &constraints)
     {
@@ -30,15 +30,10 @@ namespace Touchstone
           lines.push_back(&line);
         }
       std::vector<std::pair<unsigned int, unsigned int>> edges;
-      std::vector<bool>                                  own_cycle(lines.size(), false);
       for (unsigned int i = 0; i < lines.size(); ++i)
         for (const auto &[dof, coefficient] : lines[i]->entries)
           if (const auto found = numbers.find(dof); found != numbers.end())
-            {
-              edges.emplace_back(i, found->second);
-              if (found->second == i)
-                own_cycle[i] = true;
-            }
+            edges.emplace_back(i, found->second);
       const boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph(edges.begin(),
                                                                                     edges.end(),
                                                                                     lines.size());
@@ -54,7 +49,7 @@ namespace Touchstone
       for (const auto &[dof, i] : numbers)
         all[component[i]].push_back(lines[i]);
       for (auto &lines_of_cycle : all)
-        if (lines_of_cycle.size() > 1 || own_cycle[numbers.at(lines_of_cycle[0]->index)])
+        if (lines_of_cycle.size() > 1)
           result.push_back(std::move(lines_of_cycle));
       return result;
     }
