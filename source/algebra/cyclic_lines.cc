@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/cyclic_lines.h>
+#include <touchstone/algebra/strong_components.h>
 
 #include <deal.II/lac/full_matrix.h>
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/strong_components.hpp>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace Touchstone
 {
@@ -22,35 +23,33 @@ namespace Touchstone
     std::vector<std::vector<const Line *>>
     cycles(const AffineConstraints<double> &constraints)
     {
+      // Few lines refer to others at all. By dof: the order of the lines depends on the partition.
+      std::map<Index, const Line *> by_dof;
+      for (const Line &line : constraints.get_lines())
+        if (std::any_of(line.entries.begin(), line.entries.end(), [&](const auto &entry) {
+              return constraints.is_constrained(entry.first);
+            }))
+          by_dof.emplace(line.index, &line);
       std::map<Index, unsigned int> numbers;
       std::vector<const Line *>     lines;
-      for (const Line &line : constraints.get_lines())
+      for (const auto &[dof, line] : by_dof)
         {
-          numbers.emplace(line.index, lines.size());
-          lines.push_back(&line);
+          numbers.emplace(dof, lines.size());
+          lines.push_back(line);
         }
       std::vector<std::pair<unsigned int, unsigned int>> edges;
       for (unsigned int i = 0; i < lines.size(); ++i)
         for (const auto &[dof, coefficient] : lines[i]->entries)
           if (const auto found = numbers.find(dof); found != numbers.end())
             edges.emplace_back(i, found->second);
-      const boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph(edges.begin(),
-                                                                                    edges.end(),
-                                                                                    lines.size());
-      std::vector<unsigned int> component(lines.size());
-      const unsigned int        n =
-        lines.empty()
-                 ? 0
-                 : boost::strong_components(graph,
-                                     boost::make_iterator_property_map(
-                                       component.begin(), boost::get(boost::vertex_index, graph)));
-      std::vector<std::vector<const Line *>> all(n), result;
-      // By dof: the order of the lines depends on the partition.
-      for (const auto &[dof, i] : numbers)
-        all[component[i]].push_back(lines[i]);
-      for (auto &lines_of_cycle : all)
-        if (lines_of_cycle.size() > 1)
-          result.push_back(std::move(lines_of_cycle));
+      std::vector<std::vector<const Line *>> result;
+      for (const std::vector<unsigned int> &component : strong_components(lines.size(), edges))
+        if (component.size() > 1)
+          {
+            result.emplace_back();
+            for (const unsigned int i : component)
+              result.back().push_back(lines[i]);
+          }
       return result;
     }
 

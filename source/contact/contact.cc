@@ -150,6 +150,21 @@ namespace Touchstone
 
 
 
+  template <class OfRow>
+  auto
+  Contact::over_step(const ContactRow &row, const double weight, const OfRow &of) const
+  {
+    auto result = decltype(of(row, state(row)))();
+    if (state(row).active())
+      result += weight * of(row, state(row));
+    if (const RowState &before = method->states().of_committed(row);
+        weight != 1. && before.active())
+      result += (1. - weight) * of(committed(row), before);
+    return result;
+  }
+
+
+
   // An obstacle is rigid and driven from outside: the work that it does on the slave body enters
   // the energy balance of dynamics, whereas contact of two bodies does no work from outside.
   double
@@ -159,13 +174,12 @@ namespace Touchstone
     for (const ContactRow &row : all_rows)
       {
         const ObstacleParameters *const obstacle = pair(row).obstacle();
-        const double   now = obstacle != nullptr && obstacle->free.any() ? weight : 1.;
-        Tensor<1, dim> force;
-        if (state(row).active())
-          force += now * part_of_force(row, state(row), part);
-        if (const RowState &before = method->states().of_committed(row);
-            now != 1. && before.active())
-          force += (1. - now) * part_of_force(committed(row), before, part);
+        const Tensor<1, dim>            force =
+          over_step(row,
+                    obstacle != nullptr && obstacle->free.any() ? weight : 1.,
+                    [part](const ContactRow &at, const RowState &of) {
+                      return part_of_force(at, of, part);
+                    });
         if (force.norm_square() > 0.)
           work += row.share * force * row.motion.since(committed(row).motion, contact_point(row));
       }
@@ -183,15 +197,10 @@ namespace Touchstone
         const ContactPair &of   = pair(row);
         const std::size_t  k    = &row - of.rows().data();
         const double       gone = of.entered_overlap(k, from);
-        if (gone == 0.)
-          continue;
-        double force = 0.;
-        if (state(row).active())
-          force += weight * part_of_force(row, state(row), ForcePart::normal) * row.normal;
-        if (const RowState &before = method->states().of_committed(row); before.active())
-          force += (1. - weight) * part_of_force(committed(row), before, ForcePart::normal) *
-                   committed(row).normal;
-        work -= force * gone;
+        if (gone != 0.)
+          work -= gone * over_step(row, weight, [](const ContactRow &at, const RowState &of) {
+                    return part_of_force(at, of, ForcePart::normal) * at.normal;
+                  });
       }
     return Utilities::MPI::sum(work, solid.communicator);
   }

@@ -82,22 +82,9 @@ namespace Touchstone
             row.has_partner && !row.between_nodes && contact.state(row).active() &&
             contact.state(row).dropped() && depth > Tolerances::touching * row.size)
           mine.push_back({depth, row.position, row.size, row.area});
-      MissedContact::Place result;
-      double               deepest = 0., area = 0.;
-      const auto           all = gather_records(mine, contact.communicator());
-      for (const auto &of_rank : all)
-        for (const MissedContact::Place &place : of_rank)
-          {
-            deepest = std::max(deepest, place.depth);
-            area += place.area;
-          }
-      for (const auto &of_rank : all)
-        for (const MissedContact::Place &place : of_rank)
-          if (result.depth == 0. || overlap_order(place.depth, place.x, deepest) <
-                                      overlap_order(result.depth, result.x, deepest))
-            result = place;
-      result.area = area;
-      return result;
+      std::vector<MissedContact::Place> all = gather_all(mine, contact.communicator());
+      sort_by_depth(all, [](const MissedContact::Place &place) { return place; });
+      return MissedContact::first_of(all);
     }
 
 
@@ -159,8 +146,8 @@ namespace Touchstone
           carried.insert(bodies);
         else if (pair.master())
           idle.emplace(bodies, pair.parameters().name);
-        MissedByRows              &found = result[pair.parameters().name];
-        const MissedContact::Place held  = held_nodes(contact, pair);
+        MissedByRows               found;
+        const MissedContact::Place held = held_nodes(contact, pair);
         if (held.depth > 0.)
           found = {at_held_nodes(pair.parameters(), held),
                    MissedContact::deep(held),
@@ -172,8 +159,8 @@ namespace Touchstone
             found = {between_nodes(pair.parameters(), place),
                      MissedContact::deep(place),
                      missed.share(place)};
-        if (found.text.empty())
-          result.erase(pair.parameters().name);
+        if (!found.text.empty())
+          result[pair.parameters().name] = found;
       }
     for (const auto &bodies : carried)
       idle.erase(bodies);

@@ -128,16 +128,8 @@ namespace Touchstone
   std::vector<MissedContact::Overlap>
   MissedContact::deepest_first(const std::vector<Overlap> &found) const
   {
-    std::vector<Overlap> all;
-    for (const auto &part : gather_records(found, contact.communicator()))
-      all.insert(all.end(), part.begin(), part.end());
-    double deepest = 0.;
-    for (const Overlap &overlap : all)
-      deepest = std::max(deepest, overlap.place.depth);
-    std::sort(all.begin(), all.end(), [deepest](const Overlap &a, const Overlap &b) {
-      return overlap_order(a.place.depth, a.place.x, deepest) <
-             overlap_order(b.place.depth, b.place.x, deepest);
-    });
+    std::vector<Overlap> all = gather_all(found, contact.communicator());
+    sort_by_depth(all, [](const Overlap &overlap) { return overlap.place; });
     return all;
   }
 
@@ -172,9 +164,8 @@ namespace Touchstone
   std::vector<MaterialPoint>
   MissedContact::open_points() const
   {
-    std::vector<MaterialPoint> result;
     if (!pair.takes_points() || pair.points().empty())
-      return result;
+      return {};
     std::map<Index, const ContactRow *> rows;
     for (const ContactRow &row : pair.rows())
       if (row.between_nodes && row.has_partner)
@@ -186,8 +177,20 @@ namespace Touchstone
         if (const double gap = found->second->gap / found->second->share;
             gap >= 0. && gap < Tolerances::deep_smooth_node * found->second->size)
           mine.push_back(point);
-    for (const auto &of_rank : gather_records(mine, contact.communicator()))
-      result.insert(result.end(), of_rank.begin(), of_rank.end());
+    return gather_all(mine, contact.communicator());
+  }
+
+
+
+  MissedContact::Place
+  MissedContact::first_of(const std::vector<Place> &places)
+  {
+    Place result;
+    if (!places.empty())
+      result = places.front();
+    result.area = 0.;
+    for (const Place &place : places)
+      result.area += place.area;
     return result;
   }
 
@@ -196,15 +199,10 @@ namespace Touchstone
   MissedContact::Place
   MissedContact::deepest() const
   {
-    Place result;
+    std::vector<Place> places;
     for (const Overlap &overlap : overlaps())
-      {
-        const double area = result.area + overlap.place.area;
-        if (result.depth == 0.)
-          result = overlap.place;
-        result.area = area;
-      }
-    return result;
+      places.push_back(overlap.place);
+    return first_of(places);
   }
 
 

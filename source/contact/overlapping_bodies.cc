@@ -245,10 +245,8 @@ namespace Touchstone
       points_around(surfaces.first, surfaces.second, solid.communicator);
 
     // Of each two bodies, in an order that does not depend on the partition.
-    std::vector<BodyOverlap> all;
-    for (const auto &part : gather_records(own_overlaps(solid, u, bodies, points, left_out, least),
-                                           solid.communicator))
-      all.insert(all.end(), part.begin(), part.end());
+    std::vector<BodyOverlap> all =
+      gather_all(own_overlaps(solid, u, bodies, points, left_out, least), solid.communicator);
     double deepest = 0.;
     for (const BodyOverlap &overlap : all)
       deepest = std::max(deepest, overlap.depth);

@@ -252,9 +252,7 @@ namespace Touchstone
     if (Utilities::MPI::max(found.size(), solid.communicator) == 0)
       return result;
     // All ranks test all candidates: the cells around a point may belong to any rank.
-    std::vector<Overlap> all;
-    for (const auto &part : gather_records(found, solid.communicator))
-      all.insert(all.end(), part.begin(), part.end());
+    std::vector<Overlap> all = gather_all(found, solid.communicator);
     // An order that does not depend on the partition.
     std::sort(all.begin(), all.end(), [](const Overlap &a, const Overlap &b) {
       const auto key = [](const Overlap &o) {

@@ -45,9 +45,8 @@ namespace Touchstone
       for (const auto &[where, normal] : found)
         mine.push_back({where.first, normal});
       AdjustedSurfaces::Planes result;
-      for (const std::vector<At> &of_rank : gather_records(mine, solid.communicator))
-        for (const At &one : of_rank)
-          result.emplace(one.dof, one.normal);
+      for (const At &one : gather_all(mine, solid.communicator))
+        result.emplace(one.dof, one.normal);
       return result;
     }
 

@@ -50,7 +50,8 @@ namespace Touchstone
               {"normal contact force", &old.normal},
               {"tangential contact force", &old.tangential},
               {"support force", &old.support},
-              {"load in inertia", &old.load}};
+              // The same where loads change smoothly.
+              {"load in inertia", &old.load, "external force"}};
     for (std::size_t i = 0; i < body.size(); ++i)
       {
         // Rayleigh damping C = a M + b K0 with a and b of the body: kept per dof, so that a product

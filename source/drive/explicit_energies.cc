@@ -13,7 +13,9 @@ namespace Touchstone
 
   // Half a cycle's work of what a support takes of the forces at this time.
   double
-  ExplicitStep::work_ahead(const State &at, const Tensor<1, dim> &v, const unsigned int node) const
+  ExplicitStep::work_ahead(const Balance        &at,
+                           const Tensor<1, dim> &v,
+                           const unsigned int    node) const
   {
     const Tensor<1, dim> force = at.force(node);
     return 0.5 * at.length * (v * (force - supports.free_part(node, force)));
@@ -47,7 +49,7 @@ namespace Touchstone
         const double       ahead = work_ahead(now, now.v[i], i);
         kinetic.add(-ahead);
         external.add(-ahead);
-        external.add(work_ahead(kept, kept.v[k], i));
+        external.add(work_ahead(kept, kept_on_supports[k], i));
       }
     const MPI_Comm                communicator = solid.communicator;
     const ExplicitCells::Energies of_cells     = cells.energies(now.u);

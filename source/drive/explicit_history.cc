@@ -100,15 +100,10 @@ namespace Touchstone
   {
     map.to_vector(now.u, displacement);
     map.to_vector(now.v, velocity);
-    kept.time     = now.time;
-    kept.length   = now.length;
-    kept.external = now.external;
-    kept.internal = now.internal;
-    kept.viscous  = now.viscous;
-    kept.support  = now.support;
-    kept.v.clear();
+    kept = now;
+    kept_on_supports.clear();
     for (const unsigned int node : supports.nodes())
-      kept.v.push_back(now.v[node]);
+      kept_on_supports.push_back(now.v[node]);
   }
 
 
@@ -116,12 +111,7 @@ namespace Touchstone
   void
   ExplicitStep::rollback()
   {
-    now.time     = kept.time;
-    now.length   = kept.length;
-    now.external = kept.external;
-    now.internal = kept.internal;
-    now.viscous  = kept.viscous;
-    now.support  = kept.support;
+    static_cast<Balance &>(now) = kept;
     map.from_vector(displacement, now.u);
     map.from_vector(velocity, now.v);
     if (impulses)

@@ -150,8 +150,8 @@ namespace Touchstone
   TimeIntegration::save(ArchiveWriter &archive) const
   {
     archive.put("energies", committed);
-    for (const auto &[name, field] : fields)
-      archive.put_field(name, *field);
+    for (const Field &field : fields)
+      archive.put_field(field.name, *field.values);
   }
 
 
@@ -160,11 +160,9 @@ namespace Touchstone
   TimeIntegration::load(const ArchiveReader &archive)
   {
     resume(archive.get<double>("committed time"), archive.get<Energies>("energies"));
-    for (const auto &[name, field] : fields)
-      // Checkpoints of version 0.2.0 and before do not have it, and it matters where loads change
-      // suddenly alone.
-      *field = archive.field(
-        name == "load in inertia" && !archive.has_field(name) ? "external force" : name);
+    for (const Field &field : fields)
+      *field.values = archive.field(
+        field.substitute.empty() || archive.has_field(field.name) ? field.name : field.substitute);
   }
 
 

@@ -159,6 +159,7 @@ namespace Touchstone
             collect_acting();
             set_normal_metric(control.relaxation);
             counts.converged = sweep_normal(control, tolerance, counts);
+            apply_normal(&NormalRow::impulse);
           }
         else
           {
@@ -171,11 +172,6 @@ namespace Touchstone
                   m.tied /= control.relaxation;
                 }
             counts.converged = sweep(control, tolerance, counts);
-          }
-        if (along_normals)
-          apply_normal(&NormalRow::impulse);
-        else
-          {
             for (const std::size_t k : near)
               present[k] = rows[k].impulse;
             apply(present);

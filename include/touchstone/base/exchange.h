@@ -113,6 +113,19 @@ namespace Touchstone
       result.push_back(internal::records<T>(all.data() + begin[rank], sizes[rank]));
     return result;
   }
+
+
+
+  /** @brief The same in one list, by rank. Collective. */
+  template <typename T>
+  std::vector<T>
+  gather_all(const std::vector<T> &records, const MPI_Comm communicator)
+  {
+    std::vector<T> result;
+    for (const std::vector<T> &of_rank : gather_records(records, communicator))
+      result.insert(result.end(), of_rank.begin(), of_rank.end());
+    return result;
+  }
 } // namespace Touchstone
 
 #endif

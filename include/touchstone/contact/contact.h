@@ -269,6 +269,12 @@ namespace Touchstone
     n_searches() const;
 
   private:
+    /** What @p of says of a row and its state at the end of the step, with @p weight, and at its
+     * beginning, with the rest; nothing where the row is not active. */
+    template <class OfRow>
+    auto
+    over_step(const ContactRow &row, double weight, const OfRow &of) const;
+
     struct ImpulseForce
     {
       dealii::Tensor<1, dim> force;

@@ -34,6 +34,10 @@ namespace Touchstone
       double area = 0.;
     };
 
+    /** @brief The first of some places, with the area of all; without depth if there is none. */
+    static Place
+    first_of(const std::vector<Place> &places);
+
     /** @param forces Normal contact forces of the pair on its slave nodes, with the ghosts
      *                of the slave surface.
      * Collective. */

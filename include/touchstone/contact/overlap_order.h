@@ -7,8 +7,10 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace Touchstone
 {
@@ -24,6 +26,23 @@ namespace Touchstone
     const double     unit  = 1e-4 * deepest;
     const auto rounded = [unit](const double value) { return std::floor(value / unit + shift); };
     return {{-rounded(depth), rounded(x[0]), rounded(x[1]), rounded(x[2])}};
+  }
+
+  /** @brief Sort overlaps by their overlap_order().
+   * @param place_of The `depth` and `x` of one of them. */
+  template <class Overlap, class PlaceOf>
+  void
+  sort_by_depth(std::vector<Overlap> &overlaps, const PlaceOf &place_of)
+  {
+    double deepest = 0.;
+    for (const Overlap &overlap : overlaps)
+      deepest = std::max(deepest, place_of(overlap).depth);
+    const auto order = [&](const Overlap &overlap) {
+      return overlap_order(place_of(overlap).depth, place_of(overlap).x, deepest);
+    };
+    std::sort(overlaps.begin(), overlaps.end(), [&](const Overlap &a, const Overlap &b) {
+      return order(a) < order(b);
+    });
   }
 } // namespace Touchstone
 

@@ -90,13 +90,12 @@ namespace Touchstone
     momenta() const override;
 
   private:
-    /** What a cycle changes. */
-    struct State
+    /** The end of a cycle, without the motion. */
+    struct Balance
     {
       double time = 0.;
-      /** Length of the last cycle. */
-      double    length = 0.;
-      NodeField u, v;
+      /** Length of the cycle. */
+      double length = 0.;
       /** Forces on the nodes at the end of the cycle: of loads (empty if there are none), of
        * stress and of bulk viscosity. */
       NodeField external, internal, viscous;
@@ -110,6 +109,11 @@ namespace Touchstone
         return external.empty() ? internal[node] + viscous[node]
                                 : external[node] + internal[node] + viscous[node];
       }
+    };
+    /** What a cycle changes. */
+    struct State : Balance
+    {
+      NodeField u, v;
     };
 
     /** Work since the committed state by owned node, force times length; empty where there is none
@@ -139,11 +143,12 @@ namespace Touchstone
     NodalLoads                      loads;
     ExplicitCells                   cells;
     State                           now;
-    /** The committed state. Its displacements and velocities are those of the vectors for results,
-     * and here alone are velocities of supported nodes, by place. */
-    State     kept;
+    /** The committed state. Its displacements and velocities are the vectors for results. */
+    Balance kept;
+    /** Its velocities of supported nodes, by place as in Balance::support. */
+    NodeField kept_on_supports;
     NodalWork work;
-    /** Velocity before a cycle, and forces of supports as in State::support. */
+    /** Velocity before a cycle, and forces of supports as in Balance::support. */
     NodeField v_before, support_before;
     /** Stable step of all cells together over that of the cells by themselves, at least 1. */
     double assembled_to_cells = 1.;
@@ -254,7 +259,7 @@ namespace Touchstone
     double
     round_off_of_energies() const;
     double
-    work_ahead(const State &at, const dealii::Tensor<1, dim> &v, unsigned int node) const;
+    work_ahead(const Balance &at, const dealii::Tensor<1, dim> &v, unsigned int node) const;
     /** Energies at the end of the present interval. Collective. */
     Energies
     energies();

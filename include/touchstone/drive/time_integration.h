@@ -188,9 +188,16 @@ namespace Touchstone
     /** Of the committed state and of the end of the step; energies of the latter by end_step(). */
     double   committed_time = 0., time = 0.;
     Energies end;
-    /** Vectors of the committed state other than the displacement, by their names in checkpoints;
-     * none has ghosts. */
-    std::vector<std::pair<std::string, Vector *>> fields;
+    /** A vector of the committed state other than the displacement, without ghosts, with its name
+     * in checkpoints. Those of earlier versions without it have another vector that may stand in
+     * its place. */
+    struct Field
+    {
+      std::string name;
+      Vector     *values;
+      std::string substitute = {};
+    };
+    std::vector<Field> fields;
   };
 } // namespace Touchstone
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/algebra/strong_components.h>
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/cyclic_constraints.h>
@@ -11,8 +12,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <boost/graph/adjacency_list.hpp>
-#include <boost/graph/strong_components.hpp>
 #include <cmath>
 #include <map>
 #include <set>
@@ -109,22 +108,17 @@ namespace Touchstone
     on_cycles(const unsigned int n_vertices, const Edges &edges)
     {
       std::vector<bool> result(n_vertices, false);
-      // boost::strong_components() needs no call for the common case of no pairs that share nodes.
+      // The common case: no pairs that share nodes.
       if (edges.empty())
         return result;
-      const boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> graph(edges.begin(),
-                                                                                    edges.end(),
-                                                                                    n_vertices);
-      std::vector<unsigned int> component(n_vertices), size(n_vertices, 0);
-      boost::strong_components(graph,
-                               boost::make_iterator_property_map(
-                                 component.begin(), boost::get(boost::vertex_index, graph)));
-      for (const unsigned int c : component)
-        ++size[c];
-      for (unsigned int i = 0; i < n_vertices; ++i)
-        result[i] = size[component[i]] > 1;
+      for (const std::vector<unsigned int> &component : strong_components(n_vertices, edges))
+        if (component.size() > 1)
+          for (const unsigned int i : component)
+            result[i] = true;
       return result;
     }
+
+
 
     /** Slave nodes with dofs that depend on themselves. */
     std::set<Index>

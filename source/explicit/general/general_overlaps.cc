@@ -152,9 +152,7 @@ namespace Touchstone
         if (const auto row = passed_edge(corner(of, a), corner(of, a + 1), face))
           add(*row);
       });
-    std::vector<Overlap> all, result;
-    for (const std::vector<Overlap> &of_rank : gather_records(mine, nodes.communicator()))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::vector<Overlap> all = gather_all(mine, nodes.communicator()), result;
     std::sort(all.begin(), all.end(), [](const Overlap &a, const Overlap &b) {
       return a.key < b.key;
     });

@@ -93,9 +93,7 @@ namespace Touchstone
       return "";
     constexpr std::size_t shown = 3;
     places.resize(std::min(shown, places.size()));
-    std::vector<Place> all;
-    for (const std::vector<Place> &of_rank : gather_records(places, nodes.communicator()))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::vector<Place> all = gather_all(places, nodes.communicator());
     std::sort(all.begin(), all.end(), by_key);
     all.resize(std::min(shown, all.size()));
     std::string text;
