@@ -11,7 +11,7 @@ from benchmarking import processes
 from . import text, vtu
 
 # What a message of the program never has: texts of libraries and of the operating system.
-RAW = re.compile(r"dealii|deal\.II\b.*(Exc|exception)|An error occurred in (line|file)|terminate called|"
+RAW = re.compile(r"dealii|deal\.II\b.*(Exc[A-Z]|exception)|An error occurred in (line|file)|terminate called|"
                  r"std::|what\(\)|boost|Belos::|Teuchos|Ifpack|Epetra|MPI_ERR|[Ss]tacktrace|"
                  r"Segmentation|signal \d|bad_alloc|broke down: |nan iterations|vector::|"
                  r"Additional information", re.S)

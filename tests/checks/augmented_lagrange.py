@@ -4,8 +4,8 @@ on curved and warped surfaces, over edges, with friction and near incompressibil
 elimination finds, without a cut step and in about as many iterations."""
 # ctest: goldens = hard_corner, hard_edge_and_back, hard_mu_two, hard_incompressible
 
-from touchstone_test import (AUGMENTED, below, check, checks, finish, golden, relative, run, same,
-                             tests)
+from touchstone_test import (AUGMENTED, MULTIPLIERS, STEPS, below, check, checks, finish, golden,
+                             relative, run, same, tests)
 
 for name in "hard_corner", "hard_edge_and_back", "hard_mu_two", "hard_incompressible":
     exact = golden(name)
@@ -22,4 +22,15 @@ augmented = run("halved_augmented", halved, AUGMENTED)
 for k in range(3):
     below(f"half the height, force {k}",
           relative(augmented.force("high")[k], exact.force("high")[k]), 1e-4)
+
+# A strip that is one element wide between two symmetry planes: they hold a component of all tied
+# nodes, and the outer iteration has to close the others.
+OUTER = {**AUGMENTED, "Contact/Augmentation": "outer"}
+strip = tests / "rope.prm"
+bent = {f"Body {half}/Boundary top/Traction z": "-1e-3 * t" for half in ("left half", "right half")}
+exact, outer = run("strip", strip, {**bent, **MULTIPLIERS}), run("strip_outer", strip, {**bent, **OUTER})
+below("strip, axial force", relative(outer.force("joint")[0], exact.force("joint")[0]), 1e-5)
+
+# Tied nodes that other pairs hold, too: what a refused condition would give is no force.
+run("bolt_outer", tests / "pretension_with_friction.prm", {**OUTER, STEPS: 3})
 finish()

@@ -34,8 +34,8 @@ namespace Touchstone
     double lambda = 0.;
     /** Gap admitted when convergence is judged: the penetration of a penalty, length. */
     double admissible_gap = 0.;
-    /** Numbers of conditions of the row that the constraint graph accepted and refused; supports
-     * or other rows determine the displacement that a refused one is about. */
+    /** Conditions of the row that the constraint graph accepted and refused, bit k for the k-th
+     * one; supports or other rows determine the displacement that a refused one is about. */
     unsigned int accepted = 0, refused = 0;
     /** The condition along the normal was accepted. */
     bool normal_accepted = true;
@@ -67,6 +67,13 @@ namespace Touchstone
       return accepted == 0 && refused > 0;
     }
 
+    /** @brief Supports or other rows determine the displacement that condition @p k is about. */
+    bool
+    refuses(const unsigned int k) const
+    {
+      return (refused >> k) % 2 == 1;
+    }
+
     /** @brief No contact force of any kind. */
     void
     clear_force()
@@ -81,11 +88,12 @@ namespace Touchstone
     bool
     record(const Condition &condition, const bool was_accepted)
     {
-      if (accepted + refused == 0)
+      const unsigned int bit = (accepted | refused) + 1;
+      if (bit == 1)
         normal_accepted = was_accepted;
       else if (!was_accepted && status == ContactStatus::stick && friction.constrained)
         friction.unconstrained.push_back(condition.direction);
-      ++(was_accepted ? accepted : refused);
+      (was_accepted ? accepted : refused) |= bit;
       return was_accepted;
     }
 

@@ -112,17 +112,32 @@ namespace Touchstone
 
 
 
+    /** How far a tied row is from its place in the directions that it decides on, one of them at a
+     * symmetry plane less than elsewhere. */
+    double
+    tied_gap(const ContactRow &row, const RowState &state)
+    {
+      if (state.dropped())
+        return 0.;
+      Tensor<1, dim> gap = row.gap_vector;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (state.refuses(d))
+          gap[d] = 0.;
+      return gap.norm();
+    }
+
+
+
     /** By how much the conditions of a row are violated, relative to the size of the faces: gap,
      * and slip that friction does not permit. Newton's method judges it by the gap tolerance. */
     double
     violated_gap(const ContactRow &row, const RowState &state)
     {
+      if (row.tied)
+        return (tied_gap(row, state) - state.admissible_gap) / row.size;
       double gap = 0.;
-      if ((row.tied ? state.refused == 0 : state.normal_accepted) &&
-          (state.active() || row.gap < 0.))
-        gap = (row.tied ? row.gap_vector.norm() - state.admissible_gap
-                        : std::abs(row.gap - (state.active() ? state.admissible_gap : 0.))) /
-              row.size;
+      if (state.normal_accepted && (state.active() || row.gap < 0.))
+        gap = std::abs(row.gap - (state.active() ? state.admissible_gap : 0.)) / row.size;
       if (!row.friction)
         return gap;
       // A gap that is left in this row is elastic slip of the other rows of a shared node, where it

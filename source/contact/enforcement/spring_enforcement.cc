@@ -191,7 +191,11 @@ namespace Touchstone
   {
     if (row.tied)
       {
-        state.force  = augmentation[row].rest - epsilon(row) * row.gap_vector;
+        state.force = augmentation[row].rest - epsilon(row) * row.gap_vector;
+        // No spring where a support or another row decides: the linear system has none either.
+        for (unsigned int d = 0; d < dim; ++d)
+          if (state.refuses(d))
+            state.force[d] = 0.;
         state.lambda = state.force * row.normal;
         return;
       }
