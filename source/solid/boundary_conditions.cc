@@ -9,11 +9,11 @@
 
 #include <set>
 
-// Displacements, supports, tractions, pressures and body forces of all bodies. The constructor
-// translates the boundary names of the input to nodes and faces of the mesh; afterwards
-// prescribe() gives the displacements to the ConstraintGraph, external_force() integrates the
-// loads at time t, and reactions() attributes the unbalanced forces of supported nodes to their
-// supports. The stiffness matrix knows none of this: it is assembled without conditions
+// Displacements, supports, tractions, pressures and body forces of all bodies. The constructor,
+// here, translates the boundary names of the input to nodes and faces of the mesh; afterwards
+// prescribe() and reactions() (supports.cc) give the displacements to the ConstraintGraph and
+// attribute the unbalanced forces of supported nodes, and external_force() (external_force.cc)
+// integrates the loads. The stiffness matrix knows none of this: it is assembled without conditions
 // (doc/theory.md, sections 2.1 and 7).
 namespace Touchstone
 {
@@ -21,13 +21,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Zero for no function. */
-    double
-    evaluate(const std::shared_ptr<const Formula> &function, const Point<dim> &x, const double t)
-    {
-      return function ? function->value(x, t) : 0.;
-    }
-
     Tensor<1, dim>
     axis(const unsigned int d)
     {
@@ -64,12 +57,9 @@ namespace Touchstone
                              "remove this entry or take the boundary from that list");
         }
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /** Names of boundaries, and those of sets of nodes. */
     std::pair<std::vector<std::string>, std::vector<std::string>>
     divide(const Forest &forest, const unsigned int body, const std::vector<std::string> &names)
@@ -361,230 +351,5 @@ namespace Touchstone
                      body,
                      support});
             }
-  }
-
-
-
-  double
-  BoundaryConditions::Prescribed::displacement(const double t) const
-  {
-    return evaluate(value, position, t);
-  }
-
-
-
-  std::vector<PrescribedDisplacement>
-  BoundaryConditions::displacements(const double t) const
-  {
-    std::vector<PrescribedDisplacement> result;
-    for (const Prescribed &p : prescribed)
-      result.push_back({p.node,
-                        p.direction,
-                        p.displacement(t),
-                        supports[p.support].body + "/" + supports[p.support].boundary});
-    formulas.check(solid.communicator);
-    return result;
-  }
-
-
-
-  /** Give the conditions at time t to the graph, as increments that are missing from displacement
-   * u: direction . du = value(t) - direction . u. Returns the largest accepted increment on all
-   * ranks (length), by which the caller judges whether u meets the conditions already. Collective.
-   */
-  double
-  BoundaryConditions::prescribe(const double t, const Vector &u, ConstraintGraph &graph) const
-  {
-    // All formulas are evaluated first and an error of any rank is reported on all ranks:
-    // otherwise one rank would throw while others wait in the collective calls of the graph, and
-    // the graph would receive values that are not numbers.
-    std::vector<double> values;
-    for (const Prescribed &p : prescribed)
-      values.push_back(p.displacement(t));
-    formulas.check(solid.communicator);
-    double mismatch = 0.;
-    auto   next     = values.begin();
-    for (const Prescribed &p : prescribed)
-      {
-        double value = *next++;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (p.direction[d] != 0.)
-            value -= p.direction[d] * u(dim * p.node + d);
-        Condition condition;
-        condition.node      = p.node;
-        condition.direction = p.direction;
-        condition.value     = value;
-        condition.body      = p.body;
-        condition.position  = p.position;
-        if (graph.accept(condition))
-          mismatch = std::max(mismatch, std::abs(value));
-      }
-    return Utilities::MPI::max(mismatch, solid.communicator);
-  }
-
-
-
-  /** Consistent nodal forces of all loads at time t (force). Tractions, dead pressures and body
-   * forces are integrated over the reference state; only the follower pressure depends on u.
-   * Collective. */
-  void
-  BoundaryConditions::external_force(const double t, const Vector &u, Vector &force) const
-  {
-    force = 0.;
-    following.add_force(t, u, force);
-    springs.add_force(u, force);
-    add_body_forces(t, force);
-    add_tractions(t, force);
-    add_set_forces(t, force);
-    formulas.check(solid.communicator);
-  }
-
-
-
-  /** f_i = int N_i (traction - p n) dA over the reference surface. Ranks integrate ghost cells as
-   * well and keep what belongs to their own dofs, so that nothing need be sent. The quadrature
-   * has one point per direction more than the element needs, as tractions are arbitrary functions
-   * of position. */
-  void
-  BoundaryConditions::add_tractions(const double t, Vector &force) const
-  {
-    if (loads.empty())
-      return;
-    FEFaceValues<dim>  values(solid.mapping,
-                             solid.fe,
-                             QGauss<dim - 1>(solid.fe.degree + 2),
-                             update_values | update_normal_vectors | update_JxW_values |
-                               update_quadrature_points);
-    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        for (const unsigned int f : cell->face_indices())
-          for (const Load &load : loads)
-            if (cell->at_boundary(f) && load.boundary.count(cell->face(f)->boundary_id()) > 0)
-              {
-                values.reinit(cell, f);
-                cell->get_dof_indices(dofs);
-                for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-                  {
-                    const Point<dim> x = values.quadrature_point(q);
-                    Tensor<1, dim>   traction =
-                      -evaluate(load.pressure, x, t) * values.normal_vector(q);
-                    for (unsigned int d = 0; d < dim; ++d)
-                      traction[d] += evaluate(load.traction[d], x, t);
-                    if (load.resultant)
-                      traction += load.resultant->traction(x, t);
-                    for (unsigned int i = 0; i < dofs.size(); ++i)
-                      if (solid.owned.is_element(dofs[i]))
-                        force(dofs[i]) += values.shape_value(i, q) *
-                                          traction[solid.fe.system_to_component_index(i).first] *
-                                          values.JxW(q);
-                  }
-              }
-    force.compress(VectorOperation::add);
-  }
-
-
-
-  void
-  BoundaryConditions::add_set_forces(const double t, Vector &force) const
-  {
-    if (set_loads.empty())
-      return;
-    for (const NodeSetLoad &load : set_loads)
-      for (unsigned int d = 0; d < dim; ++d)
-        if (load.force[d])
-          for (const SetNode &node : load.nodes)
-            force(dim * node.node + d) += node.share * load.force[d]->value(node.position, t);
-    force.compress(VectorOperation::add);
-  }
-
-
-
-  /** f_i = int N_i b dV over the reference volume, b a force per reference volume; own dofs from
-   * owned and ghost cells as for tractions. */
-  void
-  BoundaryConditions::add_body_forces(const double t, Vector &force) const
-  {
-    if (body_forces.empty())
-      return;
-    FEValues<dim>      values(solid.mapping,
-                         solid.fe,
-                         QGauss<dim>(solid.fe.degree + 1),
-                         update_values | update_JxW_values | update_quadrature_points);
-    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial())
-        {
-          const std::array<Function, dim> &functions = body_forces[cell->material_id()];
-          if (!functions[0] && !functions[1] && !functions[2])
-            continue;
-          values.reinit(cell);
-          cell->get_dof_indices(dofs);
-          for (const unsigned int q : values.quadrature_point_indices())
-            for (unsigned int d = 0; d < dim; ++d)
-              if (const double b = evaluate(functions[d], values.quadrature_point(q), t); b != 0.)
-                for (unsigned int i = 0; i < dofs.size(); ++i)
-                  if (solid.fe.system_to_component_index(i).first == d &&
-                      solid.owned.is_element(dofs[i]))
-                    force(dofs[i]) += values.shape_value(i, q) * b * values.JxW(q);
-        }
-    force.compress(VectorOperation::add);
-  }
-
-
-
-  void
-  BoundaryConditions::for_each_share(
-    const Vector                                                          &unbalanced,
-    const std::function<void(const Prescribed &, const Tensor<1, dim> &)> &visit) const
-  {
-    // Each prescribed direction takes its share of the unbalanced force of the
-    // node, in the order of precedence and without what earlier directions have
-    // taken: so the shares add up to the whole.
-    std::map<Index, std::vector<Tensor<1, dim>>> taken;
-    for (const Prescribed &p : prescribed)
-      {
-        Tensor<1, dim> direction = p.direction;
-        for (const Tensor<1, dim> &earlier : taken[p.node])
-          direction -= (direction * earlier) * earlier;
-        // Earlier directions span this one, but for an angle of a thousandth: it has no share of
-        // its own, and normalising the remainder would amplify round-off.
-        if (direction.norm() < 1e-3)
-          continue;
-        direction /= direction.norm();
-        taken[p.node].push_back(direction);
-        double share = 0.;
-        for (unsigned int d = 0; d < dim; ++d)
-          share += direction[d] * unbalanced(dim * p.node + d);
-        visit(p, share * direction);
-      }
-  }
-
-
-
-  Vector
-  BoundaryConditions::nodal_reactions(const Vector &unbalanced) const
-  {
-    Vector result(solid.owned, solid.communicator);
-    for_each_share(unbalanced, [&result](const Prescribed &p, const Tensor<1, dim> &force) {
-      for (unsigned int d = 0; d < dim; ++d)
-        result(dim * p.node + d) += force[d];
-    });
-    result.compress(VectorOperation::add);
-    return result;
-  }
-
-
-
-  std::vector<Reaction>
-  BoundaryConditions::reactions(const Vector &unbalanced) const
-  {
-    std::vector<Reaction> result = supports;
-    for_each_share(unbalanced, [&result](const Prescribed &p, const Tensor<1, dim> &force) {
-      result[p.support].force += force;
-    });
-    for (Reaction &reaction : result)
-      reaction.force = Utilities::MPI::sum(reaction.force, solid.communicator);
-    return result;
   }
 } // namespace Touchstone

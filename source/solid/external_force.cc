@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/solid/boundary_conditions.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
+
+#include <array>
+#include <vector>
+
+// Nodal forces of tractions, pressures, body forces and forces on sets of nodes
+// (doc/theory.md 2.1).
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Zero for no function. */
+    double
+    evaluate(const std::shared_ptr<const Formula> &function, const Point<dim> &x, const double t)
+    {
+      return function ? function->value(x, t) : 0.;
+    }
+  } // namespace
+
+
+
+  /** Consistent nodal forces of all loads at time t (force). Tractions, dead pressures and body
+   * forces are integrated over the reference state; only the follower pressure depends on u.
+   * Collective. */
+  void
+  BoundaryConditions::external_force(const double t, const Vector &u, Vector &force) const
+  {
+    force = 0.;
+    following.add_force(t, u, force);
+    springs.add_force(u, force);
+    add_body_forces(t, force);
+    add_tractions(t, force);
+    add_set_forces(t, force);
+    formulas.check(solid.communicator);
+  }
+
+
+
+  /** f_i = int N_i (traction - p n) dA over the reference surface. Ranks integrate ghost cells as
+   * well and keep what belongs to their own dofs, so that nothing need be sent. The quadrature
+   * has one point per direction more than the element needs, as tractions are arbitrary functions
+   * of position. */
+  void
+  BoundaryConditions::add_tractions(const double t, Vector &force) const
+  {
+    if (loads.empty())
+      return;
+    FEFaceValues<dim>  values(solid.mapping,
+                             solid.fe,
+                             QGauss<dim - 1>(solid.fe.degree + 2),
+                             update_values | update_normal_vectors | update_JxW_values |
+                               update_quadrature_points);
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          for (const Load &load : loads)
+            if (cell->at_boundary(f) && load.boundary.count(cell->face(f)->boundary_id()) > 0)
+              {
+                values.reinit(cell, f);
+                cell->get_dof_indices(dofs);
+                for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                  {
+                    const Point<dim> x = values.quadrature_point(q);
+                    Tensor<1, dim>   traction =
+                      -evaluate(load.pressure, x, t) * values.normal_vector(q);
+                    for (unsigned int d = 0; d < dim; ++d)
+                      traction[d] += evaluate(load.traction[d], x, t);
+                    if (load.resultant)
+                      traction += load.resultant->traction(x, t);
+                    for (unsigned int i = 0; i < dofs.size(); ++i)
+                      if (solid.owned.is_element(dofs[i]))
+                        force(dofs[i]) += values.shape_value(i, q) *
+                                          traction[solid.fe.system_to_component_index(i).first] *
+                                          values.JxW(q);
+                  }
+              }
+    force.compress(VectorOperation::add);
+  }
+
+
+
+  void
+  BoundaryConditions::add_set_forces(const double t, Vector &force) const
+  {
+    if (set_loads.empty())
+      return;
+    for (const NodeSetLoad &load : set_loads)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (load.force[d])
+          for (const SetNode &node : load.nodes)
+            force(dim * node.node + d) += node.share * load.force[d]->value(node.position, t);
+    force.compress(VectorOperation::add);
+  }
+
+
+
+  /** f_i = int N_i b dV over the reference volume, b a force per reference volume; own dofs from
+   * owned and ghost cells as for tractions. */
+  void
+  BoundaryConditions::add_body_forces(const double t, Vector &force) const
+  {
+    if (body_forces.empty())
+      return;
+    FEValues<dim>      values(solid.mapping,
+                         solid.fe,
+                         QGauss<dim>(solid.fe.degree + 1),
+                         update_values | update_JxW_values | update_quadrature_points);
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          const std::array<Function, dim> &functions = body_forces[cell->material_id()];
+          if (!functions[0] && !functions[1] && !functions[2])
+            continue;
+          values.reinit(cell);
+          cell->get_dof_indices(dofs);
+          for (const unsigned int q : values.quadrature_point_indices())
+            for (unsigned int d = 0; d < dim; ++d)
+              if (const double b = evaluate(functions[d], values.quadrature_point(q), t); b != 0.)
+                for (unsigned int i = 0; i < dofs.size(); ++i)
+                  if (solid.fe.system_to_component_index(i).first == d &&
+                      solid.owned.is_element(dofs[i]))
+                    force(dofs[i]) += values.shape_value(i, q) * b * values.JxW(q);
+        }
+    force.compress(VectorOperation::add);
+  }
+} // namespace Touchstone
