@@ -94,7 +94,7 @@ namespace
 
     // One cell inside out is the one that is named.
     const unsigned int last = numbers.size() - 1;
-    for (const unsigned int node : map.cells()[last].nodes)
+    for (const unsigned int node : map.nodes(last))
       u[node] = -2. * map.positions()[node];
     const unsigned int failed = together.subtract_forces(u, none, 1e-3, nullptr, none, none);
     const unsigned int other  = singly.subtract_forces(u, none, 1e-3, nullptr, none, none);

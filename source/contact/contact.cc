@@ -46,7 +46,6 @@ namespace Touchstone
     , friction_rows(solid)
     , method(parameters.enforcement.make(parameters))
     , impulse_forces("impulse force")
-    , ghosted(solid.owned, solid.relevant, solid.communicator)
   {
     // Rows are numbered over all pairs of this rank, so that the arrays of enforcement and friction
     // need one index only; friction has an entry for each row, also without a law.
@@ -85,9 +84,24 @@ namespace Touchstone
                            static_cast<Stateful *>(method.get()),
                            static_cast<Stateful *>(&impulse_forces)})
       parts.push_back(part);
+    if (pairs.empty())
+      return;
     seen.compress();
-    ghosted.reinit(solid.owned, seen, solid.communicator);
+    // One rank has all values: no list of them is needed.
+    if (Utilities::MPI::n_mpi_processes(solid.communicator) == 1)
+      ghosted.reinit(solid.owned, solid.communicator);
+    else
+      ghosted.reinit(solid.owned, seen, solid.communicator);
     import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
+  }
+
+
+
+  void
+  Contact::move(const Vector &u)
+  {
+    if (import_ghosts)
+      (*import_ghosts)(u, ghosted);
   }
 
 
@@ -96,7 +110,7 @@ namespace Touchstone
   Contact::update(const Vector &u, const double time)
   {
     present_time = time;
-    (*import_ghosts)(u, ghosted);
+    move(u);
     for (const auto &pair : pairs)
       pair->update(u, ghosted, time, [this](const ContactRow &row) { return state(row).active(); });
     // Impulses belong to the committed step alone.
@@ -295,7 +309,7 @@ namespace Touchstone
     // The update that made the rows was in the reference state: surfaces have to be moved to the
     // committed displacement before the parts are loaded.
     present_time = archive.get<double>("committed time");
-    (*import_ghosts)(archive.field("displacement"), ghosted);
+    move(archive.field("displacement"));
     for (const auto &pair : pairs)
       pair->set_displacement(ghosted);
     for (Stateful *part : parts)
@@ -374,6 +388,8 @@ namespace Touchstone
   Vector
   Contact::with_ghosts(const Vector &owned) const
   {
+    if (!import_ghosts)
+      return solid.ghosted(owned);
     Vector result;
     result.reinit(ghosted);
     (*import_ghosts)(owned, result);

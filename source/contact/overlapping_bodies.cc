@@ -89,7 +89,7 @@ namespace Touchstone
     own_surfaces(const Solid &solid, const Vector &u, const std::set<unsigned int> &bodies)
     {
       std::vector<SurfacePoint> points;
-      std::set<Index>           done;
+      std::vector<bool>         done(solid.dof_handler.n_dofs());
       std::vector<Point<dim>>   extremes;
       for_each_cell(solid, u, bodies, [&](const BodyCell &cell) {
         const Box box = box_of(cell);
@@ -108,8 +108,9 @@ namespace Touchstone
                 {
                   const unsigned int v = GeometryInfo<dim>::face_to_cell_vertices(f, k);
                   centre += 0.25 * cell.corners[v];
-                  if (done.insert(cell.nodes[v]).second)
+                  if (!done[cell.nodes[v]])
                     points.push_back({cell.body, cell.nodes[v], cell.corners[v]});
+                  done[cell.nodes[v]] = true;
                 }
               points.push_back({cell.body, invalid_index, centre});
             }
@@ -152,8 +153,10 @@ namespace Touchstone
 
     /** The points of all ranks that may lie in cells of this rank. */
     std::vector<SurfacePoint>
-    points_around(const std::vector<SurfacePoint> &own, const Box &box, const MPI_Comm communicator)
+    points_around(std::vector<SurfacePoint> own, const Box &box, const MPI_Comm communicator)
     {
+      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+        return own;
       const std::vector<Box> boxes = Utilities::MPI::all_gather(communicator, box);
       std::map<unsigned int, std::vector<SurfacePoint>> messages;
       for (unsigned int rank = 0; rank < boxes.size(); ++rank)
@@ -240,9 +243,9 @@ namespace Touchstone
           pair.parameters().initial_overlap != ContactPairParameters::Overlap::interference)
         left_out.insert(std::minmax(pair.slave_body(), pair.master_body()));
 
-    const auto                      surfaces = own_surfaces(solid, u, bodies);
+    auto                            surfaces = own_surfaces(solid, u, bodies);
     const std::vector<SurfacePoint> points =
-      points_around(surfaces.first, surfaces.second, solid.communicator);
+      points_around(std::move(surfaces.first), surfaces.second, solid.communicator);
 
     // Of each two bodies, in an order that does not depend on the partition.
     std::vector<BodyOverlap> all =

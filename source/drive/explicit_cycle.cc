@@ -80,8 +80,9 @@ namespace Touchstone
   {
     // Central differences with cycles of different length: the velocities are those in the middle.
     const double between = 0.5 * (now.length + length);
-    v_before             = now.v;
-    support_before       = now.support;
+    if (!v_before.empty())
+      v_before = now.v;
+    support_before = now.support;
     for (unsigned int i = 0; i < map.n_owned(); ++i)
       now.v[i] += between / cells.masses()[i] * now.force(i);
     // Damping with the mean of the velocities before and after, which is stable for any factor.

@@ -37,10 +37,11 @@ namespace Touchstone
   ExplicitStep::find_assembled_step(const double of_cells)
   {
     double size = std::numeric_limits<double>::max();
-    for (const NodeMap::Cell &cell : map.cells())
+    for (unsigned int c = 0; c < map.cells().size(); ++c)
       for (unsigned int axis = 0; axis < dim; ++axis)
         size = std::min(
-          size, (map.positions()[cell.nodes[1U << axis]] - map.positions()[cell.nodes[0]]).norm());
+          size,
+          (map.positions()[map.nodes(c)[1U << axis]] - map.positions()[map.nodes(c)[0]]).norm());
     size = Utilities::MPI::min(size, solid.communicator);
     const NodeField at_rest(map.n_local());
     NodeField       viscous(map.n_local());

@@ -63,7 +63,7 @@ namespace Touchstone
         impulses = std::make_unique<ImpulseContact>(
           contact, scene.contact, map, scene.bodies, scene.obstacles, std::move(general));
       }
-    for (NodeField *field : {&now.u, &now.v, &now.internal, &now.viscous, &v_before})
+    for (NodeField *field : {&now.u, &now.v, &now.internal, &now.viscous})
       field->resize(map.n_local());
     now.support.resize(supports.nodes().size());
     support_impulse.resize(supports.nodes().size());
@@ -80,6 +80,8 @@ namespace Touchstone
     if (parameters.linear_viscosity > 0. || parameters.quadratic_viscosity > 0.)
       work.viscous.resize(map.n_owned());
     work.damping.resize(damping.size());
+    if (impulses || !damping.empty() || !supports.nodes().empty())
+      v_before.resize(map.n_local());
     solid.keep_history_in(&cells);
   }
 

@@ -9,6 +9,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -160,13 +161,37 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Cells that a rank of an explicit run computes: those that have a node of its own. */
+    unsigned int
+    computed_cells(const Solid &solid)
+    {
+      unsigned int       result = 0;
+      std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+      for (const auto &cell : solid.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          ++result;
+        else if (!cell->is_artificial())
+          {
+            cell->get_dof_indices(dofs);
+            result += std::any_of(dofs.begin(), dofs.end(), [&](const Index dof) {
+              return solid.owned.is_element(dof);
+            });
+          }
+      return result;
+    }
+  } // namespace
+
+
+
   void
   Simulation::measure_balance()
   {
     // Counts of work per rank and their largest value over the mean: unlike seconds they do not
     // depend on the machine or its load.
-    const ContactCounts work = contact_counts(problem->state().contact);
-    const std::vector<std::pair<std::string, double>> counts = {
+    const ContactCounts                         work   = contact_counts(problem->state().contact);
+    std::vector<std::pair<std::string, double>> counts = {
       {"cells", forest.triangulation.n_locally_owned_active_cells()},
       {"unknowns", solid.owned.n_elements()},
       {"neighbours", forest.triangulation.ghost_owners().size()},
@@ -175,6 +200,8 @@ namespace Touchstone
       {"search_candidates", work.search.candidates},
       {"search_messages", work.search.messages},
       {"search_faces_sent", work.search.faces_sent}};
+    if (scene.time_integration.runs_in_cycles())
+      counts.insert(counts.begin() + 1, {"cells_computed", computed_cells(solid)});
     summary.balance.clear();
     for (const auto &[phase, mine] : counts)
       {

@@ -112,6 +112,48 @@ namespace Touchstone
 
 
   TOUCHSTONE_VECTORISED void
+  BlockKernels::set_nodal_volumes(const BlockNodes &nodes,
+                                  const double     *positions,
+                                  double (*volumes)[n_lanes])
+  {
+    // Gauss's rule of two points is exact. With the coordinates -1 to 1 a shape is an eighth of the
+    // sum of the modes times their signs at its node, and a mode at a point is its sign there times
+    // a power of the coordinate: sums of the determinants with these signs give all integrals.
+    constexpr double g = 0.577350269189625764509149;
+    Vectors          x[sum_count];
+    set_positions(nodes, positions, nullptr, x);
+    Lanes modes[sum_count] = {}, mean = {};
+    for (unsigned int q = 0; q < corner_count; ++q)
+      {
+        Vectors J[dim];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            // Mode d is linear, dim + d and dim + f the products with the next and with the last
+            // coordinate, and the last one that of all.
+            const unsigned int e = (d + 1) % dim, f = (d + 2) % dim;
+            const double       y = OnePointBlock::sign(e, q) * g, z = OnePointBlock::sign(f, q) * g;
+            for (unsigned int i = 0; i < dim; ++i)
+              J[d].c[i] =
+                x[d].c[i] + y * x[dim + d].c[i] + z * x[dim + f].c[i] + (y * z) * x[2 * dim].c[i];
+          }
+        const Lanes determinant = dot(J[0], cross(J[1], J[2]));
+        mean += determinant;
+        for (unsigned int m = 0; m < sum_count; ++m)
+          modes[m] += double(OnePointBlock::sign(m, q)) * determinant;
+      }
+    // Derivatives are an eighth of the sums, so determinants 1/512.
+    constexpr double scale = 1. / (8. * 512.);
+    for (unsigned int m = 0; m < sum_count; ++m)
+      modes[m] *= scale * (m < dim ? g : m < 2 * dim ? g * g : g * g * g);
+    Lanes values[corner_count];
+    set_nodal_values(modes, values);
+    for (unsigned int a = 0; a < corner_count; ++a)
+      store(scale * mean + values[a], volumes[a]);
+  }
+
+
+
+  TOUCHSTONE_VECTORISED void
   BlockKernels::set_edge_rates(const BlockNodes &nodes,
                                const double     *positions,
                                const double     *u,

@@ -14,15 +14,62 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  BlockNodes
-  CellForces::block_nodes(const unsigned int first) const
+  const BlockNodes &
+  CellForces::block_nodes(const unsigned int first, BlockNodes &space) const
   {
-    BlockNodes result;
+    constexpr unsigned int last = n_lanes - 1;
+    static_assert(sizeof(BlockNodes) == n_lanes * sizeof(NodeMap::CellNodes));
+    // Numbers of cells ascend.
+    if (first + last < cells.size() && cells[first + last] == cells[first] + last)
+      return *reinterpret_cast<const BlockNodes *>(&nodes(first));
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
       {
-        const auto &nodes = cell(std::min<std::size_t>(first + lane, cells.size() - 1)).nodes;
-        std::copy(nodes.begin(), nodes.end(), result.of_cells[lane]);
+        const auto &of_cell = nodes(std::min<std::size_t>(first + lane, cells.size() - 1));
+        std::copy(of_cell.begin(), of_cell.end(), space.of_cells[lane]);
       }
+    return space;
+  }
+
+
+
+  void
+  CellForces::set_masses(const BlockNodes &nodes, double (*const masses)[n_lanes]) const
+  {
+    BlockKernels::set_nodal_volumes(nodes, numbers_of(map.positions()), masses);
+    for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        masses[a][lane] *= body.material.density;
+  }
+
+
+
+  void
+  CellForces::add_masses(const std::vector<double> &factors, std::vector<double> &nodal_mass) const
+  {
+    BlockNodes space;
+    double     masses[NodeMap::nodes_per_cell][n_lanes];
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        if (c % n_lanes == 0)
+          set_masses(block_nodes(c, space), masses);
+        for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+          nodal_mass[nodes(c)[a]] += (factors.empty() ? 1. : factors[c]) * masses[a][c % n_lanes];
+      }
+  }
+
+
+
+  CellForces::NodalMasses
+  CellForces::masses(const unsigned int c) const
+  {
+    // The arithmetic of a lane does not depend on the others.
+    const unsigned int first = c / n_lanes * n_lanes;
+    BlockNodes         space;
+    double             of_block[NodeMap::nodes_per_cell][n_lanes];
+    set_masses(block_nodes(first, space), of_block);
+    NodalMasses result;
+    for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
+      result[a] = of_block[a][c - first];
     return result;
   }
 
@@ -33,12 +80,17 @@ namespace Touchstone
   {
     const double *const       present = body.material.finite_strain() ? numbers_of(u) : nullptr;
     BlockKernels::Derivatives unused;
+    BlockNodes                space;
     double                    rate[n_lanes];
     result.resize(cells.size());
     for (unsigned int first = 0; first < cells.size(); first += n_lanes)
       {
-        BlockKernels::set_volume_rates(
-          block_nodes(first), numbers_of(map.positions()), present, numbers_of(v), rate, unused);
+        BlockKernels::set_volume_rates(block_nodes(first, space),
+                                       numbers_of(map.positions()),
+                                       present,
+                                       numbers_of(v),
+                                       rate,
+                                       unused);
         std::copy_n(rate, std::min<std::size_t>(n_lanes, cells.size() - first), &result[first]);
       }
   }
@@ -50,12 +102,16 @@ namespace Touchstone
                              const NodeField     &v,
                              std::vector<double> &result) const
   {
-    double square[n_lanes];
+    double     square[n_lanes];
+    BlockNodes space;
     result.resize(cells.size());
     for (unsigned int first = 0; first < cells.size(); first += n_lanes)
       {
-        BlockKernels::set_edge_rates(
-          block_nodes(first), numbers_of(map.positions()), numbers_of(u), numbers_of(v), square);
+        BlockKernels::set_edge_rates(block_nodes(first, space),
+                                     numbers_of(map.positions()),
+                                     numbers_of(u),
+                                     numbers_of(v),
+                                     square);
         std::copy_n(square, std::min<std::size_t>(n_lanes, cells.size() - first), &result[first]);
       }
   }
@@ -63,21 +119,19 @@ namespace Touchstone
 
 
   void
-  CellForces::set_one_point_frequencies(const NodeField                &u,
-                                        const std::vector<NodalMasses> &masses,
-                                        std::vector<double>            &result) const
+  CellForces::set_one_point_frequencies(const NodeField &u, std::vector<double> &result) const
   {
     const double *const present = body.material.finite_strain() ? numbers_of(u) : nullptr;
-    double of_nodes[NodeMap::nodes_per_cell][n_lanes], volume[n_lanes], mobility[2 * dim][n_lanes];
+    double masses[NodeMap::nodes_per_cell][n_lanes], volume[n_lanes], mobility[2 * dim][n_lanes];
+    BlockNodes space;
     result.resize(cells.size());
     for (unsigned int first = 0; first < cells.size(); first += n_lanes)
       {
         const unsigned int n_used = std::min<std::size_t>(n_lanes, cells.size() - first);
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
-          for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-            of_nodes[a][lane] = masses[first + std::min(lane, n_used - 1)][a];
+        const BlockNodes  &nodes  = block_nodes(first, space);
+        set_masses(nodes, masses);
         BlockKernels::set_mobilities(
-          block_nodes(first), numbers_of(map.positions()), present, of_nodes, volume, mobility);
+          nodes, numbers_of(map.positions()), present, masses, volume, mobility);
         for (unsigned int lane = 0; lane < n_used; ++lane)
           {
             SymmetricTensor<2, dim> G;
@@ -103,10 +157,11 @@ namespace Touchstone
       return;
     const double *const       present = body.material.finite_strain() ? numbers_of(u) : nullptr;
     BlockKernels::Derivatives derivatives;
+    BlockNodes                space;
     double rate[n_lanes], periods[n_lanes], forces[dim * NodeMap::nodes_per_cell][n_lanes];
     for (unsigned int first = 0; first < cells.size(); first += n_lanes)
       {
-        const BlockNodes   nodes  = block_nodes(first);
+        const BlockNodes  &nodes  = block_nodes(first, space);
         const unsigned int n_used = std::min<std::size_t>(n_lanes, cells.size() - first);
         for (unsigned int lane = 0; lane < n_lanes; ++lane)
           periods[lane] = bulk->periods[first + std::min(lane, n_used - 1)];

@@ -38,13 +38,13 @@ namespace Touchstone
     // The cells at each node, all of them at owned ones.
     std::vector<std::vector<unsigned int>> cells_of(map.n_owned());
     for (unsigned int c = 0; c < map.cells().size(); ++c)
-      for (const unsigned int node : map.cells()[c].nodes)
+      for (const unsigned int node : map.nodes(c))
         if (node < map.n_owned())
           cells_of[node].push_back(c);
     const auto volume_behind = [&](const Face &face, const unsigned int node) {
       for (const unsigned int c : cells_of[node])
         {
-          const auto &nodes = map.cells()[c].nodes;
+          const auto &nodes = map.nodes(c);
           bool        here  = true;
           for (unsigned int m = 0; m < face.n_nodes(); ++m)
             here = here && std::find(nodes.begin(), nodes.end(), map.local(dim * face.nodes[m])) !=
@@ -52,7 +52,7 @@ namespace Touchstone
           if (here)
             {
               Hexahedron cell;
-              cell.reinit(corners(map, map.cells()[c]));
+              cell.reinit(corners(map, nodes));
               return cell.volume();
             }
         }

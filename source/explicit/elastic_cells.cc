@@ -38,7 +38,7 @@ namespace Touchstone
     CellStiffness one(body.element(), body.material);
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
-        one.reinit(corners(map, cell(c)));
+        one.reinit(corners(map, nodes(c)));
         // The symmetric part: the condensation of modes leaves round-off.
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
@@ -59,12 +59,10 @@ namespace Touchstone
     double x[n], y[n];
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
-        const NodeMap::Cell &one = cell(c);
-        for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            x[dim * a + d] = u[one.nodes[a]][d];
+        for (unsigned int i = 0; i < n; ++i)
+          x[i] = u[nodes(c)[i / dim]][i % dim];
         multiply(&stiffness[c * n * n], x, y);
-        subtract(one, y, force);
+        subtract(nodes(c), y, force);
       }
     subtract_viscosity(u, v, bulk, viscous);
     return numbers::invalid_unsigned_int;
@@ -77,10 +75,10 @@ namespace Touchstone
   {
     double x[n], y[n];
     for (unsigned int c = 0; c < cells.size(); ++c)
-      if (const NodeMap::Cell &one = cell(c); one.owned)
+      if (cell(c).owned)
         {
           for (unsigned int i = 0; i < n; ++i)
-            x[i] = u[one.nodes[i / dim]][i % dim];
+            x[i] = u[nodes(c)[i / dim]][i % dim];
           multiply(&stiffness[c * n * n], x, y);
           double sum = 0.;
           for (unsigned int i = 0; i < n; ++i)
@@ -92,16 +90,14 @@ namespace Touchstone
 
 
   void
-  ElasticCells::square_frequencies(const NodeField & /*u*/,
-                                   const std::vector<NodalMasses> &masses,
-                                   std::vector<double>            &result)
+  ElasticCells::square_frequencies(const NodeField & /*u*/, std::vector<double> &result)
   {
     if (exact.size() != cells.size())
       for (unsigned int c = 0; c < cells.size(); ++c)
         exact.push_back(
           largest_eigenvalue([&](const unsigned int i,
                                  const unsigned int j) { return stiffness[(c * n + i) * n + j]; },
-                             masses[c]));
+                             masses(c)));
     result = exact;
   }
 } // namespace Touchstone

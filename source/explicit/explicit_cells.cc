@@ -35,7 +35,6 @@ namespace Touchstone
     : map(map)
     , bodies(bodies)
     , parameters(parameters)
-    , cell_masses(bodies.size())
     , factors(bodies.size())
     , periods(bodies.size())
     , nodal_mass(map.n_local())
@@ -45,25 +44,12 @@ namespace Touchstone
     for (const NodeMap::Cell &cell : map.cells())
       ++n_cells[cell.body];
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      {
-        cells[b].reserve(n_cells[b]);
-        cell_masses[b].reserve(n_cells[b]);
-      }
-    Hexahedron shapes;
+      cells[b].reserve(n_cells[b]);
     for (unsigned int c = 0; c < map.cells().size(); ++c)
-      {
-        const NodeMap::Cell &cell = map.cells()[c];
-        cells[cell.body].push_back(c);
-        shapes.reinit(corners(map, cell));
-        CellForces::NodalMasses masses;
-        for (unsigned int a = 0; a < Hexahedron::n_nodes; ++a)
-          masses[a] = bodies[cell.body].material.density * shapes.nodal_volume(a);
-        cell_masses[cell.body].push_back(masses);
-      }
+      cells[map.cells()[c].body].push_back(c);
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         of_bodies.push_back(CellForces::make(map, cells[b], bodies[b]));
-        factors[b].assign(cells[b].size(), 1.);
         for (unsigned int c = 0; c < cells[b].size() && of_bodies[b]->history() != nullptr; ++c)
           {
             const unsigned int number = map.cells()[cells[b][c]].index;
@@ -82,12 +68,7 @@ namespace Touchstone
   {
     std::fill(nodal_mass.begin(), nodal_mass.end(), 0.);
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      for (unsigned int c = 0; c < factors[b].size(); ++c)
-        {
-          const NodeMap::Cell &cell = map.cells()[of_bodies[b]->cell_numbers()[c]];
-          for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
-            nodal_mass[cell.nodes[a]] += factors[b][c] * cell_masses[b][c][a];
-        }
+      of_bodies[b]->add_masses(factors[b], nodal_mass);
     map.update_ghosts(nodal_mass);
   }
 
@@ -96,13 +77,14 @@ namespace Touchstone
   CellPlace
   ExplicitCells::place(const unsigned int body, const unsigned int c) const
   {
-    const NodeMap::Cell &cell = map.cells()[of_bodies[body]->cell_numbers()[c]];
-    CellPlace            result;
-    result.key  = cell.key;
+    const unsigned int        number = of_bodies[body]->cell_numbers()[c];
+    const NodeMap::CellNodes &nodes  = map.nodes(number);
+    CellPlace                 result;
+    result.key  = map.cells()[number].key;
     result.body = body;
     for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
       for (unsigned int d = 0; d < dim; ++d)
-        result.position[d] += 0.125 * map.positions()[cell.nodes[a]][d];
+        result.position[d] += 0.125 * map.positions()[nodes[a]][d];
     return result;
   }
 

@@ -19,9 +19,9 @@ namespace Touchstone
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
-        of_bodies[b]->square_frequencies(u, cell_masses[b], periods[b]);
-        for (unsigned int c = 0; c < factors[b].size(); ++c)
-          periods[b][c] = std::sqrt(factors[b][c] / periods[b][c]);
+        of_bodies[b]->square_frequencies(u, periods[b]);
+        for (unsigned int c = 0; c < periods[b].size(); ++c)
+          periods[b][c] = std::sqrt((factors[b].empty() ? 1. : factors[b][c]) / periods[b][c]);
       }
   }
 
@@ -106,12 +106,13 @@ namespace Touchstone
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const std::vector<double> steps = steps_of(b, u, rest);
+        factors[b].resize(steps.size());
         for (unsigned int c = 0; c < steps.size(); ++c)
           {
             const double step = parameters.courant_factor * steps[c];
             factors[b][c]     = std::max(1., std::pow(parameters.mass_scaling_step / step, 2));
             if (map.cells()[of_bodies[b]->cell_numbers()[c]].owned)
-              for (const double mass : cell_masses[b][c])
+              for (const double mass : of_bodies[b]->masses(c))
                 {
                   total.add(mass);
                   added.add((factors[b][c] - 1.) * mass);

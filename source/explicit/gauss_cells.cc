@@ -33,11 +33,11 @@ namespace Touchstone
       for (unsigned int lane = 0; lane < GaussBlock::n_cells; ++lane)
         {
           // The last block is filled with copies, whose results are dropped.
-          const NodeMap::Cell &one =
-            cell(std::min<unsigned int>(b * GaussBlock::n_cells + lane, cells.size() - 1));
-          shapes.reinit(corners(map, one));
+          const NodeMap::CellNodes &of_cell =
+            nodes(std::min<unsigned int>(b * GaussBlock::n_cells + lane, cells.size() - 1));
+          shapes.reinit(corners(map, of_cell));
           for (unsigned int a = 0; a < GaussBlock::n_nodes; ++a)
-            blocks[b].nodes[lane][a] = one.nodes[a];
+            blocks[b].nodes[lane][a] = of_cell[a];
           for (unsigned int q = 0; q < GaussBlock::n_points; ++q)
             {
               const Tensor<2, dim> inverse = shapes.inverse_jacobian(q);

@@ -155,14 +155,14 @@ namespace Touchstone
 
 
   Hexahedron::Corners
-  corners(const NodeMap &map, const NodeMap::Cell &cell, const NodeField *u)
+  corners(const NodeMap &map, const NodeMap::CellNodes &nodes, const NodeField *u)
   {
     Hexahedron::Corners result;
     for (unsigned int a = 0; a < Hexahedron::n_nodes; ++a)
       {
-        result[a] = map.positions()[cell.nodes[a]];
+        result[a] = map.positions()[nodes[a]];
         if (u != nullptr)
-          result[a] += (*u)[cell.nodes[a]];
+          result[a] += (*u)[nodes[a]];
       }
     return result;
   }

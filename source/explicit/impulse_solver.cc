@@ -159,7 +159,7 @@ namespace Touchstone
             collect_acting();
             set_normal_metric(control.relaxation);
             counts.converged = sweep_normal(control, tolerance, counts);
-            apply_normal(&NormalRow::impulse);
+            finish_normal();
           }
         else
           {
@@ -177,7 +177,8 @@ namespace Touchstone
             apply(present);
           }
         for (const std::size_t k : near)
-          rows[k].velocity = relative_velocity(rows[k]);
+          if (!(along_normals && active[k]))
+            rows[k].velocity = relative_velocity(rows[k]);
         more = !control.one_sweep && counts.sweeps < control.sweeps && activate(tolerance);
       }
     if (counts.rounds > 0 && !counts.converged && !control.one_sweep)

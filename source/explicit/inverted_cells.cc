@@ -11,12 +11,13 @@ namespace Touchstone
   {
     Hexahedron shape;
     CellPlace  result;
-    for (const NodeMap::Cell &cell : map.cells())
-      if (cell.owned && !(shape.reinit(corners(map, cell, &u)) > 0.))
+    for (unsigned int c = 0; c < map.cells().size(); ++c)
+      if (const NodeMap::Cell &cell = map.cells()[c];
+          cell.owned && !(shape.reinit(corners(map, map.nodes(c), &u)) > 0.))
         {
           result.key  = cell.key;
           result.body = cell.body;
-          for (const unsigned int node : cell.nodes)
+          for (const unsigned int node : map.nodes(c))
             for (unsigned int d = 0; d < dim; ++d)
               result.position[d] += map.positions()[node][d] / NodeMap::nodes_per_cell;
           break;

@@ -52,13 +52,13 @@ namespace Touchstone
   double
   KernelCells::go_to(const unsigned int c, const NodeField &u)
   {
-    double               positions[n_unknowns], displacement[n_unknowns];
-    const NodeMap::Cell &one = cell(c);
+    double                    positions[n_unknowns], displacement[n_unknowns];
+    const NodeMap::CellNodes &of_cell = nodes(c);
     for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
       for (unsigned int d = 0; d < dim; ++d)
         {
-          positions[dim * a + d]    = map.positions()[one.nodes[a]][d];
-          displacement[dim * a + d] = u[one.nodes[a]][d];
+          positions[dim * a + d]    = map.positions()[of_cell[a]][d];
+          displacement[dim * a + d] = u[of_cell[a]][d];
         }
     states.get(c, before.data());
     return kernel->reinit(positions, displacement, before.data());
@@ -83,7 +83,7 @@ namespace Touchstone
             failed = std::min(failed, c);
             continue;
           }
-        subtract(cell(c), kernel->force(), force);
+        subtract(nodes(c), kernel->force(), force);
         if (!kernel->solved())
           failed = std::min(failed, c);
         states.put(c, kernel->present().data());
@@ -114,15 +114,13 @@ namespace Touchstone
 
 
   void
-  KernelCells::square_frequencies(const NodeField                &u,
-                                  const std::vector<NodalMasses> &masses,
-                                  std::vector<double>            &result)
+  KernelCells::square_frequencies(const NodeField &u, std::vector<double> &result)
   {
     // The tangent of a law without history; with history, where cells that flow or relax are softer
     // than when they unload, the elastic stiffness of the present shape. It is costly, and scaled
     // by an estimate from the shape alone until that has changed by this part.
     constexpr double change = 0.02;
-    set_one_point_frequencies(u, masses, result);
+    set_one_point_frequencies(u, result);
     if (exact.empty())
       {
         exact.resize(cells.size());
@@ -136,10 +134,10 @@ namespace Touchstone
           {
             if (kernel->material()->stiffest_at_rest())
               {
-                elastic.reinit(corners(map, cell(c), small ? nullptr : &u));
+                elastic.reinit(corners(map, nodes(c), small ? nullptr : &u));
                 exact[c] = largest_eigenvalue([&](const unsigned int i,
                                                   const unsigned int j) { return elastic(i, j); },
-                                              masses[c]);
+                                              masses(c));
               }
             else if (go_to(c, u) > 0.)
               {
@@ -147,7 +145,7 @@ namespace Touchstone
                 exact[c] =
                   largest_eigenvalue([&](const unsigned int i,
                                          const unsigned int j) { return K[n_unknowns * i + j]; },
-                                     masses[c]);
+                                     masses(c));
               }
             estimate[c] = now;
           }

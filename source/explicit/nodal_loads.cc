@@ -44,9 +44,9 @@ namespace Touchstone
       for (const auto &cell : solid.dof_handler.active_cell_iterators())
         by_index[cell->active_cell_index()] = cell;
       std::vector<LoadedFace> result;
-      for (const NodeMap::Cell &one : map.cells())
+      for (unsigned int c = 0; c < map.cells().size(); ++c)
         {
-          const auto &cell = by_index[one.index];
+          const auto &cell = by_index[map.cells()[c].index];
           for (const unsigned int f : cell->face_indices())
             if (cell->at_boundary(f))
               {
@@ -57,7 +57,7 @@ namespace Touchstone
                 const unsigned int d = f / 2, e = (d + 1) % dim, g = (d + 2) % dim;
                 for (unsigned int k = 0; k < 4; ++k)
                   face.nodes[k] =
-                    one.nodes[((f % 2) << d) | ((k & 1) << e) | (((k >> 1) & 1) << g)];
+                    map.nodes(c)[((f % 2) << d) | ((k & 1) << e) | (((k >> 1) & 1) << g)];
                 face.sign = f % 2 == 1 ? 1. : -1.;
                 result.push_back(face);
               }
@@ -130,16 +130,16 @@ namespace Touchstone
         if (functions[body][d])
           {
             std::vector<LoadPoint> points;
-            for (const NodeMap::Cell &cell : map.cells())
-              if (cell.body == body)
+            for (unsigned int c = 0; c < map.cells().size(); ++c)
+              if (map.cells()[c].body == body)
                 {
-                  const auto x = corners(map, cell);
+                  const auto x = corners(map, map.nodes(c));
                   shapes.reinit(x);
                   for (unsigned int q = 0; q < Hexahedron::n_points; ++q)
                     {
                       LoadPoint point;
                       point.n_nodes      = Hexahedron::n_nodes;
-                      point.nodes        = cell.nodes;
+                      point.nodes        = map.nodes(c);
                       point.direction[d] = shapes.weight(q);
                       for (unsigned int a = 0; a < Hexahedron::n_nodes; ++a)
                         {

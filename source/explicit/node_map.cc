@@ -81,14 +81,9 @@ namespace Touchstone
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
+          bool used = cell->is_locally_owned();
           cell->get_dof_indices(dofs);
-          Found one{{key_of(cell->id()),
-                     cell->active_cell_index(),
-                     cell->material_id(),
-                     cell->is_locally_owned(),
-                     {}},
-                    {}};
-          bool  used = one.cell.owned;
+          Found one{{key_of(cell->id()), cell->active_cell_index(), cell->material_id(), used}, {}};
           for (unsigned int a = 0; a < nodes_per_cell; ++a)
             {
               one.dofs[a] = dofs[solid.fe.component_to_system_index(0, a)];
@@ -176,16 +171,19 @@ namespace Touchstone
     std::sort(local_numbers.begin(), local_numbers.end());
 
     reference.resize(first_dofs.size());
+    nodes_of_cells.resize(dofs.size());
     for (std::size_t c = 0; c < dofs.size(); ++c)
       for (unsigned int a = 0; a < nodes_per_cell; ++a)
-        all_cells[c].nodes[a] = local(dofs[c][a]);
-    std::vector<const Cell *> by_index(solid.dof_handler.get_triangulation().n_active_cells());
-    for (const Cell &cell : all_cells)
-      by_index[cell.index] = &cell;
-    for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (const Cell *one = by_index[cell->active_cell_index()])
+        nodes_of_cells[c][a] = local(dofs[c][a]);
+    const Triangulation<dim> &mesh = solid.dof_handler.get_triangulation();
+    std::vector<unsigned int> by_index(mesh.n_active_cells(), numbers::invalid_unsigned_int);
+    for (unsigned int c = 0; c < all_cells.size(); ++c)
+      by_index[all_cells[c].index] = c;
+    for (const auto &cell : mesh.active_cell_iterators())
+      if (const unsigned int c = by_index[cell->active_cell_index()];
+          c != numbers::invalid_unsigned_int)
         for (unsigned int a = 0; a < nodes_per_cell; ++a)
-          reference[one->nodes[a]] = cell->vertex(a);
+          reference[nodes_of_cells[c][a]] = cell->vertex(a);
     plan_messages(owners);
     // Positions agree on all ranks already. Keys of ghosts:
     exchange(keys.data(), sizeof(keys[0]));

@@ -18,52 +18,74 @@ namespace Touchstone
     std::vector<unsigned char> acts(rows.size(), 0);
     for (const std::size_t k : near)
       acts[k] = active[k];
-    entries.clear();
-    acting.clear();
+    normal_rows.clear();
+    const bool alone = nodes.alone();
     for (const std::size_t k : by_key)
       if (acts[k])
         {
           const ImpulseRow &row     = rows[k];
           const double      impulse = row.impulse * row.normal;
-          acting.push_back({k,
-                            entries.size(),
-                            row.allowed * row.normal,
-                            row.drive * row.normal,
-                            0.,
-                            impulse,
-                            impulse,
-                            impulse});
+          normal_rows.rows.push_back({k,
+                                      normal_rows.entries.size(),
+                                      row.allowed * row.normal,
+                                      row.drive * row.normal,
+                                      0.,
+                                      impulse,
+                                      impulse,
+                                      impulse});
+          const auto add =
+            [&](const Tensor<1, dim> &c, const double norm, const unsigned int slot) {
+              normal_rows.add(c, norm, nodes.node(slot));
+              if (!alone)
+                normal_rows.slots.push_back(slot);
+            };
           std::size_t s = row.first;
           for (const std::size_t end = s + row.n_nodes; s < end; ++s)
-            {
-              const unsigned int slot = order[s];
-              entries.push_back({weights[slot] * row.normal, nodes.node(slot), slot});
-            }
+            add(weights[order[s]] * row.normal, std::abs(weights[order[s]]), order[s]);
           if (row.levered)
             for (const std::size_t end = s + row.n_lever; s < end; ++s)
-              entries.push_back({on_normals[s], nodes.node(s), static_cast<unsigned int>(s)});
+              add(on_normals[s], on_normals[s].norm(), s);
         }
-    acting.push_back({0, entries.size(), 0., 0., 0., 0., 0., 0.});
+    normal_rows.rows.push_back({0, normal_rows.entries.size(), 0., 0., 0., 0., 0., 0.});
+    normal_rows.set_nodes(free, mobility);
   }
 
 
 
-  template <class Value>
   void
-  ImpulseSolver::sum_entries(const Value &of_entry)
+  ImpulseSolver::sum_shared_entries(double NormalRows::Row::*const impulse)
   {
-    std::fill(sums.begin(), sums.end(), Tensor<1, dim>());
-    const bool alone = nodes.alone();
-    for (std::size_t i = 0; i + 1 < acting.size(); ++i)
-      for (std::size_t e = acting[i].first; e < acting[i + 1].first; ++e)
-        {
-          const Tensor<1, dim> value = of_entry(acting[i], entries[e]);
-          sums[entries[e].node] += value;
-          if (!alone)
-            at_slots[entries[e].slot] = value;
-        }
-    if (!alone)
-      nodes.sum_shared(at_slots, sums);
+    if (nodes.alone())
+      return;
+    for (unsigned int i = 0; i < normal_rows.size(); ++i)
+      for (std::size_t e = normal_rows.rows[i].first; e < normal_rows.rows[i + 1].first; ++e)
+        for (unsigned int d = 0; d < dim; ++d)
+          at_slots[normal_rows.slots[e]][d] =
+            normal_rows.rows[i].*impulse * normal_rows.entries[e].c[d];
+    nodes.sum_shared(at_slots, sums);
+    for (const unsigned int node : nodes.shared_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        normal_rows.sums[node].c[d] = sums[node][d];
+  }
+
+
+
+  void
+  ImpulseSolver::sum_shared_sizes()
+  {
+    if (nodes.alone())
+      return;
+    for (std::size_t e = 0; e < normal_rows.entries.size(); ++e)
+      {
+        at_slots[normal_rows.slots[e]]    = Tensor<1, dim>();
+        at_slots[normal_rows.slots[e]][0] = normal_rows.entries[e].c[3];
+      }
+    for (unsigned int node = 0; node < nodes.n_owned(); ++node)
+      sums[node][0] = normal_rows.sums[node].c[3];
+    nodes.sum_shared(at_slots, sums);
+    nodes.forward(sums);
+    for (unsigned int node = 0; node < nodes.n(); ++node)
+      normal_rows.sums[node].c[3] = sums[node][0];
   }
 
 
@@ -72,39 +94,45 @@ namespace Touchstone
   void
   ImpulseSolver::set_normal_metric(const double relaxation)
   {
-    sum_entries([](const NormalRow &, const NormalEntry &entry) {
-      Tensor<1, dim> size;
-      size[0] = entry.c.norm();
-      return size;
-    });
-    nodes.forward(sums);
-    for (std::size_t i = 0; i + 1 < acting.size(); ++i)
+    normal_rows.sum_sizes();
+    sum_shared_sizes();
+    normal_rows.set_bounds(immobile, relaxation);
+    for (unsigned int i = 0; i < normal_rows.size(); ++i)
       {
-        double along = 0., whole = 0.;
-        for (std::size_t e = acting[i].first; e < acting[i + 1].first; ++e)
-          if (const double size = entries[e].c.norm(); size > 0.)
-            {
-              const auto  &m    = mobility[entries[e].node];
-              const double part = sums[entries[e].node][0];
-              along += part / size * (entries[e].c * (m * entries[e].c));
-              whole += part * size * m.norm();
-            }
-        acting[i].mobility           = along > immobile * whole ? along / relaxation : 0.;
-        metric[acting[i].row]        = Metric();
-        metric[acting[i].row].normal = acting[i].mobility;
+        metric[normal_rows.rows[i].row]        = Metric();
+        metric[normal_rows.rows[i].row].normal = normal_rows.rows[i].mobility;
       }
   }
 
 
 
   void
-  ImpulseSolver::apply_normal(double NormalRow::*const impulse)
+  ImpulseSolver::apply_normal(double NormalRows::Row::*const impulse)
   {
-    sum_entries(
-      [impulse](const NormalRow &row, const NormalEntry &entry) { return row.*impulse * entry.c; });
-    for (unsigned int node = 0; node < nodes.n_owned(); ++node)
-      velocity[node] = free[node] + mobility[node] * sums[node];
-    nodes.forward(velocity);
+    normal_rows.sum(impulse);
+    sum_shared_entries(impulse);
+    normal_rows.move(nodes.n_owned());
+    if (!nodes.alone())
+      nodes.forward(normal_rows.velocity);
+  }
+
+
+
+  void
+  ImpulseSolver::finish_normal()
+  {
+    apply_normal(&NormalRows::Row::impulse);
+    for (unsigned int node = 0; node < nodes.n(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          sums[node][d]     = normal_rows.sums[node].c[d];
+          velocity[node][d] = normal_rows.velocity[node].c[d];
+        }
+    for (unsigned int i = 0; i < normal_rows.size(); ++i)
+      {
+        ImpulseRow &row = rows[normal_rows.rows[i].row];
+        row.velocity = (normal_rows.relative_velocity(i) - normal_rows.rows[i].drive) * row.normal;
+      }
   }
 
 
@@ -112,11 +140,12 @@ namespace Touchstone
   void
   ImpulseSolver::put_impulses()
   {
-    for (std::size_t i = 0; i + 1 < acting.size(); ++i)
+    for (unsigned int i = 0; i < normal_rows.size(); ++i)
       {
-        ImpulseRow &row = rows[acting[i].row];
-        row.impulse     = acting[i].impulse * row.normal;
-        row.blocked     = !(acting[i].mobility > 0.);
+        const NormalRows::Row &of  = normal_rows.rows[i];
+        ImpulseRow            &row = rows[of.row];
+        row.impulse                = of.impulse * row.normal;
+        row.blocked                = !(of.mobility > 0.);
       }
   }
 
@@ -125,9 +154,26 @@ namespace Touchstone
   void
   ImpulseSolver::take_impulses()
   {
-    for (NormalRow &row : acting)
-      row.impulse = row.extrapolated = row.present =
-        rows.empty() ? 0. : rows[row.row].impulse * rows[row.row].normal;
+    for (unsigned int i = 0; i < normal_rows.size(); ++i)
+      {
+        NormalRows::Row &row = normal_rows.rows[i];
+        row.impulse = row.extrapolated = row.present = rows[row.row].impulse * rows[row.row].normal;
+      }
+  }
+
+
+
+  bool
+  ImpulseSolver::turned(const double (&largest)[2]) const
+  {
+    // A power of two, so that scaling does not round.
+    const double bound = largest[0] * largest[1];
+    if (!(bound > 0.) || !std::isfinite(bound))
+      return false;
+    int exponent;
+    std::frexp(bound, &exponent);
+    return Utilities::MPI::sum(normal_rows.turn(std::ldexp(1., exponent)), nodes.communicator()) >
+           0;
   }
 
 
@@ -150,38 +196,21 @@ namespace Touchstone
             until    = between_explorations;
           }
         ++counts.sweeps;
-        apply_normal(&NormalRow::extrapolated);
-        double   change = 0.;
-        ExactSum turn;
-        for (std::size_t i = 0; i + 1 < acting.size(); ++i)
-          {
-            NormalRow &row    = acting[i];
-            double     excess = row.allowed - row.drive;
-            for (std::size_t e = row.first; e < acting[i + 1].first; ++e)
-              excess += entries[e].c * velocity[entries[e].node];
-            row.impulse =
-              row.mobility > 0. ? std::max(0., row.extrapolated - excess / row.mobility) : 0.;
-            const double step = row.impulse - row.extrapolated;
-            change            = std::max(change, row.mobility * std::abs(step));
-            turn.add(-row.mobility * step * (row.impulse - row.present));
-          }
-        change = Utilities::MPI::max(change, nodes.communicator());
+        apply_normal(&NormalRows::Row::extrapolated);
+        double here[2], largest[2];
+        normal_rows.improve(here);
+        Utilities::MPI::max(here, nodes.communicator(), largest);
         // As of sweeps over rows of all kinds: momentum that points uphill is dropped.
-        const bool done = change <= tolerance;
+        const bool done = largest[0] <= tolerance;
         if (done || control.one_sweep)
           {
             put_impulses();
             return done;
           }
-        const bool   uphill = !control.accelerate || turn.value(nodes.communicator()) > 0.;
+        const bool   uphill = !control.accelerate || turned(largest);
         const double next   = uphill ? 1. : 0.5 * (1. + std::sqrt(1. + 4. * momentum * momentum));
-        const double beta   = uphill ? 0. : (momentum - 1.) / next;
-        momentum            = next;
-        for (NormalRow &row : acting)
-          {
-            row.extrapolated = row.impulse + beta * (row.impulse - row.present);
-            row.present      = row.impulse;
-          }
+        normal_rows.extrapolate(uphill ? 0. : (momentum - 1.) / next);
+        momentum = next;
       }
     put_impulses();
     return false;

@@ -27,7 +27,6 @@ namespace Touchstone
     , law(body)
     , finite(law.finite_strain())
     , states(cells.size(), law.law(), 1)
-    , blocks((cells.size() + n_cells - 1) / n_cells)
   {
     const double factor = body.hourglass_factor();
     if (body.hourglass != BodyParameters::Hourglass::none)
@@ -45,14 +44,6 @@ namespace Touchstone
         control.damping = factor;
         control.density = body.material.density;
       }
-    for (unsigned int b = 0; b < blocks.size(); ++b)
-      for (unsigned int lane = 0; lane < n_cells; ++lane)
-        {
-          // The last block is filled with copies, whose results are dropped.
-          const NodeMap::Cell &one =
-            cell(std::min<unsigned int>(b * n_cells + lane, cells.size() - 1));
-          std::copy(one.nodes.begin(), one.nodes.end(), blocks[b].of_cells[lane]);
-        }
   }
 
 
@@ -60,8 +51,9 @@ namespace Touchstone
   const OnePointBlock &
   OnePointCells::block_of(const unsigned int c) const
   {
+    BlockNodes space;
     if (present != c / n_cells)
-      block.reinit(blocks[c / n_cells], numbers_of(map.positions()), control);
+      block.reinit(block_nodes(c / n_cells * n_cells, space), numbers_of(map.positions()), control);
     present = c / n_cells;
     return block;
   }
@@ -85,14 +77,15 @@ namespace Touchstone
     double       sums[dim * OnePointBlock::n_sums][n_cells], forces[dim * n_nodes][n_cells],
       gradient[dim * dim][n_cells], stress[dim * dim][n_cells], rates[dim * dim][n_cells],
       rate[n_cells], periods[n_cells];
-    for (unsigned int b = 0; b < blocks.size(); ++b)
+    BlockNodes space;
+    for (unsigned int first = 0; first < cells.size(); first += n_cells)
       {
-        const BlockNodes    &nodes  = blocks[b];
-        const unsigned int   first  = b * n_cells;
+        const BlockNodes    &nodes  = block_nodes(first, space);
         const unsigned int   n_used = std::min<unsigned int>(n_cells, cells.size() - first);
         const OnePointBlock &shapes = block_of(first);
         OnePointKernels::set_gradients(nodes, shapes, numbers_of(u), sums, gradient);
-        const unsigned int lane = law.respond(gradient, step, n_used, states.block(b), stress);
+        const unsigned int lane =
+          law.respond(gradient, step, n_used, states.block(first / n_cells), stress);
         if (lane < n_used)
           failed = std::min(failed, first + lane);
         OnePointKernels::set_forces(shapes, sums, gradient, stress, springs, forces);
@@ -125,10 +118,11 @@ namespace Touchstone
   {
     double sums[dim * OnePointBlock::n_sums][n_cells], gradient[dim * dim][n_cells],
       rates[dim * dim][n_cells], derivatives[dim * dim][n_cells], rate[n_cells];
+    BlockNodes space;
     result.resize(cells.size());
     for (unsigned int first = 0; first < cells.size(); first += n_cells)
       {
-        const BlockNodes    &nodes  = blocks[first / n_cells];
+        const BlockNodes    &nodes  = block_nodes(first, space);
         const OnePointBlock &shapes = block_of(first);
         if (finite)
           OnePointKernels::set_gradients(nodes, shapes, numbers_of(u), sums, gradient);
@@ -155,14 +149,13 @@ namespace Touchstone
   Tensor<2, dim>
   OnePointCells::displacement_gradient(const unsigned int c, const NodeField &u) const
   {
-    const OnePointBlock &of    = block_of(c);
-    const unsigned int   lane  = c % n_cells;
-    const auto          &nodes = cell(c).nodes;
+    const OnePointBlock &of   = block_of(c);
+    const unsigned int   lane = c % n_cells;
     Tensor<2, dim>       result;
     for (unsigned int a = 0; a < n_nodes; ++a)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
-          result[i][j] += u[nodes[a]][i] * of.gradient(a, j, lane);
+          result[i][j] += u[nodes(c)[a]][i] * of.gradient(a, j, lane);
     return result;
   }
 
@@ -180,7 +173,7 @@ namespace Touchstone
       {
         Tensor<1, dim> q, warp;
         for (unsigned int a = 0; a < n_nodes; ++a)
-          q += OnePointBlock::sign(dim + m, a) * u[cell(c).nodes[a]];
+          q += OnePointBlock::sign(dim + m, a) * u[nodes(c)[a]];
         for (unsigned int j = 0; j < dim; ++j)
           warp[j] = of.positions[dim * (dim + m) + j][lane];
         q -= H * warp;

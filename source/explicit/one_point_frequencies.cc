@@ -180,29 +180,37 @@ namespace Touchstone
 
 
   void
-  OnePointCells::square_frequencies(const NodeField                &u,
-                                    const std::vector<NodalMasses> &masses,
-                                    std::vector<double>            &result)
+  OnePointCells::square_frequencies(const NodeField &u, std::vector<double> &result)
   {
-    // See KernelCells::square_frequencies().
-    constexpr double change = 0.02;
-    estimate.resize(cells.size(), 0.);
-    exact.resize(cells.size(), 0.);
-    if (!finite && !estimate.empty() && estimate.front() > 0.)
+    if (!finite && !exact.empty())
       {
         result = exact;
         return;
       }
-    set_one_point_frequencies(u, masses, result);
+    set_one_point_frequencies(u, result);
+    if (!finite)
+      {
+        for (unsigned int c = 0; c < cells.size(); ++c)
+          {
+            // In boxes, most of all cells, both kinds of motion are orthogonal.
+            const NodalMasses m            = masses(c);
+            const auto [hourglass, cosine] = hourglass_frequency(c, m);
+            result[c] =
+              cosine > 1e-24 ? coupled_frequency(c, u, m) : std::max(result[c], hourglass);
+          }
+        exact = result;
+        return;
+      }
+    // See KernelCells::square_frequencies().
+    constexpr double change = 0.02;
+    estimate.resize(cells.size(), 0.);
+    exact.resize(cells.size(), 0.);
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
         const double now = result[c];
         if (!(std::abs(now / estimate[c] - 1.) < change))
           {
-            // In boxes of small strain, most of all cells, both kinds of motion are orthogonal.
-            const auto [hourglass, cosine] = hourglass_frequency(c, masses[c]);
-            exact[c]    = finite || cosine > 1e-24 ? coupled_frequency(c, u, masses[c])
-                                                   : std::max(now, hourglass);
+            exact[c]    = coupled_frequency(c, u, masses(c));
             estimate[c] = now;
           }
         result[c] = exact[c] * (now / estimate[c]);

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <unordered_map>
 
 // Partition of meshes that never change by recursive bisection of the coordinates: parts are
 // compact, which keeps the surfaces between ranks small, and balanced by the work of cells and
@@ -36,6 +37,41 @@ namespace Touchstone
       unsigned int number;
     };
 
+    /** What the ranks of a lower half compute of the upper one, all cells that share a vertex with
+     * theirs: the vertices of each cell by number, and the part of the work of such a cell. Without
+     * vertices it is nothing. */
+    struct Ghosts
+    {
+      std::vector<std::array<unsigned int, GeometryInfo<dim>::vertices_per_cell>> vertices;
+      double                                                                      part = 1.;
+
+      /** Work beyond a cut before each of these items, by their places. */
+      std::vector<double>
+      beyond(const std::vector<Item>::iterator begin, const std::vector<Item>::iterator end) const
+      {
+        std::vector<double> change(end - begin + 1, 0.);
+        if (vertices.empty())
+          return change;
+        std::unordered_map<unsigned int, std::ptrdiff_t> first;
+        for (auto item = begin; item != end; ++item)
+          for (const unsigned int v : vertices[item->number])
+            first.emplace(v, item - begin);
+        // An item lies beyond the cuts after the first one with a vertex of its own, up to itself.
+        for (auto item = begin; item != end; ++item)
+          {
+            std::ptrdiff_t least = item - begin;
+            for (const unsigned int v : vertices[item->number])
+              least = std::min(least, first.at(v));
+            change[least + 1] += part * item->work;
+            change[item - begin + 1] -= part * item->work;
+          }
+        std::partial_sum(change.begin(), change.end(), change.begin());
+        return change;
+      }
+    };
+
+
+
     /** Give the items from @p begin to @p end to @p n_ranks ranks from @p first on: cut across
      * the longest side of what they fill, and go on with the halves. */
     void
@@ -43,6 +79,7 @@ namespace Touchstone
            const std::vector<Item>::iterator end,
            const unsigned int                first,
            const unsigned int                n_ranks,
+           const Ghosts                     &ghosts,
            std::vector<unsigned int>        &rank)
     {
       if (n_ranks == 1 || begin == end)
@@ -74,17 +111,21 @@ namespace Touchstone
         total += item->work;
       // The cut is where the sum of work is nearest to the share of the lower ranks: a cell goes
       // to the lower half if its middle lies below the target. Ranks need not be a power of two.
-      const unsigned int n_lower = n_ranks / 2;
-      double             sum     = 0.;
-      auto               middle  = begin;
-      for (; middle != end && sum + 0.5 * middle->work < total * n_lower / n_ranks; ++middle)
-        sum += middle->work;
+      // What the lower half computes beyond counts for each of its ranks.
+      const unsigned int        n_lower = n_ranks / 2;
+      const std::vector<double> beyond  = ghosts.beyond(begin, end);
+      const double              share   = double(n_ranks - n_lower) / n_ranks;
+      double                    sum     = 0.;
+      auto                      middle  = begin;
+      while (middle != end &&
+             sum + 0.5 * middle->work + share * beyond[middle - begin] < total * n_lower / n_ranks)
+        sum += (middle++)->work;
       // Each rank gets at least one cell if there are enough, however uneven the work.
       if (const std::ptrdiff_t n_items = end - begin; n_items >= n_ranks)
         middle = begin +
                  std::clamp<std::ptrdiff_t>(middle - begin, n_lower, n_items - (n_ranks - n_lower));
-      bisect(begin, middle, first, n_lower, rank);
-      bisect(middle, end, first + n_lower, n_ranks - n_lower, rank);
+      bisect(begin, middle, first, n_lower, ghosts, rank);
+      bisect(middle, end, first + n_lower, n_ranks - n_lower, ghosts, rank);
     }
 
 
@@ -210,6 +251,7 @@ namespace Touchstone
                            const CellWork    &cell_work,
                            const CellWork    &contact_work,
                            const double       contact_weight,
+                           const bool         computes_ghosts,
                            const MPI_Comm     communicator)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator),
@@ -225,13 +267,23 @@ namespace Touchstone
     // cell work a contact face counts by 4^r / 8^r = 2^-r.
     const double      faces_of_cell = coarse_cells ? std::pow(0.5, refinements) : 1.;
     std::vector<Item> items;
+    Ghosts            ghosts;
+    ghosts.part = faces_of_cell; // one of 2^r layers of refined cells
     for (const auto &cell : whole.active_cell_iterators())
-      items.push_back({cell->center(),
-                       cell_work(cell) + faces_of_cell * contact_weight * contact_work(cell) /
-                                           ContactWork::slave_face,
-                       cell->active_cell_index()});
+      {
+        items.push_back({cell->center(),
+                         cell_work(cell) + faces_of_cell * contact_weight * contact_work(cell) /
+                                             ContactWork::slave_face,
+                         cell->active_cell_index()});
+        if (computes_ghosts)
+          {
+            ghosts.vertices.emplace_back();
+            for (const unsigned int v : cell->vertex_indices())
+              ghosts.vertices.back()[v] = cell->vertex_index(v);
+          }
+      }
     std::vector<unsigned int> rank(items.size());
-    bisect(items.begin(), items.end(), 0, n_ranks, rank);
+    bisect(items.begin(), items.end(), 0, n_ranks, ghosts, rank);
 
     TriangulationDescription::Description<dim, dim> description;
     const auto describe = [&](Triangulation<dim> &triangulation, const auto &rank_of) {

@@ -257,8 +257,13 @@ namespace Touchstone
     if (partitioner != Partitioner::p4est && Utilities::MPI::n_mpi_processes(communicator) == 1)
       return whole_mesh(all, level, communicator);
     if (partitioner == Partitioner::coordinates)
-      return partition_by_coordinates(
-        all, level, cell_work, work, parameters.contact_weight, communicator);
+      return partition_by_coordinates(all,
+                                      level,
+                                      cell_work,
+                                      work,
+                                      parameters.contact_weight,
+                                      input.computes_ghosts,
+                                      communicator);
     if (partitioner != Partitioner::p4est)
       return partition_by_graph(
         all, level, cell_work, work, partitioner == Partitioner::metis, communicator);

@@ -341,8 +341,9 @@ namespace Touchstone
   Scene::forest_input() const
   {
     ForestInput input;
-    input.discretisation = discretisation;
-    input.refines        = refinement.active();
+    input.discretisation  = discretisation;
+    input.refines         = refinement.active();
+    input.computes_ghosts = time_integration.runs_in_cycles();
     // Relative cost of a cell for the partitioning: nonlinear laws are evaluated in each iteration,
     // linear stiffness is assembled once per run.
     for (const BodyParameters &body : bodies)

@@ -136,6 +136,9 @@ namespace Touchstone
   Vector
   Solid::ghosted(const Vector &u) const
   {
+    // One rank has all values, and a map with a list of them is as large as half of the vector.
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return u;
     Vector result(owned, relevant, communicator);
     result = u;
     return result;

@@ -254,7 +254,8 @@ namespace Touchstone
       return present_time;
     }
 
-    /** @brief Displacement of the last update() with the ghosts that the surfaces need. */
+    /** @brief Displacement of the last update() with the ghosts that the surfaces need; empty if
+     * there are no pairs. */
     const Vector &
     ghosted_displacement() const
     {
@@ -274,6 +275,10 @@ namespace Touchstone
     template <class OfRow>
     auto
     over_step(const ContactRow &row, double weight, const OfRow &of) const;
+
+    /** Set #ghosted. */
+    void
+    move(const Vector &u);
 
     struct ImpulseForce
     {
@@ -295,7 +300,7 @@ namespace Touchstone
     std::shared_ptr<Enforcement>              method;
     CyclicConstraints                         cyclic;
     RowArray<ImpulseForce>                    impulse_forces;
-    /** Displacement with the ghosts that the surfaces need. */
+    /** Displacement with the ghosts that the surfaces need; empty without pairs. */
     Vector                             ghosted;
     mutable std::optional<GhostImport> import_ghosts;
     bool                               started = false, in_cycles = false;

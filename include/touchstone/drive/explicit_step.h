@@ -148,7 +148,8 @@ namespace Touchstone
     /** Its velocities of supported nodes, by place as in Balance::support. */
     NodeField kept_on_supports;
     NodalWork work;
-    /** Velocity before a cycle, and forces of supports as in Balance::support. */
+    /** Velocity before a cycle (empty if nothing asks for it: no contact, supports or damping),
+     * and forces of supports as in Balance::support. */
     NodeField v_before, support_before;
     /** Stable step of all cells together over that of the cells by themselves, at least 1. */
     double assembled_to_cells = 1.;

@@ -43,6 +43,10 @@ namespace Touchstone
                    double *volume,
                    double (*mobility)[n_lanes]);
 
+    /** @brief int N_a dV of the undeformed cells, [a], exact up to round-off. */
+    void
+    set_nodal_volumes(const BlockNodes &nodes, const double *positions, double (*volumes)[n_lanes]);
+
     /** @brief The largest square of the rate of any edge of each cell, relative to the edge. */
     void
     set_edge_rates(const BlockNodes &nodes,

@@ -36,6 +36,16 @@ namespace Touchstone
     /** Mass that a cell gives to each of its nodes. */
     using NodalMasses = std::array<double, NodeMap::nodes_per_cell>;
 
+    /** @brief Masses that cell number @p c of this body gives to its nodes, without scaling: the
+     * density times int N_a dV. They are computed anew, as storing them takes more time. */
+    NodalMasses
+    masses(unsigned int c) const;
+
+    /** @brief Add the masses of all cells to those of the local nodes, scaled by these factors, or
+     * not if there are none. */
+    void
+    add_masses(const std::vector<double> &factors, std::vector<double> &nodal_mass) const;
+
     /** @param cells Numbers of the body's cells in NodeMap::cells(). */
     CellForces(const NodeMap                   &map,
                const std::vector<unsigned int> &cells,
@@ -95,15 +105,10 @@ namespace Touchstone
     virtual void
     add_energies(const NodeField &u, CellEnergies &energies) = 0;
 
-    /**
-     * @brief An upper bound of the squared largest frequency of each cell by itself in the
-     * displacement @p u, at most two per cent above the exact one.
-     * @param masses Of the nodes of each cell.
-     */
+    /** @brief An upper bound of the squared largest frequency of each cell by itself in the
+     * displacement @p u, at most two per cent above the exact one. */
     virtual void
-    square_frequencies(const NodeField                &u,
-                       const std::vector<NodalMasses> &masses,
-                       std::vector<double>            &result) = 0;
+    square_frequencies(const NodeField &u, std::vector<double> &result) = 0;
 
     /** @brief Drop frequencies that are kept from earlier cycles. */
     virtual void
@@ -146,15 +151,14 @@ namespace Touchstone
     const std::vector<unsigned int> cells;
     const BodyParameters           &body;
 
-    /** The nodes of eight cells from this one on; of the last cell where there are fewer. */
-    BlockNodes
-    block_nodes(unsigned int first) const;
+    /** The nodes of eight cells from this one on; of the last cell where there are fewer.
+     * @param space For those that do not stand so in memory. */
+    const BlockNodes &
+    block_nodes(unsigned int first, BlockNodes &space) const;
 
     /** Frequencies of the cells as if they had one point, see one_point_frequency(). */
     void
-    set_one_point_frequencies(const NodeField                &u,
-                              const std::vector<NodalMasses> &masses,
-                              std::vector<double>            &result) const;
+    set_one_point_frequencies(const NodeField &u, std::vector<double> &result) const;
 
     /** Subtract the forces of bulk viscosity, if there is any: its pressure times the rate of the
      * volume. */
@@ -169,6 +173,16 @@ namespace Touchstone
     {
       return map.cells()[cells[c]];
     }
+
+    const NodeMap::CellNodes &
+    nodes(const unsigned int c) const
+    {
+      return map.nodes(cells[c]);
+    }
+
+    /** Masses that a block of cells gives to its nodes, [a]. */
+    void
+    set_masses(const BlockNodes &nodes, double (*masses)[n_lanes]) const;
 
     /** Tensors of a field stand one after the other. */
     static const double *
@@ -191,14 +205,14 @@ namespace Touchstone
             sum[nodes[lane][a]][i] -= forces[dim * a + i][lane];
     }
 
-    /** Subtract the forces of a cell, 3a+i. */
+    /** Subtract the forces of a cell, 3a+i, from those of its nodes. */
     template <class Forces>
     static void
-    subtract(const NodeMap::Cell &one, const Forces &forces, NodeField &force)
+    subtract(const NodeMap::CellNodes &nodes, const Forces &forces, NodeField &force)
     {
       for (unsigned int a = 0; a < NodeMap::nodes_per_cell; ++a)
         for (unsigned int d = 0; d < dim; ++d)
-          force[one.nodes[a]][d] -= forces[dim * a + d];
+          force[nodes[a]][d] -= forces[dim * a + d];
     }
   };
 } // namespace Touchstone

@@ -28,9 +28,7 @@ namespace Touchstone
     void
     add_energies(const NodeField &u, CellEnergies &energies) override;
     void
-    square_frequencies(const NodeField                &u,
-                       const std::vector<NodalMasses> &masses,
-                       std::vector<double>            &result) override;
+    square_frequencies(const NodeField &u, std::vector<double> &result) override;
 
   private:
     static constexpr unsigned int n = CellStiffness::n;

@@ -123,11 +123,10 @@ namespace Touchstone
     const std::vector<BodyParameters>       &bodies;
     const ExplicitParameters                &parameters;
     std::vector<std::unique_ptr<CellForces>> of_bodies;
-    /** By body and cell: masses of the nodes without scaling, the factor of mass scaling, and
-     * the period with it, see Viscosity. */
-    std::vector<std::vector<CellForces::NodalMasses>> cell_masses;
-    std::vector<std::vector<double>>                  factors, periods;
-    std::vector<double>                               nodal_mass;
+    /** By body and cell: the factor of mass scaling, none if there is none, and the period with
+     * it, see Viscosity. */
+    std::vector<std::vector<double>> factors, periods;
+    std::vector<double>              nodal_mass;
     /** Number in its body of each active cell of the triangulation that has history, and the
      * body; -1 for the others. */
     std::vector<std::pair<int, unsigned int>> place_of;

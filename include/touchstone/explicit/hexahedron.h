@@ -84,9 +84,9 @@ namespace Touchstone
     double                                                            total              = 0.;
   };
 
-  /** @brief Positions of the nodes of a cell, moved by @p u unless that is null. */
+  /** @brief Positions of these nodes of a cell, moved by @p u unless that is null. */
   Hexahedron::Corners
-  corners(const NodeMap &map, const NodeMap::Cell &cell, const NodeField *u = nullptr);
+  corners(const NodeMap &map, const NodeMap::CellNodes &nodes, const NodeField *u = nullptr);
 } // namespace Touchstone
 
 #endif

@@ -5,6 +5,7 @@
 
 #include <touchstone/base/exact_sum.h>
 #include <touchstone/contact/friction/friction.h>
+#include <touchstone/explicit/normal_rows.h>
 #include <touchstone/explicit/row_nodes.h>
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -191,20 +192,7 @@ namespace Touchstone
     /** @{ */
     bool                     along_normals = false;
     std::vector<std::size_t> by_key;
-    /** What an impulse of one along the normal does to a node. */
-    struct NormalEntry
-    {
-      dealii::Tensor<1, dim> c;
-      unsigned int           node, slot;
-    };
-    /** A row that takes part, with what comes before its first entry: the next row has its end. */
-    struct NormalRow
-    {
-      std::size_t row, first;
-      double      allowed, drive, mobility, impulse, extrapolated, present;
-    };
-    std::vector<NormalEntry> entries;
-    std::vector<NormalRow>   acting;
+    NormalRows               normal_rows;
     /** @} */
 
     dealii::Tensor<1, dim>
@@ -238,21 +226,30 @@ namespace Touchstone
     velocity_tolerance(double relative) const;
     bool
     sweep(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
-    /** @name The same with #acting in place of vectors for each row */
+    /** @name The same with #normal_rows in place of vectors for each row */
     /** @{ */
     /** Collect the active rows, in the order of their keys. */
     void
     collect_acting();
     void
     set_normal_metric(double relaxation);
-    /** Sum over the entries of each node what @p of_entry says. */
-    template <class Value>
+    /** Make the sums at the nodes, or those of the sizes, complete with what rows of other ranks
+     * add. */
     void
-    sum_entries(const Value &of_entry);
+    sum_shared_entries(double NormalRows::Row::*impulse);
     void
-    apply_normal(double NormalRow::*impulse);
+    sum_shared_sizes();
+    void
+    apply_normal(double NormalRows::Row::*impulse);
     bool
     sweep_normal(const ImpulseControl &control, double tolerance, ImpulseCounts &counts);
+    /** Whether the last sweep moved the impulses away from where its momentum points. Collective.
+     * @param largest Change of a velocity and of an impulse in it, of all ranks. */
+    bool
+    turned(const double (&largest)[2]) const;
+    /** Set the sums, velocities and relative velocities that the impulses lead to. */
+    void
+    finish_normal();
     void
     put_impulses();
     void

@@ -29,9 +29,7 @@ namespace Touchstone
     void
     add_energies(const NodeField &u, CellEnergies &energies) override;
     void
-    square_frequencies(const NodeField                &u,
-                       const std::vector<NodalMasses> &masses,
-                       std::vector<double>            &result) override;
+    square_frequencies(const NodeField &u, std::vector<double> &result) override;
 
     void
     set_time(const double time) override

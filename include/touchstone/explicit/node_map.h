@@ -48,12 +48,12 @@ namespace Touchstone
       std::uint64_t key;
       /** Active cell index in the triangulation. */
       unsigned int index;
-      unsigned int body;
+      unsigned int body : 31;
       /** Each cell is owned by one rank, which counts its energies. */
-      bool owned;
-      /** Local nodes in the order of FE_Q. */
-      std::array<unsigned int, nodes_per_cell> nodes;
+      unsigned int owned : 1;
     };
+    /** @brief Local nodes in the order of FE_Q. */
+    using CellNodes = std::array<unsigned int, nodes_per_cell>;
 
     unsigned int
     n_owned() const
@@ -90,6 +90,13 @@ namespace Touchstone
     cells() const
     {
       return all_cells;
+    }
+
+    /** @brief Nodes of cell number @p c. Those of cells one after the other stand so in memory. */
+    const CellNodes &
+    nodes(const unsigned int c) const
+    {
+      return nodes_of_cells[c];
     }
 
     /** @brief Reference positions, length. */
@@ -136,6 +143,7 @@ namespace Touchstone
     /** First dofs, ascending, and their local nodes. */
     std::vector<std::pair<Index, unsigned int>> local_numbers;
     std::vector<Cell>                           all_cells;
+    std::vector<CellNodes>                      nodes_of_cells;
     /** Ghosts of a rank stand next to each other: messages are received in place. */
     struct Neighbour
     {

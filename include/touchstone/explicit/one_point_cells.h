@@ -38,9 +38,7 @@ namespace Touchstone
     void
     add_energies(const NodeField &u, CellEnergies &energies) override;
     void
-    square_frequencies(const NodeField                &u,
-                       const std::vector<NodalMasses> &masses,
-                       std::vector<double>            &result) override;
+    square_frequencies(const NodeField &u, std::vector<double> &result) override;
     void
     forget() override
     {
@@ -58,20 +56,19 @@ namespace Touchstone
     set_state(unsigned int c, const std::vector<double> &values) override;
 
   private:
-    BlockLaw                law;
-    const bool              finite;
-    CellStates              states;
-    OnePointBlock::Control  control;
-    std::vector<BlockNodes> blocks;
+    BlockLaw               law;
+    const bool             finite;
+    CellStates             states;
+    OnePointBlock::Control control;
     /** The block that was last asked for by cell, and its number. */
     mutable OnePointBlock block;
     mutable unsigned int  present = dealii::numbers::invalid_unsigned_int;
-    /** See KernelCells. */
+    /** See KernelCells. At small strain frequencies do not change: there is no estimate. */
     std::vector<double> exact, estimate;
 
     const OnePointBlock &
-    block_of(unsigned int c)
-      const; /** Stiffness of hourglass mode @p m along edge @p i of cell @p c, force per length. */
+    block_of(unsigned int c) const;
+    /** Stiffness of hourglass mode @p m along edge @p i of cell @p c, force per length. */
     double
     stiffness(unsigned int c, unsigned int m, unsigned int i) const;
     dealii::Tensor<2, dim>

@@ -115,6 +115,13 @@ namespace Touchstone
     sum_shared(const std::vector<dealii::Tensor<1, dim>> &at_slots,
                std::vector<dealii::Tensor<1, dim>>       &sums) const;
 
+    /** @brief The owned nodes that rows of other ranks refer to. */
+    const std::vector<unsigned int> &
+    shared_nodes() const
+    {
+      return shared;
+    }
+
     /** @brief No other rank has rows or nodes in common with this one. */
     bool
     alone() const

@@ -47,6 +47,9 @@ namespace Touchstone
     DiscretisationParameters discretisation;
     /** The mesh is going to be refined during the run. */
     bool refines = false;
+    /** Ranks compute all cells that have a node of theirs, and nodes between ranks belong to the
+     * lower one, as in explicit dynamics. */
+    bool computes_ghosts = false;
   };
 
   /**

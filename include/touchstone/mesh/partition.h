@@ -69,10 +69,11 @@ namespace Touchstone
    * these again, and so on: bodies that lie in each other share ranks where they touch, so
    * that contact needs little communication.
    *
-   * Work as for partition_by_curve(). Coarse cells are distributed where there are many of them,
-   * and each rank refines only its own and those around; refined ones where there are few, and each
-   * rank makes all. The result cannot be refined later. Needs no messages; collective. Berger and
-   * Bokhari (1987), IEEE Trans. Comput. C-36.
+   * Work as for partition_by_curve(). If the mesh @p computes_ghosts (ForestInput), the lower piece
+   * is smaller by the cells of the other one that it computes as well. Coarse cells are distributed
+   * where there are many of them, and each rank refines only its own and those around; refined ones
+   * where there are few, and each rank makes all. The result cannot be refined later. Needs no
+   * messages; collective. Berger and Bokhari (1987), IEEE Trans. Comput. C-36.
    */
   std::unique_ptr<dealii::parallel::TriangulationBase<dim>>
   partition_by_coordinates(const BodyMesh &mesh,
@@ -80,6 +81,7 @@ namespace Touchstone
                            const CellWork &cell_work,
                            const CellWork &contact_work,
                            double          contact_weight,
+                           bool            computes_ghosts,
                            MPI_Comm        communicator);
 } // namespace Touchstone
 

@@ -66,10 +66,10 @@ namespace Touchstone
     , declared(input.declared)
     , place(nodes.n_local(), numbers::invalid_unsigned_int)
   {
-    std::vector<const NodeMap::Cell *> by_index(
-      solid.dof_handler.get_triangulation().n_active_cells());
-    for (const NodeMap::Cell &cell : nodes.cells())
-      by_index[cell.index] = &cell;
+    std::vector<unsigned int> by_index(solid.dof_handler.get_triangulation().n_active_cells(),
+                                       numbers::invalid_unsigned_int);
+    for (unsigned int c = 0; c < nodes.cells().size(); ++c)
+      by_index[nodes.cells()[c].index] = c;
     struct Found
     {
       ImpactFace                  face;
@@ -78,21 +78,24 @@ namespace Touchstone
     };
     std::vector<Found> found;
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
-      if (const NodeMap::Cell *const one = by_index[cell->active_cell_index()])
+      if (const unsigned int c = by_index[cell->active_cell_index()];
+          c != numbers::invalid_unsigned_int)
         for (unsigned int f = 0; f < 6; ++f)
-          if (cell->face(f)->at_boundary() &&
-              takes_part(input, one->body, cell->face(f)->boundary_id()))
+          if (const NodeMap::Cell &one = nodes.cells()[c];
+              cell->face(f)->at_boundary() &&
+              takes_part(input, one.body, cell->face(f)->boundary_id()))
             {
-              Found next;
-              next.owned         = one->owned;
-              next.face.key      = one->key + f;
-              next.face.body     = one->body;
+              const NodeMap::CellNodes &corners = nodes.nodes(c);
+              Found                     next;
+              next.owned         = one.owned;
+              next.face.key      = one.key + f;
+              next.face.body     = one.body;
               next.face.boundary = cell->face(f)->boundary_id();
               for (unsigned int a = 0; a < 8; ++a)
-                next.face.nodes[a] = nodes.key(one->nodes[nodes_of_faces[f][a]]);
+                next.face.nodes[a] = nodes.key(corners[nodes_of_faces[f][a]]);
               for (unsigned int a = 0; a < 4; ++a)
                 {
-                  next.local[a]     = one->nodes[nodes_of_faces[f][a]];
+                  next.local[a]     = corners[nodes_of_faces[f][a]];
                   next.face.dofs[a] = nodes.dof(next.local[a]);
                 }
               found.push_back(next);
