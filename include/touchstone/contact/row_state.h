@@ -37,6 +37,9 @@ namespace Touchstone
     /** Numbers of conditions of the row that the constraint graph accepted and refused; supports
      * or other rows determine the displacement that a refused one is about. */
     unsigned int accepted = 0, refused = 0;
+    /** Of tied rows: the components of the gap vector whose conditions were accepted, one, others
+     * zero. */
+    dealii::Tensor<1, dim> constrained;
     /** The condition along the normal was accepted. */
     bool normal_accepted = true;
     /** Part of a cyclic dependency between contact pairs: imposes no constraint. */
@@ -85,6 +88,8 @@ namespace Touchstone
         normal_accepted = was_accepted;
       else if (!was_accepted && status == ContactStatus::stick && friction.constrained)
         friction.unconstrained.push_back(condition.direction);
+      if (was_accepted && status == ContactStatus::tied)
+        constrained += condition.direction;
       ++(was_accepted ? accepted : refused);
       return was_accepted;
     }

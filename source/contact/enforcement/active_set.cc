@@ -118,11 +118,16 @@ namespace Touchstone
     violated_gap(const ContactRow &row, const RowState &state)
     {
       double gap = 0.;
-      if ((row.tied ? state.refused == 0 : state.normal_accepted) &&
-          (state.active() || row.gap < 0.))
-        gap = (row.tied ? row.gap_vector.norm() - state.admissible_gap
-                        : std::abs(row.gap - (state.active() ? state.admissible_gap : 0.))) /
-              row.size;
+      if (row.tied)
+        {
+          // What supports determine, as at planes of symmetry, is not for the row to close.
+          Tensor<1, dim> open;
+          for (unsigned int d = 0; d < dim; ++d)
+            open[d] = state.constrained[d] * row.gap_vector[d];
+          gap = std::max(open.norm() - state.admissible_gap, 0.) / row.size;
+        }
+      else if (state.normal_accepted && (state.active() || row.gap < 0.))
+        gap = std::abs(row.gap - (state.active() ? state.admissible_gap : 0.)) / row.size;
       if (!row.friction)
         return gap;
       // A gap that is left in this row is elastic slip of the other rows of a shared node, where it

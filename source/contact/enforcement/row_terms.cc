@@ -120,6 +120,7 @@ namespace Touchstone
     // `dropped()`.
     state.accepted = state.refused = 0;
     state.normal_accepted          = true;
+    state.constrained              = Tensor<1, dim>();
     state.friction.unconstrained.clear();
     if (state.active() && state.redundant)
       {
