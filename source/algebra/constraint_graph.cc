@@ -89,6 +89,7 @@ namespace Touchstone
   ConstraintGraph::clear()
   {
     conditions.clear();
+    springs.clear();
     nodes.clear();
     numbers.clear();
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/junctions.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -113,12 +114,28 @@ namespace Touchstone
     move(u);
     for (const auto &pair : pairs)
       pair->update(u, ghosted, time, [this](const ContactRow &row) { return state(row).active(); });
+    if (!started)
+      remove_junction_rows(u);
     // Impulses belong to the committed step alone.
     impulse_forces.reinit_present();
     // Before the slip: a row that has lost its partner has none.
     method->update_partners(all_rows, !started);
     started = true;
     friction_rows.update(all_rows, u, time);
+  }
+
+
+
+  void
+  Contact::remove_junction_rows(const Vector &u)
+  {
+    const std::vector<std::set<Index>> nodes = junction_nodes(pairs, solid);
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      if (!nodes[p].empty())
+        {
+          pairs[p]->remove_rows(nodes[p]);
+          pairs[p]->update(u, ghosted, present_time, [](const ContactRow &) { return false; });
+        }
   }
 
 

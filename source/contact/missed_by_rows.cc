@@ -63,10 +63,9 @@ namespace Touchstone
     at_held_nodes(const ContactPairParameters &pair, const MissedContact::Place &place)
     {
       return text(pair, place) +
-             ", where a slave node cannot follow: its displacement along the normal is prescribed, "
-             "or another pair decides on it. " +
-             (can_be_exchanged(pair) ? "Exchange slave and master, or prescribe" : "Prescribe") +
-             " displacements at a boundary that is not in contact";
+             ", where neither surface can follow: the displacement of the slave node along the normal "
+             "is prescribed, or another pair decides on it, and the master is held as well. Prescribe "
+             "displacements at boundaries that are not in contact";
     }
 
 

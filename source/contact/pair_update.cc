@@ -208,6 +208,17 @@ namespace Touchstone
 
 
   void
+  ContactPair::remove_rows(const std::set<Index> &nodes)
+  {
+    slave_surface->set_without_rows(nodes);
+    // Pairings hold copies of the faces.
+    pairing_method = make_pairing(input.parameters.search_distance);
+    started        = false;
+  }
+
+
+
+  void
   ContactPair::differentiate(const std::function<bool(const ContactRow &)> &active)
   {
     if (small)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/enforcement/refused_conditions.h>
 #include <touchstone/contact/velocity_constraints.h>
 
 namespace Touchstone
@@ -9,11 +10,14 @@ namespace Touchstone
 
   // At an impact without rebound the relative velocity of active nodes vanishes along the normal,
   // and along the surface where they stick. The graph starts from the supports and leaves out
-  // conditions that they or earlier rows determine, which would make the impulses non-unique.
+  // conditions that they or earlier rows determine, which would make the impulses non-unique, but
+  // for those that other nodes of the row have to meet, as where the slave node is driven.
   std::vector<VelocityConstraint>
   velocity_constraints(const Contact &contact, const ConstraintGraph &supports, const double step)
   {
     ConstraintGraph                 graph(supports);
+    RefusedConditions               refused(graph);
+    std::vector<VelocityConstraint> of_refused;
     std::vector<VelocityConstraint> result;
     for (const ContactRow &row : contact.rows())
       {
@@ -34,6 +38,11 @@ namespace Touchstone
           constraint.condition.value           = direction * velocity;
           if (graph.accept(constraint.condition, ConstraintGraph::Treatment::multiplier))
             result.push_back(constraint);
+          else if (constraint.normal)
+            {
+              refused.add(row, constraint.condition);
+              of_refused.push_back(constraint);
+            }
         };
         const Tensor<1, dim> along_direction;
         if (row.tied)
@@ -51,6 +60,11 @@ namespace Touchstone
                 offer(tangent, along_direction);
           }
       }
+    const std::vector<bool> can_be_met =
+      refused.can_be_met(graph, contact.solid_model().owned, contact.communicator());
+    for (std::size_t k = 0; k < of_refused.size(); ++k)
+      if (can_be_met[k])
+        result.push_back(of_refused[k]);
     return result;
   }
 } // namespace Touchstone

@@ -260,8 +260,8 @@ namespace Touchstone
   StepSystem::check_supports(const State &state)
   {
     std::vector<Condition> supports = parts.boundary_conditions.ground_springs().conditions();
-    const std::vector<Condition> &conditions = graph.accepted();
-    supports.insert(supports.end(), conditions.begin(), conditions.end());
+    for (const std::vector<Condition> *conditions : {&graph.accepted(), &graph.met_by_springs()})
+      supports.insert(supports.end(), conditions->begin(), conditions->end());
     for (const ContactRow &row : parts.contact.rows())
       {
         const auto springs = elastic_stick(row, parts.contact.state(row));

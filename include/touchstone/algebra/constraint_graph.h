@@ -120,6 +120,21 @@ namespace Touchstone
       return conditions;
     }
 
+    /** @brief Note a condition that was rejected and is met by a spring without a dof of its own:
+     * it holds bodies as those accepted do. */
+    void
+    add_spring(const Condition &condition)
+    {
+      springs.push_back(condition);
+    }
+
+    /** @brief Conditions met by springs, see add_spring(). */
+    const std::vector<Condition> &
+    met_by_springs() const
+    {
+      return springs;
+    }
+
     /**
      * @brief The conditions to be eliminated, as deal.II constraints on the
      * dofs, each solved for the component of its node with the largest
@@ -251,7 +266,7 @@ namespace Touchstone
                       const dealii::IndexSet                  &relevant,
                       MPI_Comm                                 communicator) const;
 
-    std::vector<Condition>                         conditions;
+    std::vector<Condition>                         conditions, springs;
     std::map<Index, std::vector<ReducedCondition>> nodes;
     /** Index of each accepted condition among those of its node. */
     std::vector<unsigned int> numbers;

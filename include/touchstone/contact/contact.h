@@ -306,6 +306,11 @@ namespace Touchstone
     bool                               started = false, in_cycles = false;
     double                             present_time = 0.;
 
+    /** Of the first update: rows that pairs have in common with others go, see junction_nodes().
+     * Collective. */
+    void
+    remove_junction_rows(const Vector &u);
+
     /** All objects with history, in the order in which they are committed and loaded. */
     std::vector<Stateful *> parts;
   };

@@ -215,6 +215,12 @@ namespace Touchstone
            double                                         time,
            const std::function<bool(const ContactRow &)> &active);
 
+    /** @brief Let slave nodes have no rows where the others of their faces can take their part, see
+     * junction_nodes(), and begin again with the next update. Pointwise rows stay.
+     * @param nodes The same on all ranks. */
+    void
+    remove_rows(const std::set<Index> &nodes);
+
     /** @brief Set the derivatives of the active rows in the displacement of the
      * last update(), for the consistent linearisation. Collective. */
     void

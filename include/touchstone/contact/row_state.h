@@ -34,8 +34,9 @@ namespace Touchstone
     double lambda = 0.;
     /** Gap admitted when convergence is judged: the penetration of a penalty, length. */
     double admissible_gap = 0.;
-    /** Conditions of the row that the constraint graph accepted and refused, bit k for the k-th
-     * one; supports or other rows determine the displacement that a refused one is about. */
+    /** Conditions of the row that were accepted and refused, a bit each: of tied rows bit d for
+     * axis d, of others in the order in which they are recorded. Supports or other rows determine
+     * the displacement that a refused one is about. */
     unsigned int accepted = 0, refused = 0;
     /** The condition along the normal was accepted. */
     bool normal_accepted = true;
@@ -67,11 +68,11 @@ namespace Touchstone
       return accepted == 0 && refused > 0;
     }
 
-    /** @brief Supports or other rows determine the displacement that condition @p k is about. */
+    /** @brief Supports or other rows determine component @p d of the gap of this tied row. */
     bool
-    refuses(const unsigned int k) const
+    refuses(const unsigned int d) const
     {
-      return (refused >> k) % 2 == 1;
+      return (refused >> d) % 2 == 1;
     }
 
     /** @brief No contact force of any kind. */
@@ -83,16 +84,20 @@ namespace Touchstone
       friction.clear();
     }
 
-    /** @brief Record whether the constraint graph accepted a condition, the one
-     * along the normal first; returns that. */
+    /** @brief Record whether a condition was accepted, that along the normal first; returns that.
+     */
     bool
     record(const Condition &condition, const bool was_accepted)
     {
-      const unsigned int bit = (accepted | refused) + 1;
+      unsigned int bit = (accepted | refused) + 1;
       if (bit == 1)
         normal_accepted = was_accepted;
       else if (!was_accepted && status == ContactStatus::stick && friction.constrained)
         friction.unconstrained.push_back(condition.direction);
+      if (status == ContactStatus::tied)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (condition.direction[d] != 0.)
+            bit = 1u << d;
       (was_accepted ? accepted : refused) |= bit;
       return was_accepted;
     }

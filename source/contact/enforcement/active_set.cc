@@ -134,7 +134,7 @@ namespace Touchstone
     violated_gap(const ContactRow &row, const RowState &state)
     {
       if (row.tied)
-        return (tied_gap(row, state) - state.admissible_gap) / row.size;
+        return std::max(tied_gap(row, state) - state.admissible_gap, 0.) / row.size;
       double gap = 0.;
       if (state.normal_accepted && (state.active() || row.gap < 0.))
         gap = std::abs(row.gap - (state.active() ? state.admissible_gap : 0.)) / row.size;

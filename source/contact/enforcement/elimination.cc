@@ -102,7 +102,8 @@ namespace Touchstone
           solution.graph.forces(solution.system.residual(solution.increment, solution.extra),
                                 solution.condense);
         for (std::size_t k = 0; k < accepted.size(); ++k)
-          result[k] += all[accepted[k].number];
+          if (accepted[k].treatment != ConstraintGraph::Treatment::spring)
+            result[k] += all[accepted[k].number];
         return result;
       }
 

@@ -46,13 +46,19 @@ namespace Touchstone
   {
     accepted.clear();
     prepare(contact, system);
-    const auto offer = [&](const ContactRow &row, Condition &condition) {
+    RefusedConditions refused(graph);
+    const auto        offer = [&](const ContactRow &row, Condition condition) {
       const ConstraintGraph::Treatment way = treatment(row);
       adjust(row, condition);
       // The graph refuses a condition whose direction supports or other rows determine already; it
       // would make the system singular.
-      if (row_states[row].record(condition, graph.accept(condition, way)))
-        accepted.push_back({&row, condition, graph.accepted().size() - 1, way, row.normal});
+      const bool is_accepted = graph.accept(condition, way);
+      if (is_accepted)
+        {
+          accepted.push_back({&row, condition, graph.accepted().size() - 1, way, row.normal});
+          row_states[row].record(condition, true);
+        }
+      return is_accepted;
     };
     // Non-penetration takes precedence: of two dependent conditions the graph keeps the earlier
     // one, so the normal conditions of all rows are added before those of stick.
@@ -66,16 +72,76 @@ namespace Touchstone
         // their normal first.
         const std::size_t n = row.tied ? conditions.size() : 1;
         for (std::size_t k = 0; k < std::min(n, conditions.size()); ++k)
-          offer(row, conditions[k]);
+          if (!offer(row, conditions[k]))
+            refused.add(row, conditions[k]);
         if (conditions.size() > n)
           stick.emplace_back(&row,
                              std::vector<Condition>(conditions.begin() + n, conditions.end()));
       }
-    for (auto &[row, conditions] : stick)
-      for (Condition &condition : conditions)
-        offer(*row, condition);
+    add_springs(contact, refused, graph, system);
+    for (const auto &[row, conditions] : stick)
+      for (const Condition &condition : conditions)
+        if (!offer(*row, condition))
+          row_states[*row].record(condition, false);
     if (system.takes_multipliers)
       add_multipliers(accepted, system);
+  }
+
+
+
+  void
+  ExactEnforcement::add_springs(const Contact           &contact,
+                                const RefusedConditions &refused,
+                                ConstraintGraph         &graph,
+                                LinearSystem            &system)
+  {
+    const MPI_Comm          communicator = contact.communicator();
+    const std::vector<bool> can_be_met =
+      refused.can_be_met(graph, contact.solid_model().owned, communicator);
+    RowTerms terms(system);
+    int      n_springs = 0;
+    for (std::size_t k = 0; k < refused.all().size(); ++k)
+      {
+        const auto &[row, condition] = refused.all()[k];
+        RowState &state              = row_states[*row];
+        if (!state.record(condition, can_be_met[k]))
+          continue;
+        // The force after the solve is the present one less 100 c (g + dg), and the value of the
+        // condition is -g.
+        const double stiffness = RefusedConditions::stiffness(*row);
+        const double present   = row->tied ? state.force * condition.direction : state.lambda;
+        const double force     = present + stiffness * condition.value;
+        terms.add_load(*row, force * condition.force());
+        terms.add_stiffness(*row, stiffness * condition.force(), condition.motion_form());
+        if (!condition.symmetric())
+          system.symmetric = false;
+        graph.add_spring(condition);
+        accepted.push_back(
+          {row, condition, 0, ConstraintGraph::Treatment::spring, row->normal, force});
+        ++n_springs;
+      }
+    has_springs = Utilities::MPI::max(n_springs, communicator) > 0;
+    if (has_springs)
+      terms.finish();
+  }
+
+
+
+  void
+  ExactEnforcement::take_springs(const LinearSolution &solution)
+  {
+    if (!has_springs)
+      return;
+    std::vector<LinearForm> forms;
+    for (const Accepted &entry : accepted)
+      if (entry.treatment == ConstraintGraph::Treatment::spring)
+        forms.push_back(by_unknowns(entry.condition.motion_form()));
+    const std::vector<double> elongations = evaluate_forms(forms, solution.increment);
+    std::size_t               spring      = 0;
+    for (std::size_t k = 0; k < accepted.size(); ++k)
+      if (accepted[k].treatment == ConstraintGraph::Treatment::spring)
+        forces[k] = accepted[k].force -
+                    RefusedConditions::stiffness(*accepted[k].row) * elongations[spring++];
   }
 
 

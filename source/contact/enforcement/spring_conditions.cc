@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/enforcement/refused_conditions.h>
 #include <touchstone/contact/enforcement/spring_enforcement.h>
 #include <touchstone/contact/friction/friction_response.h>
 
@@ -36,7 +37,17 @@ namespace Touchstone
         }
 
     springs.clear();
-    RowTerms terms(system);
+    RowTerms          terms(system);
+    RefusedConditions refused(graph);
+    const auto        offer = [&](const ContactRow &row, const Condition &condition) {
+      const bool is_accepted = graph.accept(condition, ConstraintGraph::Treatment::spring);
+      if (is_accepted)
+        {
+          row_states[row].record(condition, true);
+          add_spring(row, condition, system, terms);
+        }
+      return is_accepted;
+    };
     // As in ExactEnforcement: of two dependent conditions the graph keeps the earlier one, and
     // those along normals precede those of stick.
     std::vector<std::pair<const ContactRow *, Condition>> stick;
@@ -46,13 +57,23 @@ namespace Touchstone
         const std::vector<Condition> conditions =
           row_conditions(row, row_states[row], system.keep_symmetric);
         for (std::size_t k = 0; k < conditions.size(); ++k)
-          if (k == 0 || row.tied)
-            add_spring(row, conditions[k], graph, system, terms);
-          else
+          if (k > 0 && !row.tied)
             stick.emplace_back(&row, conditions[k]);
+          else if (!offer(row, conditions[k]))
+            refused.add(row, conditions[k]);
       }
+    const std::vector<bool> can_be_met =
+      refused.can_be_met(graph, contact.solid_model().owned, contact.communicator());
+    for (std::size_t k = 0; k < refused.all().size(); ++k)
+      if (const auto &[row, condition] = refused.all()[k];
+          row_states[*row].record(condition, can_be_met[k]))
+        {
+          graph.add_spring(condition);
+          add_spring(*row, condition, system, terms);
+        }
     for (const auto &[row, condition] : stick)
-      add_spring(*row, condition, graph, system, terms);
+      if (!offer(*row, condition))
+        row_states[*row].record(condition, false);
     terms.finish();
   }
 
@@ -74,13 +95,9 @@ namespace Touchstone
   void
   SpringEnforcement::add_spring(const ContactRow &row,
                                 const Condition  &condition,
-                                ConstraintGraph  &graph,
                                 LinearSystem     &system,
                                 RowTerms         &terms)
   {
-    if (!row_states[row].record(condition,
-                                graph.accept(condition, ConstraintGraph::Treatment::spring)))
-      return;
     if (!condition.symmetric())
       system.symmetric = false;
     // The force after the iteration is lambda_k - epsilon (g + dg),

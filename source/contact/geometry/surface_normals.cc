@@ -24,6 +24,24 @@ namespace Touchstone
 
 
   void
+  Surface::set_without_rows(const std::set<Index> &without)
+  {
+    for (std::vector<Face> *list : {&faces, &ghost_faces})
+      for (Face &face : *list)
+        {
+          const TraceBasis *const basis = trace(face);
+          const auto             &nodes = basis ? basis->nodes : face.nodes;
+          unsigned int            found = 0;
+          for (unsigned int m = 0; m < face.n_nodes(); ++m)
+            found += face.without_row[m] = without.count(nodes[m]) > 0;
+          if (found == face.n_nodes())
+            face.without_row = {};
+        }
+  }
+
+
+
+  void
   Surface::move(const Vector &u)
   {
     for (const NodeOfFaces &node : surface_nodes)

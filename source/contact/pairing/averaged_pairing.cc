@@ -297,7 +297,7 @@ namespace Touchstone
       const DualBasis dual(total_mass<n>(parts),
                            areas,
                            face.basis,
-                           face.whole,
+                           areas_to_cover(slave, face.basis),
                            /*gradual=*/!tied,
                            /*with_derivative=*/false);
       const auto      present = whole_areas(slave, face.basis, /*reference=*/false);

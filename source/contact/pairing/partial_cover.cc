@@ -6,6 +6,7 @@
 
 #include <Sacado.hpp>
 #include <algorithm>
+#include <cmath>
 
 // How the nodes of a slave face that is covered in part share it: equation (4) of doc/theory.md
 // 3.1. A template of the number type, so that derivatives by the covered areas come from the same
@@ -30,13 +31,18 @@ namespace Touchstone
         // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
         Number sum = 0., squares = 0., receivers = 0.;
         for (unsigned int i = 0; i < n; ++i)
-          if (whole[i] > 0.)
+          if (whole[i] > 0. && std::isfinite(whole[i]))
             {
               sum += covered[i];
               squares += covered[i] * covered[i] / whole[i];
             }
         for (unsigned int i = 0; i < n; ++i)
           {
+            if (!std::isfinite(whole[i]))
+              {
+                keep[i] = take[i] = 0.;
+                continue;
+              }
             // A basis function of a face with hanging nodes may have an integral of zero or less:
             // it keeps its part.
             const Number cover =

@@ -4,6 +4,8 @@
 #define touchstone_contact_enforcement_exact_enforcement_h
 
 #include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/enforcement/refused_conditions.h>
+#include <touchstone/contact/enforcement/row_terms.h>
 
 namespace Touchstone
 {
@@ -16,6 +18,7 @@ namespace Touchstone
    * the tangential displacement of a slave node, the graph refuses a condition on it: stick
    * is then enforced on the master surface, by a spring whose force is augmented in each
    * iteration until no slip is left.
+   * Other conditions that the graph refuses have such springs as well, see RefusedConditions.
    * Alart and Curnier (1991), Comput. Methods Appl. Mech. Engng 92.
    */
   class ExactEnforcement : public Enforcement
@@ -31,11 +34,13 @@ namespace Touchstone
     take(const LinearSolution &solution) override
     {
       forces = multipliers(accepted, solution);
+      take_springs(solution);
     }
 
   protected:
     /** A condition of a row that the graph has accepted, its number there, how it is met, and the
-     * normal of the row in the linear system. */
+     * normal of the row in the linear system; or one that it has refused and that a spring meets,
+     * with its force before the solve. */
     struct Accepted
     {
       const ContactRow          *row;
@@ -43,6 +48,7 @@ namespace Touchstone
       std::size_t                number;
       ConstraintGraph::Treatment treatment;
       dealii::Tensor<1, dim>     normal;
+      double                     force = 0.;
     };
 
     void
@@ -86,8 +92,21 @@ namespace Touchstone
     /** Accepted conditions of the last system, and their forces by its solution. */
     std::vector<Accepted> accepted;
     std::vector<double>   forces;
+    /** Any rank has conditions that springs meet. */
+    bool has_springs = false;
     /** A linear solve has come after the last evaluate(). */
     bool solved = false;
+
+    /** Meet what the graph has refused by springs, where that can be. Collective. */
+    void
+    add_springs(const Contact           &contact,
+                const RefusedConditions &refused,
+                ConstraintGraph         &graph,
+                LinearSystem            &system);
+
+    /** The forces of springs after a solve. Collective. */
+    void
+    take_springs(const LinearSolution &solution);
   };
 } // namespace Touchstone
 

@@ -180,11 +180,10 @@ namespace Touchstone
     void
     evaluate_row(const ContactRow &row, RowState &state);
 
-    /** Meet a condition of a row by a spring, if the graph accepts it. */
+    /** Meet a condition of a row by a spring. */
     void
     add_spring(const ContactRow &row,
                const Condition  &condition,
-               ConstraintGraph  &graph,
                LinearSystem     &system,
                RowTerms         &terms);
   };

@@ -39,7 +39,10 @@ namespace Touchstone
      * xi_1 = 1, bit 2: xi_2 = -1, bit 3: xi_2 = 1. */
     unsigned int outer_edges = 0;
 
-    std::array<Index, max_nodes>                  nodes{};
+    std::array<Index, max_nodes> nodes{};
+    /** Nodes that leave their part of the face to the others, for no row is theirs: those of
+     * Surface::set_without_rows(), in the order of the continuous basis, see TraceBasis. */
+    std::array<bool, max_nodes>                   without_row{};
     std::array<dealii::Point<dim>, max_nodes>     reference;
     std::array<dealii::Tensor<1, dim>, max_nodes> displacement;
     /** Displacement at the start of the step. */

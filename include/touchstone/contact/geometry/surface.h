@@ -52,6 +52,11 @@ namespace Touchstone
     void
     move(const Vector &u);
 
+    /** @brief Let nodes have no rows: on each face the others take their part, unless there are no
+     * others. @param nodes Of any rank. */
+    void
+    set_without_rows(const std::set<Index> &nodes);
+
     /** @brief Nodes that this rank owns and that do not hang, in ascending order. */
     const std::vector<SurfaceNode> &
     owned_nodes() const

@@ -41,7 +41,7 @@ namespace Touchstone
     /**
      * @param n               Number of basis functions.
      * @param covered         a_i of the n basis functions.
-     * @param whole           A_i in the reference state.
+     * @param whole           A_i in the reference state; infinite: the node gives all that it has.
      * @param gradual         beta changes smoothly, and not at once.
      * @param with_derivative Compute `derivative`, too.
      */

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#ifndef touchstone_contact_junctions_h
+#define touchstone_contact_junctions_h
+
+#include <touchstone/contact/contact_pair.h>
+
+#include <memory>
+#include <set>
+#include <vector>
+
+namespace Touchstone
+{
+  /**
+   * @brief Slave nodes of pairs that are tied or have friction where the nodes that they face are
+   * joined to them by other pairs, too: at an edge around which three or more bodies lie, or two
+   * bodies that meet in several pairs (doc/theory.md 3.1, "Edges where pairs meet").
+   *
+   * Displacements that all of these pairs determine there are determined more than once; rows of
+   * all pairs, and multipliers of all, are dependent, or nearly so. The multiplier space of
+   * mortar methods has no function of its own at such points: Bernardi, Maday and Patera
+   * (1994); Puso (2004), Int. J. Numer. Methods Engng 59.
+   *
+   * @param pairs After an update.
+   * @return By pair; the same on all ranks. Collective.
+   */
+  std::vector<std::set<Index>>
+  junction_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs, const Solid &solid);
+} // namespace Touchstone
+
+#endif

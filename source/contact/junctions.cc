@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+
+#include <touchstone/base/exchange.h>
+#include <touchstone/contact/junctions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
+
+// Nodes around which pairs join the same surfaces more than once (doc/theory.md 3.1): the graph has
+// the nodes that belong to the surfaces of two or more pairs as vertices, and an edge of a pair
+// from the node of a row to those of its stencil.
+namespace Touchstone
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /** Two nodes that a row of a pair joins. */
+    struct Link
+    {
+      unsigned int pair;
+      Index        slave, master;
+    };
+
+    /** Of smaller weights another node of the stencil is the partner. */
+    constexpr double least_weight = 0.1;
+
+    /** Whether rows of a pair can determine all displacements of their nodes. */
+    bool
+    can_stick(const ContactPair &pair)
+    {
+      return pair.tied() || pair.parameters().friction;
+    }
+
+    /** The nodes that belong to surfaces of two or more pairs, the same on all ranks. Collective.
+     */
+    std::set<Index>
+    nodes_of_several_pairs(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+                           const Solid                                     &solid)
+    {
+      Vector count(solid.owned, solid.communicator), of_pair(count);
+      for (const auto &pair : pairs)
+        {
+          std::set<Index> nodes;
+          for (const Surface *surface : {&pair->slave(), pair->master()})
+            if (surface)
+              for (const Face &face : surface->owned_faces())
+                nodes.insert(face.nodes.begin(), face.nodes.begin() + face.n_nodes());
+          of_pair = 0.;
+          std::vector<Index> dofs;
+          for (const Index node : nodes)
+            dofs.push_back(dim * node);
+          of_pair.add(dofs, std::vector<double>(dofs.size(), 1.));
+          // Several ranks may have faces at a node.
+          of_pair.compress(VectorOperation::add);
+          for (double &value : of_pair)
+            value = std::min(value, 1.);
+          count += of_pair;
+        }
+      std::vector<Index> mine;
+      std::size_t        k = 0;
+      for (const Index dof : solid.owned)
+        if (count.begin()[k++] > 1.5)
+          mine.push_back(dof / dim);
+      const std::vector<Index> all = gather_all(mine, solid.communicator);
+      return {all.begin(), all.end()};
+    }
+
+    /** The links between these nodes, of all ranks. Collective. */
+    std::vector<Link>
+    links(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+          const std::set<Index>                           &nodes,
+          const MPI_Comm                                   communicator)
+    {
+      std::vector<Link> mine;
+      for (unsigned int p = 0; p < pairs.size(); ++p)
+        for (const ContactRow &row : pairs[p]->rows())
+          if (row.has_partner && !row.between_nodes && nodes.count(row.slave) > 0 &&
+              (row.tied || row.gap < row.size))
+            for (const StencilEntry &entry : row.stencil)
+              if (entry.weight > least_weight && nodes.count(entry.node) > 0)
+                mine.push_back({p, row.slave, entry.node});
+      return gather_all(mine, communicator);
+    }
+  } // namespace
+
+
+
+  std::vector<std::set<Index>>
+  junction_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs, const Solid &solid)
+  {
+    std::vector<std::set<Index>> result(pairs.size());
+    // Pairs are the same on all ranks.
+    if (pairs.size() < 2 ||
+        std::none_of(pairs.begin(), pairs.end(), [](const auto &pair) { return can_stick(*pair); }))
+      return result;
+    const std::set<Index> nodes = nodes_of_several_pairs(pairs, solid);
+    if (nodes.empty())
+      return result;
+    const std::vector<Link>      all = links(pairs, nodes, solid.communicator);
+    std::map<Index, std::size_t> numbers;
+    for (const Index node : nodes)
+      numbers.emplace(node, numbers.size());
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (can_stick(*pairs[p]))
+        {
+          // What the other pairs join.
+          std::vector<std::size_t> rank(numbers.size()), parent(numbers.size());
+          boost::disjoint_sets<std::size_t *, std::size_t *> joined(rank.data(), parent.data());
+          for (std::size_t k = 0; k < numbers.size(); ++k)
+            joined.make_set(k);
+          for (const Link &link : all)
+            if (link.pair != p)
+              joined.union_set(numbers.at(link.slave), numbers.at(link.master));
+          for (const Link &link : all)
+            if (link.pair == p &&
+                joined.find_set(numbers.at(link.slave)) == joined.find_set(numbers.at(link.master)))
+              result[p].insert(link.slave);
+        }
+    return result;
+  }
+} // namespace Touchstone

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Slave nodes whose displacement is not free, for supports, drives or other pairs determine it:
+contact holds nevertheless, with every enforcement, either role and on two ranks. Edges around which
+several bodies are tied or stick: patch tests, whatever the roles, angles, meshes and the order of
+pairs."""
+
+import math
+
+from touchstone_test import (AUGMENTED, CG, ENFORCEMENT, ENFORCEMENTS, EXACT_ENFORCEMENTS, GAP, GMRES,
+                             below, check, finish, folder, relative, run, same)
+
+E, NU = 1000., 0.3
+NAMES = "abcdef"
+
+
+def section(name, lines):
+    return f"subsection {name}\n" + "".join(f"  {line}\n" for line in lines) + "end\n"
+
+
+def scene(name, title, bodies, pairs, reference):
+    """A scene of bodies (name: lines) and pairs (slave, boundary, master, boundary)."""
+    text = [f"set Title = {title}", "set Bodies = " + ", ".join(bodies),
+            "set Contact pairs = " + ", ".join(NAMES[:len(pairs)])]
+    text += [section(f"Body {body}", lines) for body, lines in bodies.items()]
+    for pair, (slave, of_slave, master, of_master) in zip(NAMES, pairs):
+        text.append(section(f"Contact pair {pair}", [
+            f"set Slave body = {slave}", f"set Slave boundaries = {of_slave}",
+            f"set Master body = {master}", f"set Master boundaries = {of_master}"]))
+    text += [section("Reference solution", reference), section("Output", ["set VTU interval = 0"])]
+    (folder / name).write_text("\n".join(text) + "\n", encoding="utf-8")
+    return name
+
+
+def material(poisson=NU):
+    return ["subsection Material", f"set Young modulus = {E}", f"set Poisson ratio = {poisson}", "end"]
+
+
+def box(lower, upper, cells):
+    return ["subsection Geometry", "set Type = box", f"set Lower corner = {lower}",
+            f"set Upper corner = {upper}", f"set Cells = {cells}", "end"]
+
+
+def star(name, angles, cells, roles, strain=None):
+    """Rhombs around an edge, in plane strain: pressed from all sides with the pressure 10, or with the
+    displacement of a uniform strain (xx, yy, xy) prescribed. @param angles Between neighbours, they
+    sum up to 360 degrees. @param roles Whether body k is slave of body k + 1."""
+    n = len(angles)
+    first = [math.radians(25 + sum(angles[:k])) for k in range(n)]
+    e = [(math.cos(a), math.sin(a)) for a in first]
+    given = -10 * (1 + NU) * (1 - 2 * NU) / E
+    xx, yy, xy = strain or (given, given, 0)
+    u = {"x": f"({xx}*x + {xy}*y)", "y": f"({xy}*x + {yy}*y)"}
+    bodies, pairs = {}, []
+    for k in range(n):
+        p, q = e[k], e[(k + 1) % n]
+        corners = [(0, 0), p, (p[0] + q[0], p[1] + q[1]), q]
+        lines = ["set Symmetry = bottom, top", "set Boundary conditions = right, back"]
+        lines += [f"set Reference displacement {d} = {u[d]}" for d in "xy"]
+        lines += ["subsection Geometry", "set Type = block", "set Corners = " +
+                  "; ".join(f"{x:.15g}, {y:.15g}, 0" for x, y in corners),
+                  f"set Cells = {cells[k]}", "end"] + material()
+        for side in "right", "back":
+            driven = strain or (k == 0 and side == "right")
+            lines += [f"subsection Boundary {side}"]
+            lines += [f"set Displacement {d} = {u[d]} * t" for d in "xy"] if driven \
+                else ["set Pressure = 10 * t"]
+            lines += ["end"]
+        bodies[f"body{k}"] = lines
+        sides = (f"body{k}", "left"), (f"body{(k + 1) % n}", "front")
+        pairs.append((*sides[0], *sides[1]) if roles[k] else (*sides[1], *sides[0]))
+    reference = ["set Type = formula"] + ([] if strain else ["set Pressure = 10"])
+    return scene(name, "bodies around an edge", bodies, pairs, reference)
+
+
+def kind(n, **keys):
+    """The same keys for all pairs."""
+    return {f"Contact pair {pair}/{key.replace('_', ' ')}": value
+            for pair in NAMES[:n] for key, value in keys.items()}
+
+
+def tied(n):
+    return kind(n, Behaviour="tied")
+
+
+def rough(n):
+    return {**kind(n, Behaviour="coulomb"),
+            **{f"Contact pair {pair}/Friction/Coefficient": 0.5 for pair in NAMES[:n]}}
+
+
+def patch(name, path, settings, pressure=True, ranks=1, bound=1e-7):
+    """A run that meets the exact solution."""
+    result = run(name, path, {GAP: 1e-10, **settings}, ranks)
+    for error in ("displacement_l2", "pressure_l2")[:1 + pressure]:
+        below(f"{name}, {error}", result.error(error), bound)
+    return result
+
+
+CIRCLE, CHAIN = (True, True, True), (True, True, False)
+THREE = star("three.prm", (120, 120, 120), ("3, 3, 1", "4, 4, 1", "3, 5, 2"), CIRCLE)
+EXCHANGED = star("exchanged.prm", (95, 150, 115), ("3, 3, 2", "4, 4, 3", "3, 5, 1"), CHAIN)
+FOUR = star("four.prm", (90, 80, 100, 90), ("3, 3, 1", "4, 2, 2", "2, 5, 1", "3, 3, 3"),
+            (True, False, True, True))
+for path, n in (THREE, 3), (EXCHANGED, 3), (FOUR, 4):
+    for way, settings in ("tied", tied(n)), ("rough", rough(n)):
+        name = f"{path[:-4]}_{way}"
+        for enforcement in EXACT_ENFORCEMENTS:
+            patch(f"{name}_{enforcement}", path, {**settings, ENFORCEMENT: enforcement})
+    patch(f"{name}_2", path, settings, ranks=2)
+    patch(f"{name}_tied_2", path, tied(n), ranks=2)
+# One pair without friction beside two that are tied.
+patch("mixed", THREE, {**tied(3), "Contact pair c/Behaviour": "frictionless"})
+# Shear, too: all that is tied moves as one body.
+for path, n in (star("sheared.prm", (100, 130, 130), ("3, 3, 2", "4, 4, 1", "3, 5, 3"), CIRCLE,
+                     (-0.004, 0.001, 0.003)), 3), :
+    for enforcement in EXACT_ENFORCEMENTS:
+        patch(f"sheared_{enforcement}", path, {**tied(n), ENFORCEMENT: enforcement}, pressure=False)
+
+# A plate over two blocks: its nodes over both are slaves of two pairs with the same normal.
+def over(name, cells, order):
+    z = ["set Reference displacement x = 0", "set Reference displacement y = 0",
+         "set Reference displacement z = -0.01*z"]
+    bodies = {
+        "left": ["set Symmetry = left, front, bottom", *z, *box("0, 0, 0", "1, 1, 1", cells[0])],
+        "right": ["set Symmetry = front, bottom", "set Boundary conditions = right", *z,
+                  "subsection Boundary right", "set Displacement x = 0", "end",
+                  *box("1, 0, 0", "2, 1, 1", cells[1])],
+        "upper": ["set Symmetry = left, front", "set Boundary conditions = top", *z,
+                  "subsection Boundary top", "set Pressure = 10 * t", "end",
+                  *box("0, 0, 1", "2, 1, 2", cells[2])]}
+    bodies = {body: lines + material(0.) for body, lines in bodies.items()}
+    return scene(name, "plate over two blocks", bodies,
+                 [("upper", "bottom", body, "top") for body in order], ["set Type = formula"])
+
+
+def balanced(result):
+    for pair in "ab":
+        below(f"{result}, force of {pair}", relative(result.force(pair)[2], 10), 1e-7)
+
+
+CELLS = "3, 3, 2", "2, 4, 2", "4, 3, 2"
+OVER = over("over.prm", CELLS, ("left", "right"))
+for way, settings in {"smooth": {}, "tied": tied(2), "rough": rough(2)}.items():
+    for enforcement in EXACT_ENFORCEMENTS:
+        balanced(patch(f"over_{way}_{enforcement}", OVER, {**settings, ENFORCEMENT: enforcement},
+                       pressure=False))
+SAME_CELLS = over("over_pointwise.prm", ("2, 3, 2", "2, 3, 2", "4, 3, 2"), ("left", "right"))
+patch("over_pointwise", SAME_CELLS, kind(2, Pairing="pointwise"), pressure=False)
+patch("over_2", OVER, {}, pressure=False, ranks=2)
+for solver in CG, GMRES:
+    patch(f"over_{solver['Linear solver/Type'][6:]}", OVER, solver, pressure=False)
+patch("over_middle_of_faces", over("middle.prm", ("3, 3, 2", "2, 4, 2", "5, 3, 2"),
+                                   ("right", "left")), {}, pressure=False)
+
+# A surface that is driven is slave: the master gives way. The star with one body driven from outside
+# holds slave nodes by their edge; here all of them are held, and what tilts the rib is the same with
+# either role.
+def rib(name, slave, master, support):
+    bodies = {
+        "low": ["set Fixed = bottom", *box("-1, -1, -1", "1, 1, 0", "3, 3, 2"), *material()],
+        "rib": [f"set Boundary conditions = {support}", f"subsection Boundary {support}",
+                "set Displacement x = 0", "set Displacement y = 0",
+                "set Displacement z = -0.012 * t", "end",
+                *box("-0.5, -0.5, 0", "0.5, 0.5, 0.4", "3, 4, 1"), *material()]}
+    return scene(name, "driven surface", bodies, [(*slave, *master)], ["set Type = none"])
+
+
+sides = ("rib", "bottom"), ("low", "top")
+forces = {}
+for enforcement in ENFORCEMENTS:
+    result = run(f"driven_{enforcement}", rib("driven.prm", *sides, "bottom"),
+                 {ENFORCEMENT: enforcement, GAP: 1e-10})
+    forces[enforcement] = result.force("a")[2]
+    below(f"{result}, balance", relative(result.reaction("low", "bottom")[2], forces[enforcement]), 1e-6)
+for enforcement in EXACT_ENFORCEMENTS:
+    below(f"driven, {enforcement}", relative(forces[enforcement], forces["elimination"]), 1e-7)
+below("driven, penalty", relative(forces["penalty"], forces["elimination"]), 0.05)
+same(run("driven", "driven.prm", {GAP: 1e-10}), run("driven_2", "driven.prm", {GAP: 1e-10}, ranks=2),
+     1e-8)
+held = rib("exchanged_roles.prm", sides[1], sides[0], "bottom")
+below("driven, roles", relative(-run("exchanged_roles", held, {}).force("a")[2],
+                                forces["elimination"]), 0.05)
+finish()
