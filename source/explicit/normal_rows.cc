@@ -42,15 +42,6 @@ namespace Touchstone
 
 
   void
-  NormalRows::add(const Tensor<1, dim> &c, const double norm, const unsigned int node)
-  {
-    entries.push_back({{c[0], c[1], c[2], norm}});
-    nodes.push_back(node);
-  }
-
-
-
-  void
   NormalRows::set_nodes(const std::vector<Tensor<1, dim>>          &free_velocity,
                         const std::vector<SymmetricTensor<2, dim>> &mobilities)
   {
@@ -142,18 +133,22 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   NormalRows::sum(double Row::*const impulse)
   {
-    const Four zero = {};
-    for (Vector &value : sums)
-      store(zero, value);
-    const unsigned int n = size();
-    for (unsigned int i = 0; i < n; ++i)
+    // Stores may change anything, but not these.
+    Vector *const             at   = sums.data();
+    const Vector             *of   = entries.data();
+    const unsigned int       *node = nodes.data();
+    const Row                *row  = rows.data();
+    const unsigned int *const end  = node + nodes.size();
+    const Four                zero = {};
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      store(zero, at[i]);
+    for (const unsigned int *next; node != end; ++row)
       {
-        const double p = rows[i].*impulse;
-        for (std::size_t e = rows[i].first; e < rows[i + 1].first; ++e)
+        const double p = row->*impulse;
+        for (next = nodes.data() + row[1].first; node != next; ++node, ++of)
           {
-            Vector    &at      = sums[nodes[e]];
-            const Four product = p * load(entries[e]);
-            store(load(at) + product, at);
+            const Four product = p * load(*of);
+            store(load(at[*node]) + product, at[*node]);
           }
       }
   }
@@ -191,14 +186,17 @@ namespace Touchstone
   TOUCHSTONE_VECTORISED void
   NormalRows::improve(double (&largest)[2])
   {
-    double             change = 0., move = 0.;
-    const unsigned int n = size();
+    double              change = 0., move = 0.;
+    const Vector *const v = velocity.data(), *of = entries.data();
+    const unsigned int *node = nodes.data();
+    const unsigned int  n    = size();
     for (unsigned int i = 0; i < n; ++i)
       {
         Row &row = rows[i];
         Four sum = {};
-        for (std::size_t e = row.first; e < rows[i + 1].first; ++e)
-          sum += load(entries[e]) * load(velocity[nodes[e]]);
+        for (const unsigned int *const next = nodes.data() + rows[i + 1].first; node != next;
+             ++node, ++of)
+          sum += load(*of) * load(v[*node]);
         const double excess = row.allowed - row.drive + (sum[0] + sum[1] + sum[2]);
         row.impulse =
           row.mobility > 0. ? std::max(0., row.extrapolated - excess / row.mobility) : 0.;

@@ -79,15 +79,17 @@ namespace Touchstone
     const auto        position = [&](const std::size_t s) { return x[solver.nodes.node(s)]; };
     for (std::size_t s = first; s < last; ++s)
       mean += c * position(s);
-    Tensor<2, dim> inertia;
+    SymmetricTensor<2, dim> moments;
     for (std::size_t s = first; s < last; ++s)
       {
         const Tensor<1, dim> y = position(s) - mean;
-        inertia += c * (y.norm_square() * Tensor<2, dim>(unit_symmetric_tensor<dim>()) -
-                        outer_product(y, y));
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = i; j < dim; ++j)
+            moments[i][j] += c * (y[i] * y[j]);
       }
-    const double scale = trace(inertia);
-    row.levered        = determinant(inertia) > on_a_line * scale * scale * scale;
+    const Tensor<2, dim> inertia = trace(moments) * unit_symmetric_tensor<dim>() - moments;
+    const double         scale   = trace(inertia);
+    row.levered                  = determinant(inertia) > on_a_line * scale * scale * scale;
     if (!row.levered)
       return;
     const Tensor<2, dim> inverse = invert(inertia);

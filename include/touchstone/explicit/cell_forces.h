@@ -37,7 +37,8 @@ namespace Touchstone
     using NodalMasses = std::array<double, NodeMap::nodes_per_cell>;
 
     /** @brief Masses that cell number @p c of this body gives to its nodes, without scaling: the
-     * density times int N_a dV. They are computed anew, as storing them takes more time. */
+     * density times int N_a dV. They are computed anew from the positions, which
+     * takes little time and no memory. */
     NodalMasses
     masses(unsigned int c) const;
 

@@ -62,7 +62,11 @@ namespace Touchstone
 
     /** @brief Add an entry to the last row that was added. */
     void
-    add(const dealii::Tensor<1, dim> &c, double norm, unsigned int node);
+    add(const dealii::Tensor<1, dim> &c, const double norm, const unsigned int node)
+    {
+      entries.push_back({{c[0], c[1], c[2], norm}});
+      nodes.push_back(node);
+    }
 
     void
     set_nodes(const std::vector<dealii::Tensor<1, dim>>          &free_velocity,
