@@ -16,10 +16,8 @@ namespace Touchstone
   AppliedOperator::AppliedOperator(const CondensationInput &input)
     : SquareOperator(input.dofs, "stiffness beside contact")
     , input(input)
-    , diagonal(map)
     , all(map)
     , force(map)
-    , part(map)
   {
     // Matrices of Epetra are made collectively: if any rank has contact terms, all ranks make
     // them, also those that have no row of their own.
@@ -30,6 +28,7 @@ namespace Touchstone
         left        = forms(&RankOneTerm::left);
         right       = forms(&RankOneTerm::right);
         elongations = std::make_unique<Epetra_Vector>(right->RangeMap());
+        part        = std::make_unique<Epetra_Vector>(map);
       }
     // The row and column of a constrained dof in S^T A T are zero. Its own diagonal entry makes
     // the matrix invertible; as it is of the size of the other stiffnesses (force per length), it
@@ -39,7 +38,7 @@ namespace Touchstone
       if (input.constrained[i])
         {
           const double own = input.system.stiffness->diagonal(i);
-          diagonal[i]      = own != 0. ? own : 1.;
+          diagonal.emplace_back(i, own != 0. ? own : 1.);
         }
   }
 
@@ -79,8 +78,8 @@ namespace Touchstone
     if (right)
       {
         right->Multiply(false, x, *elongations);
-        left->Multiply(true, *elongations, part);
-        result.Update(1., part, 1.);
+        left->Multiply(true, *elongations, *part);
+        result.Update(1., *part, 1.);
       }
   }
 
@@ -115,7 +114,8 @@ namespace Touchstone
         input.trial.apply(*x(v), all);
         multiply(all, force);
         input.test.apply_transposed(force, *result(v));
-        result(v)->Multiply(1., diagonal, *x(v), 1.);
+        for (const auto &[i, entry] : diagonal)
+          result[v][i] += entry * x[v][i];
       }
     return 0;
   }

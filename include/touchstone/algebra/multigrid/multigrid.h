@@ -81,7 +81,7 @@ namespace Touchstone
     largest_eigenvalue(const Level &level);
 
     void
-    make_coarsest(BlockRows &rows);
+    make_coarsest(BlockRows &rows, bool symmetric);
 
     /** @brief One cycle from level @p k on, over the dofs of this rank; @p rhs and @p
      * solution may be the same. */
