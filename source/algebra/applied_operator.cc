@@ -16,8 +16,6 @@ namespace Touchstone
   AppliedOperator::AppliedOperator(const CondensationInput &input)
     : SquareOperator(input.dofs, "stiffness beside contact")
     , input(input)
-    , all(map)
-    , force(map)
   {
     // Matrices of Epetra are made collectively: if any rank has contact terms, all ranks make
     // them, also those that have no row of their own.
@@ -90,15 +88,16 @@ namespace Touchstone
   std::unique_ptr<Epetra_Vector>
   AppliedOperator::right_hand_side() const
   {
-    auto result = std::make_unique<Epetra_Vector>(map);
-    multiply(input.trial.inhomogeneity(), force);
-    force.Scale(-1.);
+    auto          result = std::make_unique<Epetra_Vector>(map);
+    Epetra_Vector balance(map);
+    multiply(input.trial.inhomogeneity(), balance);
+    balance.Scale(-1.);
     const int n = static_cast<int>(dim * input.system.stiffness->n_nodes());
     for (int i = 0; i < n; ++i)
-      force[i] += input.system.rhs.begin()[i];
+      balance[i] += input.system.rhs.begin()[i];
     for (Index k = 0; k < input.system.n_extra; ++k)
-      force[n + k] += input.system.extra_rhs[k];
-    input.test.apply_transposed(force, *result);
+      balance[n + k] += input.system.extra_rhs[k];
+    input.test.apply_transposed(balance, *result);
     return result;
   }
 
@@ -109,11 +108,14 @@ namespace Touchstone
   int
   AppliedOperator::Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const
   {
+    for (auto *const vector : {&all, &force})
+      if (!*vector)
+        *vector = std::make_unique<Epetra_Vector>(map);
     for (int v = 0; v < x.NumVectors(); ++v)
       {
-        input.trial.apply(*x(v), all);
-        multiply(all, force);
-        input.test.apply_transposed(force, *result(v));
+        input.trial.apply(*x(v), *all);
+        multiply(*all, *force);
+        input.test.apply_transposed(*force, *result(v));
         for (const auto &[i, entry] : diagonal)
           result[v][i] += entry * x[v][i];
       }

@@ -185,7 +185,7 @@ below("traction on the cells of an array", relative(sum(pulled.reaction("beam", 
 whole = vtk()
 for name, old, new, text in (("number", "POINT_DATA 45", "POINT_DATA 44", "POINT_DATA announces 44 points, POINTS 45"),
                              ("name", "end 1 20 int", "End 1 20 int", "has no array 'end' of one component"),
-                             ("short", "\n1\n1\n1\n1\n", "\n1\n1\n1\n", "FIELD")):
+                             ("short", "end 1 20 int\n0", "end 1 20 int", "FIELD")):
     check(whole.count(old) == 1, f"{name}: the file has no '{old}'")
     (folder / f"bad_{name}.vtk").write_text(whole.replace(old, new), encoding="utf-8")
     refused = run(f"bad_{name}", scene(f"bad_vtk_{name}", f"bad_{name}.vtk", "  set Fixed = left"), fails=True)

@@ -47,6 +47,9 @@ namespace Touchstone
     std::unique_ptr<BlockRows>
     block_rows() const override
     {
+      // Multigrid is set up, which takes most memory of a run.
+      all.reset();
+      force.reset();
       return condensed_block_rows(input);
     }
 
@@ -63,7 +66,8 @@ namespace Touchstone
     std::unique_ptr<Epetra_Vector> part;
     /** Constrained dofs, and their entries on the diagonal. */
     std::vector<std::pair<int, double>> diagonal;
-    mutable Epetra_Vector               all, force;
+    /** Work space of products, made when it is needed. */
+    mutable std::unique_ptr<Epetra_Vector> all, force;
 
     /** Forms of this rank's terms as the rows of a matrix. */
     std::unique_ptr<Epetra_CrsMatrix>

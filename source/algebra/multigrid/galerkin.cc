@@ -255,13 +255,14 @@ namespace Touchstone
     for (unsigned int i = 0; i < far.size(); ++i)
       for (const Index aggregate : far[i].aggregates)
         far_columns[i].push_back(indices.local(aggregate));
-    std::vector<RowOfP> p;
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      p.push_back({entries.data() + block * start[node],
-                   column.data() + start[node],
-                   start[node + 1] - start[node]});
-    for (unsigned int i = 0; i < far.size(); ++i)
-      p.push_back({far[i].entries.data(), far_columns[i].data(), far_columns[i].size()});
+    const auto row_of_p = [&](const unsigned int node) {
+      if (node < n_nodes)
+        return RowOfP{entries.data() + block * start[node],
+                      column.data() + start[node],
+                      start[node + 1] - start[node]};
+      const auto &aggregates = far_columns[node - n_nodes];
+      return RowOfP{far[node - n_nodes].entries.data(), aggregates.data(), aggregates.size()};
+    };
 
     // Of a symmetric matrix the blocks between nodes of this rank are read once for two: with U,
     // what is above the diagonal and half of this, P^T (U + U^T) P is a sum and its transpose. The
@@ -287,9 +288,9 @@ namespace Touchstone
         for (unsigned int k = 0; k < row.columns.size(); ++k)
           if (const auto other = static_cast<unsigned int>(row.columns[k]);
               !symmetric || other >= n_nodes)
-            add_product(row.blocks[k], 1., p[other], of_rest);
+            add_product(row.blocks[k], 1., row_of_p(other), of_rest);
           else if (other >= node)
-            add_product(row.blocks[k], other == node ? 0.5 : 1., p[other], of_half);
+            add_product(row.blocks[k], other == node ? 0.5 : 1., row_of_p(other), of_half);
         matrix.forget(node);
         for (std::size_t b = start[node]; b < start[node + 1]; ++b)
           {

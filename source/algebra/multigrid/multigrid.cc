@@ -67,8 +67,7 @@ namespace Touchstone
     Chebyshev::AdditionalData data(degree, range, estimate_iterations);
     data.preconditioner = std::make_shared<DiagonalMatrix<VectorType>>(matrix.inverse_diagonal());
     smoother.initialize(matrix, data);
-    for (VectorType *vector : {&rhs, &solution, &residual})
-      matrix.initialize_vector(*vector);
+    matrix.initialize_vector(rhs);
   }
 
 
@@ -106,7 +105,10 @@ namespace Touchstone
             // smoothing is enough. On a later one few nodes are left of many bodies and ranks; as
             // this matrix is sparse, the direct solver takes it although it is larger than usual.
             if (levels.size() == 1)
-              return;
+              {
+                make_work_space();
+                return;
+              }
             levels.pop_back();
             break;
           }
@@ -116,7 +118,19 @@ namespace Touchstone
         prolongation->initialize_coarse_vector(level.coarse_values);
         level.prolongation = std::move(prolongation);
       }
+    make_work_space();
     make_coarsest(*rows, symmetric);
+  }
+
+
+
+  // Last, when the set-up needs no memory any more.
+  void
+  Multigrid::make_work_space()
+  {
+    for (const auto &level : levels)
+      for (VectorType *vector : {&level->solution, &level->residual})
+        level->matrix.initialize_vector(*vector);
   }
 
 

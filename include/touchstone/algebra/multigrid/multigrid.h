@@ -81,6 +81,9 @@ namespace Touchstone
     largest_eigenvalue(const Level &level);
 
     void
+    make_work_space();
+
+    void
     make_coarsest(BlockRows &rows, bool symmetric);
 
     /** @brief One cycle from level @p k on, over the dofs of this rank; @p rhs and @p
