@@ -197,7 +197,8 @@ namespace
 
     // Motions come back smoothed by one step of Jacobi's method, whatever the aggregates.
     const double       largest = 2.;
-    const Prolongation smooth(blocks, given, body, group, largest);
+    const Prolongation smooth(
+      blocks, [&] { return given; }, body, group, largest);
     smooth.initialize_coarse_vector(coarse);
     smooth.initialize_coarse_vector(gathered);
     const VectorType inverse = blocks.inverse_diagonal();
@@ -331,12 +332,13 @@ namespace
              const bool                       root)
   {
     const Epetra_Map &map = matrix.RowMap();
-    const Multigrid   multigrid(map,
-                              std::make_unique<MatrixRows>(matrix),
-                              std::make_unique<Epetra_MultiVector>(motions),
-                              body,
-                              true);
-    Epetra_Vector     of_x(map), of_y(map), rest(x), product(map);
+    const Multigrid   multigrid(
+      map,
+      std::make_unique<MatrixRows>(matrix),
+      [&] { return std::make_shared<const Epetra_MultiVector>(motions); },
+      body,
+      true);
+    Epetra_Vector of_x(map), of_y(map), rest(x), product(map);
     multigrid.ApplyInverse(x, of_x);
     multigrid.ApplyInverse(y, of_y);
     double a, b, before, after;
@@ -375,12 +377,13 @@ namespace
         diagonal_matrix->InsertGlobalValues(i, 1, &two, &i);
       }
     diagonal_matrix->FillComplete();
-    const Multigrid alone(map,
-                          std::make_unique<MatrixRows>(*diagonal_matrix),
-                          std::make_unique<Epetra_MultiVector>(motions),
-                          body,
-                          true);
-    Epetra_Vector   half(map);
+    const Multigrid alone(
+      map,
+      std::make_unique<MatrixRows>(*diagonal_matrix),
+      [&] { return std::make_shared<const Epetra_MultiVector>(motions); },
+      body,
+      true);
+    Epetra_Vector half(map);
     alone.ApplyInverse(x, half);
     double error = 0., norm = 0.;
     half.Update(-0.5, x, 1.);

@@ -72,16 +72,15 @@ namespace Touchstone
 
 
 
-  Multigrid::Multigrid(const Epetra_Map                         &map,
-                       std::unique_ptr<BlockRows>                rows,
-                       std::unique_ptr<const Epetra_MultiVector> near_kernel,
-                       const std::vector<unsigned int>          &body,
-                       const bool                                symmetric)
+  Multigrid::Multigrid(const Epetra_Map                &map,
+                       std::unique_ptr<BlockRows>       rows,
+                       Prolongation::NearKernel         near_kernel,
+                       const std::vector<unsigned int> &body,
+                       const bool                       symmetric)
     : SquareOperator(map, "smoothed aggregation")
   {
     // Bodies by node; motions.body is by dof.
-    std::shared_ptr<const Epetra_MultiVector> modes = std::move(near_kernel);
-    std::vector<unsigned int>                 bodies(map.NumMyElements() / dim);
+    std::vector<unsigned int> bodies(map.NumMyElements() / dim);
     for (unsigned int node = 0; node < bodies.size(); ++node)
       bodies[node] = body[dim * node];
     unsigned int group = 1;
@@ -96,9 +95,10 @@ namespace Touchstone
         Level       &level   = *levels.back();
         const double largest = largest_eigenvalue(level);
         auto         prolongation =
-          std::make_unique<Prolongation>(level.matrix, std::move(modes), bodies, group, largest);
-        modes                = prolongation->coarse_near_kernel();
-        const Index n_coarse = modes->GlobalLength();
+          std::make_unique<Prolongation>(level.matrix, near_kernel, bodies, group, largest);
+        const auto  kernel   = prolongation->coarse_near_kernel();
+        const Index n_coarse = kernel->GlobalLength();
+        near_kernel          = [kernel] { return kernel; };
         if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
           {
             // The coarse level is hardly smaller. On the finest level nothing is coupled then, and

@@ -40,6 +40,9 @@ namespace Touchstone
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
           const BlockMatrix<float>::Rows::Row &row = matrix.read(node);
+          // What lists leave behind as they grow would take as much memory as they do.
+          if (group == 1)
+            graph[node].reserve(row.columns.size());
           for (unsigned int k = 0; k < row.columns.size(); ++k)
             {
               const unsigned int other = row.columns[k];
@@ -160,11 +163,11 @@ namespace Touchstone
 
 
   // What is not needed any more is freed before the entries of P are made, for then most is stored.
-  Prolongation::Prolongation(const BlockMatrix<float>                 &matrix,
-                             std::shared_ptr<const Epetra_MultiVector> near_kernel,
-                             const std::vector<unsigned int>          &body,
-                             const unsigned int                        group,
-                             const double                              largest)
+  Prolongation::Prolongation(const BlockMatrix<float>        &matrix,
+                             const NearKernel                &near_kernel,
+                             const std::vector<unsigned int> &body,
+                             const unsigned int               group,
+                             const double                     largest)
     : fine(matrix.vector_partitioner())
   {
     std::vector<float> diagonal(dim * matrix.n_nodes());
@@ -184,9 +187,9 @@ namespace Touchstone
       body_of_aggregate.resize(aggregates.n);
       for (int a = 0; a < aggregates.n; ++a)
         body_of_aggregate[a] = body[nodes[a].front() / group];
-      tentative = restrict_to_aggregates(*near_kernel, nodes);
+      give_back_free_memory();
+      tentative = restrict_to_aggregates(*near_kernel(), nodes);
     }
-    near_kernel.reset();
     give_back_free_memory();
     // Nothing is coupled, on any rank.
     if (coarse_kernel->GlobalLength() == 0)

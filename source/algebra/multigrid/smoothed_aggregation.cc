@@ -5,7 +5,7 @@
 
 #include <Ifpack_PointRelaxation.h>
 #include <Teuchos_ParameterList.hpp>
-#include <utility>
+#include <memory>
 
 // Registers the preconditioner 'multigrid', and takes one sweep of Gauss-Seidel in its place
 // where inertia makes the system easy, as in dynamics with small steps.
@@ -73,12 +73,11 @@ namespace Touchstone
         constexpr double much = 0.15;
         if (stiffness_of_motions(system, motions) >= much)
           return std::make_unique<GaussSeidel>(system.matrix());
-        // First the rows, whose assembly needs memory for a while.
-        auto rows = system.block_rows();
-        auto near_kernel =
-          std::make_unique<const Epetra_MultiVector>(near_null_space(system, motions));
+        const auto near_kernel = [&] {
+          return std::make_shared<const Epetra_MultiVector>(near_null_space(system, motions));
+        };
         return std::make_unique<Multigrid>(
-          system.rows(), std::move(rows), std::move(near_kernel), motions.body, system.symmetric);
+          system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
       }
     };
 

@@ -10,6 +10,7 @@
 #include <Epetra_MultiVector.h>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -32,6 +33,10 @@ namespace Touchstone
   {
   public:
     using VectorType = BlockMatrix<float>::VectorType;
+
+    /** @brief Makes rigid motions over a level where they are needed, for they take the memory of
+     * six vectors. */
+    using NearKernel = std::function<std::shared_ptr<const Epetra_MultiVector>()>;
 
     /** @brief Rigid motions of an aggregate. */
     static constexpr unsigned int n_modes = 6;
@@ -73,18 +78,17 @@ namespace Touchstone
 
     /**
      * @param matrix      Symmetric pattern.
-     * @param near_kernel Rigid motions, zero at constrained dofs; at most n_modes. Freed here,
-     *                    as early as possible, if the caller gives it away.
+     * @param near_kernel Rigid motions, zero at constrained dofs; at most n_modes.
      * @param body        Of this rank's nodes, or of its groups of nodes.
      * @param group       Nodes that follow each other and stay together: one on the finest
      *                    level, the nodes of an aggregate on the others.
      * @param largest     Largest eigenvalue of the matrix over its diagonal.
      */
-    Prolongation(const BlockMatrix<float>                 &matrix,
-                 std::shared_ptr<const Epetra_MultiVector> near_kernel,
-                 const std::vector<unsigned int>          &body,
-                 unsigned int                              group,
-                 double                                    largest);
+    Prolongation(const BlockMatrix<float>        &matrix,
+                 const NearKernel                &near_kernel,
+                 const std::vector<unsigned int> &body,
+                 unsigned int                     group,
+                 double                           largest);
 
     /** @brief The matrix of the coarser level, P^T A P. @param matrix That of which the
      * constructor got the blocks, in double precision; forgets its rows one by one. @param
