@@ -39,15 +39,16 @@ run()
     "$program" --output "$runs/$scene" "$@" "prm/$scene.prm" >"$runs/$scene.log"
 }
 
-# render_test NAME OPTION...: the same of a scene of tests/.
+# render_test NAME OPTION...: the same of a scene of tests/ or of its folders.
 render_test()
 {
-  wants "$1" || return 0
-  name=$1
+  name=${1##*/}
+  wants "$name" || return 0
+  scene=$1
   shift
   mkdir -p "$runs/tests"
   [ -f "$runs/tests/$name/summary.json" ] ||
-    "$program" --output "$runs/tests/$name" --set "Output/VTU interval=1" "tests/$name.prm" >"$runs/tests/$name.log"
+    "$program" --output "$runs/tests/$name" --set "Output/VTU interval=1" "tests/$scene.prm" >"$runs/tests/$name.log"
   /usr/bin/python3 contrib/render.py "$runs/tests/$name" "$pictures/$name.png" --unit MPa "$@"
 }
 
@@ -90,6 +91,10 @@ render benchmarks/hertz_rings --size "$small" --camera "-1 -0.6 0.35" --focus "0
 render bolted_joint --camera "-0.7 -1 0.7" --contact-camera "0.2 -1 1.6"
 render self_contact --size "$small" --camera "0.2 -1 0.2" --mirror "x" --no-contact
 render_test cone_obstacle --size "$small" --camera "1 -1.4 0.9" --width 4 --focus "0.7 0.7 -0.5" --contact-camera "0.3 -0.6 1.4" --contact-width 3
+render_test torus_obstacle --size "$small" --camera "1 -1.4 0.9" --contact-camera "0.3 -0.6 1.4"
+render_test node_sets --size "$small" --camera "0.5 -1.4 0.5" --scale 30 --no-contact
+render_test checks/explicit_ball --size "300 360" --time "0.0001 0.0002 0.0003 0.0005" --mirror "x" --camera "0.15 -1 0.12" \
+  --range "0 6" --no-contact
 render_test pressed_sphere --size "$small" --camera "1 -1.4 0.9" --contact-camera "0.3 -0.6 1.4"
 render_test turning_roller --size "$small" --camera "0.5 -1.4 0.5" --contact traction_x --contact-camera "0.3 -0.6 1.4"
 render_test springs_and_moments --size "$small" --camera "0.5 -1.4 0.5" --no-contact

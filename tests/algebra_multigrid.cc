@@ -133,8 +133,9 @@ namespace
 
   using RowVector = LinearAlgebra::distributed::Vector<double>;
 
+  /** Of rows that are symmetric those blocks are taken that stand for others, too. */
   RowVector
-  product_of(BlockRows &rows, const double *values)
+  product_of(BlockRows &rows, const double *values, const bool symmetric)
   {
     RowVector x(rows.numbers()), result(rows.numbers());
     std::copy(values, values + x.locally_owned_size(), x.begin());
@@ -143,10 +144,18 @@ namespace
       {
         const auto &row = rows.read(node);
         for (std::size_t k = 0; k < row.columns.size(); ++k)
-          for (unsigned int r = 0; r < 3; ++r)
-            for (unsigned int c = 0; c < 3; ++c)
-              result.local_element(3 * node + r) +=
-                row.blocks[k][3 * r + c] * x.local_element(3 * row.columns[k] + c);
+          {
+            const unsigned int other = row.columns[k];
+            const bool         twice = symmetric && other > node && other < rows.n_nodes();
+            for (unsigned int r = 0; r < 3 && !(symmetric && other < node); ++r)
+              for (unsigned int c = 0; c < 3; ++c)
+                {
+                  const double entry = row.blocks[k][3 * r + c];
+                  result.local_element(3 * node + r) += entry * x.local_element(3 * other + c);
+                  if (twice)
+                    result.local_element(3 * other + c) += entry * x.local_element(3 * node + r);
+                }
+          }
       }
     return result;
   }
@@ -162,15 +171,20 @@ namespace
 
 
 
-  /** What takes motions from a coarser level and forces to it; then the same of that one. */
+  using Motions = std::shared_ptr<const Epetra_MultiVector>;
+
+  /** What takes motions from a coarser level and forces to it; then the same of that one.
+   * @param rows,whole The matrix, of which the first may be stored by halves. */
   void
   test_prolongation(BlockRows                       &rows,
-                    const Epetra_MultiVector        &motions,
+                    BlockRows                       &whole,
+                    const Motions                   &given,
                     const unsigned int               n_given,
                     const std::vector<unsigned int> &body,
                     const unsigned int               group)
   {
-    using VectorType = Prolongation::VectorType;
+    const Epetra_MultiVector &motions = *given;
+    using VectorType                  = Prolongation::VectorType;
     const BlockMatrix<float> blocks(rows, true);
     const auto              &partitioner = blocks.vector_partitioner();
     VectorType               fine(partitioner), forces(partitioner), coarse, gathered;
@@ -183,17 +197,17 @@ namespace
 
     // Motions come back smoothed by one step of Jacobi's method, whatever the aggregates.
     const double       largest = 2.;
-    const Prolongation smooth(blocks, motions, body, group, largest);
+    const Prolongation smooth(
+      blocks, [&] { return given; }, body, group, largest);
     smooth.initialize_coarse_vector(coarse);
     smooth.initialize_coarse_vector(gathered);
     const VectorType inverse = blocks.inverse_diagonal();
     double           wrong = 0., size = 0.;
     for (int d = 0; d < motions.NumVectors(); ++d)
       {
-        const RowVector smoothed = product_of(rows, motions[d]);
-        std::copy(smooth.coarse_near_kernel()[d],
-                  smooth.coarse_near_kernel()[d] + coarse.locally_owned_size(),
-                  coarse.begin());
+        const RowVector smoothed  = product_of(rows, motions[d], true);
+        const double   *of_coarse = (*smooth.coarse_near_kernel())[d];
+        std::copy(of_coarse, of_coarse + coarse.locally_owned_size(), coarse.begin());
         fine = 0.f;
         smooth.prolongate_and_add(fine, coarse);
         for (int i = 0; i < motions.MyLength(); ++i)
@@ -216,13 +230,16 @@ namespace
     smooth.restrict_to(gathered, forces);
     const double spread = fine * forces, back = coarse * gathered;
 
-    const auto product = smooth.galerkin(rows, /*symmetric=*/true),
-               whole   = smooth.galerkin(rows, /*symmetric=*/false);
     const std::vector<double> x(coarse.begin(), coarse.begin() + coarse.locally_owned_size()),
       px(fine.begin(), fine.begin() + fine.locally_owned_size());
-    const double energy   = dot(product_of(*product, x.data()), x.data(), communicator),
-                 of_whole = dot(product_of(*whole, x.data()), x.data(), communicator);
-    double energy_of_fine = dot(product_of(rows, px.data()), px.data(), communicator), alone = 0.;
+    // Before the rows are forgotten by the product.
+    double energy_of_fine    = dot(product_of(whole, px.data(), false), px.data(), communicator),
+           alone             = 0.;
+    const auto product       = smooth.galerkin(rows, /*symmetric=*/true),
+               whole_product = smooth.galerkin(whole, /*symmetric=*/false);
+    const double energy      = dot(product_of(*product, x.data(), true), x.data(), communicator),
+                 of_whole =
+                   dot(product_of(*whole_product, x.data(), false), x.data(), communicator);
     // The unknowns of motions that are not given stand alone, with one.
     for (std::size_t i = 0; i < x.size(); ++i)
       if (i % Prolongation::n_modes >= n_given)
@@ -240,6 +257,7 @@ namespace
                 << std::endl;
     if (group == 1)
       test_prolongation(*product,
+                        *whole_product,
                         smooth.coarse_near_kernel(),
                         n_given,
                         smooth.coarse_body(),
@@ -314,12 +332,13 @@ namespace
              const bool                       root)
   {
     const Epetra_Map &map = matrix.RowMap();
-    const Multigrid   multigrid(map,
-                              std::make_unique<MatrixRows>(matrix),
-                              std::make_unique<Epetra_MultiVector>(motions),
-                              body,
-                              true);
-    Epetra_Vector     of_x(map), of_y(map), rest(x), product(map);
+    const Multigrid   multigrid(
+      map,
+      std::make_unique<MatrixRows>(matrix),
+      [&] { return std::make_shared<const Epetra_MultiVector>(motions); },
+      body,
+      true);
+    Epetra_Vector of_x(map), of_y(map), rest(x), product(map);
     multigrid.ApplyInverse(x, of_x);
     multigrid.ApplyInverse(y, of_y);
     double a, b, before, after;
@@ -358,12 +377,13 @@ namespace
         diagonal_matrix->InsertGlobalValues(i, 1, &two, &i);
       }
     diagonal_matrix->FillComplete();
-    const Multigrid alone(map,
-                          std::make_unique<MatrixRows>(*diagonal_matrix),
-                          std::make_unique<Epetra_MultiVector>(motions),
-                          body,
-                          true);
-    Epetra_Vector   half(map);
+    const Multigrid alone(
+      map,
+      std::make_unique<MatrixRows>(*diagonal_matrix),
+      [&] { return std::make_shared<const Epetra_MultiVector>(motions); },
+      body,
+      true);
+    Epetra_Vector half(map);
     alone.ApplyInverse(x, half);
     double error = 0., norm = 0.;
     half.Update(-0.5, x, 1.);
@@ -412,8 +432,8 @@ main(int argc, char **argv)
   MatrixRows rows_of_matrix(*matrix);
   for (const int n_given : {3, 6})
     {
-      const Epetra_MultiVector some(Copy, motions, 0, n_given);
-      test_prolongation(rows_of_matrix, some, n_given, body_of_nodes, 1);
+      const auto some = std::make_shared<const Epetra_MultiVector>(Copy, motions, 0, n_given);
+      test_prolongation(rows_of_matrix, rows_of_matrix, some, n_given, body_of_nodes, 1);
     }
 
   test_cycle(*matrix, motions, body, x, y, root);

@@ -120,12 +120,16 @@ main(int argc, char **argv)
   Solid          solid(scene.bodies, scene.discretisation.degree, forest, communicator);
   solid.assemble();
   const RigidBodyModes modes(solid);
-  Epetra_MultiVector   product(solid.stiffness().rows(), 6);
+  Epetra_MultiVector   motions(solid.stiffness().rows(), 6), product(motions);
   for (unsigned int k = 0; k < 6; ++k)
-    solid.stiffness().multiply(product[k], modes.motions().columns[k]);
+    {
+      for (int i = 0; i < motions.MyLength(); ++i)
+        motions[k][i] = modes.motions()(k, i);
+      solid.stiffness().multiply(product[k], motions[k]);
+    }
   double largest[6], length[6];
   product.NormInf(largest);
-  modes.motions().columns.Norm2(length);
+  motions.Norm2(length);
   double worst = 0., shortest = 1e300;
   for (unsigned int k = 0; k < 6; ++k)
     {

@@ -129,10 +129,8 @@ namespace Touchstone
       condensed = std::make_unique<CondensedSystem>(system);
 
       const Epetra_Map &map = stiffness.rows();
-      motions.reset(new RigidMotions{Epetra_MultiVector(map, 3), {}});
+      motions.reset(new RigidMotions{Epetra_Vector(map), {}, 3});
       motions->body.resize(map.NumMyElements());
-      for (int i = 0; i < map.NumMyElements(); ++i)
-        motions->columns[i % 3][i] = 1.;
     }
   };
 } // namespace Touchstone

@@ -16,10 +16,6 @@ namespace Touchstone
   AppliedOperator::AppliedOperator(const CondensationInput &input)
     : SquareOperator(input.dofs, "stiffness beside contact")
     , input(input)
-    , diagonal(map)
-    , all(map)
-    , force(map)
-    , part(map)
   {
     // Matrices of Epetra are made collectively: if any rank has contact terms, all ranks make
     // them, also those that have no row of their own.
@@ -30,6 +26,7 @@ namespace Touchstone
         left        = forms(&RankOneTerm::left);
         right       = forms(&RankOneTerm::right);
         elongations = std::make_unique<Epetra_Vector>(right->RangeMap());
+        part        = std::make_unique<Epetra_Vector>(map);
       }
     // The row and column of a constrained dof in S^T A T are zero. Its own diagonal entry makes
     // the matrix invertible; as it is of the size of the other stiffnesses (force per length), it
@@ -39,7 +36,7 @@ namespace Touchstone
       if (input.constrained[i])
         {
           const double own = input.system.stiffness->diagonal(i);
-          diagonal[i]      = own != 0. ? own : 1.;
+          diagonal.emplace_back(i, own != 0. ? own : 1.);
         }
   }
 
@@ -79,8 +76,8 @@ namespace Touchstone
     if (right)
       {
         right->Multiply(false, x, *elongations);
-        left->Multiply(true, *elongations, part);
-        result.Update(1., part, 1.);
+        left->Multiply(true, *elongations, *part);
+        result.Update(1., *part, 1.);
       }
   }
 
@@ -91,15 +88,16 @@ namespace Touchstone
   std::unique_ptr<Epetra_Vector>
   AppliedOperator::right_hand_side() const
   {
-    auto result = std::make_unique<Epetra_Vector>(map);
-    multiply(input.trial.inhomogeneity(), force);
-    force.Scale(-1.);
+    auto          result = std::make_unique<Epetra_Vector>(map);
+    Epetra_Vector balance(map);
+    multiply(input.trial.inhomogeneity(), balance);
+    balance.Scale(-1.);
     const int n = static_cast<int>(dim * input.system.stiffness->n_nodes());
     for (int i = 0; i < n; ++i)
-      force[i] += input.system.rhs.begin()[i];
+      balance[i] += input.system.rhs.begin()[i];
     for (Index k = 0; k < input.system.n_extra; ++k)
-      force[n + k] += input.system.extra_rhs[k];
-    input.test.apply_transposed(force, *result);
+      balance[n + k] += input.system.extra_rhs[k];
+    input.test.apply_transposed(balance, *result);
     return result;
   }
 
@@ -110,12 +108,16 @@ namespace Touchstone
   int
   AppliedOperator::Apply(const Epetra_MultiVector &x, Epetra_MultiVector &result) const
   {
+    for (auto *const vector : {&all, &force})
+      if (!*vector)
+        *vector = std::make_unique<Epetra_Vector>(map);
     for (int v = 0; v < x.NumVectors(); ++v)
       {
-        input.trial.apply(*x(v), all);
-        multiply(all, force);
-        input.test.apply_transposed(force, *result(v));
-        result(v)->Multiply(1., diagonal, *x(v), 1.);
+        input.trial.apply(*x(v), *all);
+        multiply(*all, *force);
+        input.test.apply_transposed(*force, *result(v));
+        for (const auto &[i, entry] : diagonal)
+          result[v][i] += entry * x[v][i];
       }
     return 0;
   }

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/condensed_operator.h>
+#include <touchstone/base/free_memory.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 // The condensed matrix S^T A T as explicit rows, in two forms: an Epetra_CrsMatrix for
 // factorisations, ML and PETSc, and 3 x 3 blocks read node by node for multigrid, which copies
@@ -14,20 +17,27 @@ namespace Touchstone
   namespace
   {
     /**
-     * Rows of the condensed matrix as 3 x 3 blocks, made when they are read: those of the
-     * stiffness, or those of Condensation where constraints or contact terms change them. The
-     * scaling by units is applied on the fly.
+     * Rows of the condensed matrix as 3 x 3 blocks: those of the stiffness, made when they are
+     * read, or those of Condensation where constraints or contact terms change them, with units.
+     * Of a symmetric matrix half is kept and read.
      */
     class CondensedRows : public BlockRows
     {
     public:
+      /** Whether blocks of earlier nodes of this rank are left out. */
+      static bool
+      only_half(const CondensationInput &input)
+      {
+        return input.system.symmetric && input.system.stiffness->couplings().symmetric;
+      }
+
       // The base class needs the columns of the condensation to number the dofs, before members
       // of this class exist; so these two are made first and handed over as one object.
       struct Parts
       {
         explicit Parts(const CondensationInput &input)
           : columns(input.system.stiffness->columns())
-          , condensation(input, columns)
+          , condensation(input, columns, only_half(input))
         {
         }
 
@@ -35,18 +45,23 @@ namespace Touchstone
         Condensation condensation;
       };
 
-      CondensedRows(const CondensationInput &input, std::unique_ptr<Parts> made)
+      CondensedRows(const CondensationInput &input, std::unique_ptr<Parts> parts)
         : BlockRows(
-            number(input.dofs, made->columns.global().data(), made->columns.global().size()))
+            number(input.dofs, parts->columns.global().data(), parts->columns.global().size()))
         , stiffness(*input.system.stiffness)
+        , half(only_half(input))
         , matrix_rows(stiffness)
-        , parts(std::move(made))
-        , units(partitioner)
+        , local_node(stiffness.couplings().n_local_nodes())
+        , changed(n_nodes(), none)
       {
         // Condensation numbers its columns in the order in which they turn up, the base class
         // those of a partitioner: the table translates the first to the second.
+        std::vector<unsigned int> local_index;
         for (const int global : parts->columns.global())
           local_index.push_back(partitioner->global_to_local(global));
+        for (unsigned int node = 0; node < local_node.size(); ++node)
+          local_node[node] = local_index[dim * node] / dim;
+        dealii::LinearAlgebra::distributed::Vector<double> units(partitioner);
         units = 1.;
         if (input.units)
           std::copy(input.units->Values(),
@@ -54,63 +69,103 @@ namespace Touchstone
                     units.begin());
         // Columns are scaled, too, and may belong to other ranks.
         units.update_ghost_values();
+        for (unsigned int node = 0; node < n_nodes(); ++node)
+          keep(node, parts->condensation, local_index, units);
       }
 
       std::size_t
       n_blocks() const override
       {
-        const BlockPattern &pattern = stiffness.couplings();
         // An estimate for memory that is reserved: the stiffness, and 10 % for what condensation
         // adds.
-        return (pattern.column.size() + pattern.transposed_blocks().blocks.size()) * 11 / 10;
+        const BlockPattern &pattern = stiffness.couplings();
+        std::size_t         n       = pattern.column.size();
+        for (unsigned int node = 0; node < pattern.n_nodes(); ++node)
+          n += pattern.upper_end[node] - pattern.start[node];
+        return n * 11 / 10;
       }
 
       const RowOfBlocks<Block> &
       read(const unsigned int node) override
       {
         present.clear();
-        // A node can have both kinds of rows: with a support in one direction its other rows may
-        // be replaced or not, so each of the three is decided by itself.
-        const SparseRow *replaced[dim];
-        bool             any = false, all = true;
+        if (changed[node] == none)
+          add_stiffness(node, {{false, false, false}});
+        else
+          for (const auto &[column, block] : rows[changed[node]])
+            present.at(column) = block;
+        return present;
+      }
+
+      void
+      forget(const unsigned int node) override
+      {
+        if (changed[node] != none)
+          std::vector<std::pair<int, Block>>().swap(rows[changed[node]]);
+      }
+
+    private:
+      const Matrix &stiffness;
+      const bool    half;
+      Matrix::Rows  matrix_rows;
+      /** Of each node to which rows of the stiffness refer. */
+      std::vector<unsigned int> local_node;
+      /** Number of the row that replaces that of the stiffness, by node, and those rows. As
+       * blocks they take half the memory of scalar entries with their indices. */
+      static constexpr int                            none = -1;
+      std::vector<int>                                changed;
+      std::vector<std::vector<std::pair<int, Block>>> rows;
+
+      /** The rows of the stiffness that are not @p replaced, to the present one. */
+      void
+      add_stiffness(const unsigned int node, const std::array<bool, dim> &replaced)
+      {
+        const Matrix::Rows::Row &row =
+          half ? matrix_rows.read_stored(node) : matrix_rows.read(node);
+        for (std::size_t k = 0; k < row.columns.size(); ++k)
+          {
+            Block &to = present.at(static_cast<int>(local_node[row.columns[k]]));
+            for (unsigned int d = 0; d < dim; ++d)
+              for (unsigned int c = 0; c < dim && !replaced[d]; ++c)
+                // Blocks of the stiffness are stored column by column, those of BlockRows row
+                // by row.
+                to[dim * d + c] = row.blocks[k][dim * c + d];
+          }
+      }
+
+      /** Take the rows of a node that Condensation replaces as blocks, and free them there. A node
+       * can have both kinds of rows: with a support in one direction its other rows may be
+       * replaced or not, so each of the three is decided by itself. */
+      void
+      keep(const unsigned int                                        node,
+           Condensation                                             &condensation,
+           const std::vector<unsigned int>                          &local_index,
+           const dealii::LinearAlgebra::distributed::Vector<double> &units)
+      {
+        std::array<bool, dim> replaced;
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            replaced[d] = parts->condensation.row(static_cast<int>(dim * node + d));
-            any         = any || replaced[d];
-            all         = all && replaced[d];
-          }
-        if (!all)
-          {
-            const Matrix::Rows::Row &row = matrix_rows.read(node);
-            for (std::size_t k = 0; k < row.columns.size(); ++k)
-              {
-                Block &to = present.at(static_cast<int>(local_index[dim * row.columns[k]] / dim));
-                for (unsigned int d = 0; d < dim; ++d)
-                  for (unsigned int c = 0; c < dim && !replaced[d]; ++c)
-                    // Blocks of the stiffness are stored column by column, those of BlockRows row
-                    // by row.
-                    to[dim * d + c] = row.blocks[k][dim * c + d];
-              }
-          }
+          replaced[d] = condensation.row(static_cast<int>(dim * node + d)) != nullptr;
+        const auto n_replaced = std::count(replaced.begin(), replaced.end(), true);
+        if (n_replaced == 0)
+          return;
+        present.clear();
+        if (n_replaced < dim)
+          add_stiffness(node, replaced);
         // Units other than one stand in rows that replace others only.
-        for (unsigned int d = 0; d < dim && any; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
           if (replaced[d])
-            for (const auto &[column, value] : *replaced[d])
+            for (const auto &[column, value] : condensation.take(static_cast<int>(dim * node + d)))
               {
                 const unsigned int j = local_index[column];
                 present.at(static_cast<int>(j / dim))[dim * d + j % dim] +=
                   value * units.local_element(dim * node + d) * units.local_element(j);
               }
-        return present;
+        changed[node] = static_cast<int>(rows.size());
+        rows.emplace_back();
+        rows.back().reserve(present.columns.size());
+        for (unsigned int k = 0; k < present.columns.size(); ++k)
+          rows.back().emplace_back(present.columns[k], present.blocks[k]);
       }
-
-    private:
-      const Matrix                                      &stiffness;
-      Matrix::Rows                                       matrix_rows;
-      std::unique_ptr<Parts>                             parts;
-      dealii::LinearAlgebra::distributed::Vector<double> units;
-      /** Of each column of the parts. */
-      std::vector<unsigned int> local_index;
     };
   } // namespace
 
@@ -119,6 +174,8 @@ namespace Touchstone
   std::unique_ptr<BlockRows>
   condensed_block_rows(const CondensationInput &input)
   {
+    // What the assembly of the stiffness left.
+    give_back_free_memory();
     return std::make_unique<CondensedRows>(input, std::make_unique<CondensedRows::Parts>(input));
   }
 
@@ -137,14 +194,13 @@ namespace Touchstone
     if (values)
       values->swap(condensation.values);
 
-    Matrix::Rows        matrix_rows(stiffness);
-    std::vector<int>    lengths(input.dofs.NumMyElements());
-    const BlockPattern &pattern = stiffness.couplings();
+    Matrix::Rows     matrix_rows(stiffness);
+    std::vector<int> lengths(input.dofs.NumMyElements());
     for (unsigned int i = 0; i < lengths.size(); ++i)
       if (const SparseRow *row = condensation.row(i))
         lengths[i] = static_cast<int>(row->size());
       else
-        lengths[i] = static_cast<int>(dim * pattern.row_length(i / dim));
+        lengths[i] = static_cast<int>(dim * matrix_rows.length(i / dim));
 
     const Epetra_Map column_map(
       -1, static_cast<int>(columns.global().size()), columns.global().data(), 0, input.dofs.Comm());

@@ -350,7 +350,7 @@ namespace Touchstone
       if (symmetric_only() && (!system.definite || !system.symmetric))
         throw LinearSolverFailure(parameters.type + " needs a symmetric positive definite system");
       // The rigid motions are those of the displacements: other numbers of rows mean multipliers.
-      if (motions.columns.Map().NumGlobalElements() != system.rows().NumGlobalElements())
+      if (motions.position.Map().NumGlobalElements() != system.rows().NumGlobalElements())
         throw LinearSolverFailure(parameters.type + " cannot solve a system with multipliers");
       int iterations = 0;
       try

@@ -195,24 +195,24 @@ namespace Touchstone
   // The transposed pattern of the strictly upper blocks, by counting sort: lengths of the rows,
   // their prefix sums as row pointers, then the blocks. The rows are visited in ascending order,
   // so each list comes out sorted.
-  const BlockPattern::TransposedBlocks &
+  std::shared_ptr<const BlockPattern::TransposedBlocks>
   BlockPattern::transposed_blocks() const
   {
-    if (known_transposed)
-      return *known_transposed;
-    auto result = std::make_unique<TransposedBlocks>();
+    if (auto known = known_transposed.lock())
+      return known;
+    auto result = std::make_shared<TransposedBlocks>();
     result->start.resize(n_nodes() + 1, 0);
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (std::size_t k = start[node]; k < upper_end[node]; ++k)
         ++result->start[column[k] + 1];
     std::partial_sum(result->start.begin(), result->start.end(), result->start.begin());
-    result->blocks.resize(result->start.back());
+    result->nodes.resize(result->start.back());
     std::vector<std::size_t> next(result->start);
     for (unsigned int node = 0; node < n_nodes(); ++node)
       for (std::size_t k = start[node]; k < upper_end[node]; ++k)
-        result->blocks[next[column[k]]++] = {node, static_cast<unsigned int>(k)};
-    known_transposed = std::move(result);
-    return *known_transposed;
+        result->nodes[next[column[k]]++] = node;
+    known_transposed = result;
+    return result;
   }
 
 
@@ -330,47 +330,91 @@ namespace Touchstone
 
 
 
-  // The whole row of a node in ascending columns, in four parts: transposes of the blocks stored
-  // in earlier rows, the diagonal, the upper blocks of this rank, and those with columns of other
-  // ranks.
+  template <typename Number>
+  std::pair<std::size_t, std::size_t>
+  BlockMatrix<Number>::Rows::transposed_range(const unsigned int node)
+  {
+    if (!transposed)
+      transposed = matrix.pattern->transposed_blocks();
+    return {transposed->start[node], transposed->start[node + 1]};
+  }
+
+
+
+  template <typename Number>
+  unsigned int
+  BlockMatrix<Number>::Rows::length(const unsigned int node)
+  {
+    const auto [begin, end] = transposed_range(node);
+    return end - begin + matrix.pattern->start[node + 1] - matrix.pattern->start[node];
+  }
+
+
+
+  // In ascending columns: the diagonal, the upper blocks of this rank, and those with columns of
+  // other ranks.
+  template <typename Number>
+  void
+  BlockMatrix<Number>::Rows::append_stored(const unsigned int node)
+  {
+    const BlockPattern &pattern = *matrix.pattern;
+    const std::size_t   known = present.columns.size(), first = pattern.start[node],
+                      n_own = pattern.start[node + 1] - first,
+                      upper = pattern.upper_end[node] - first;
+    present.columns.resize(known + n_own);
+    present.blocks.resize(known + n_own);
+    const auto copy = [&](const std::size_t from, const std::size_t n, const std::size_t to) {
+      std::copy_n(pattern.column.begin() + first + from, n, present.columns.begin() + known + to);
+      std::copy_n(matrix.entries.data() + block * (first + from),
+                  block * n,
+                  reinterpret_cast<Number *>(present.blocks.data() + known + to));
+    };
+    // The diagonal is the first of what follows the upper part. Where upper blocks follow, it
+    // has to be put before them; otherwise all is in order.
+    const std::size_t middle = upper > 0 ? 1 : 0;
+    copy(upper, middle, 0);
+    copy(0, upper, middle);
+    copy(upper + middle, n_own - upper - middle, upper + middle);
+  }
+
+
+
+  template <typename Number>
+  const typename BlockMatrix<Number>::Rows::Row &
+  BlockMatrix<Number>::Rows::read_stored(const unsigned int node)
+  {
+    present_node = dealii::numbers::invalid_unsigned_int;
+    present.columns.clear();
+    present.blocks.clear();
+    append_stored(node);
+    return present;
+  }
+
+
+
+  // The whole row of a node in ascending columns: transposes of the blocks stored in earlier
+  // rows, then those that it stores.
   template <typename Number>
   const typename BlockMatrix<Number>::Rows::Row &
   BlockMatrix<Number>::Rows::read(const unsigned int node)
   {
     if (node == present_node)
       return present;
-    present_node                                     = node;
-    const BlockPattern                   &pattern    = *matrix.pattern;
-    const BlockPattern::TransposedBlocks &transposed = pattern.transposed_blocks();
-    const std::size_t                     begin      = transposed.start[node],
-                      n_transposed                   = transposed.start[node + 1] - begin,
-                      first = pattern.start[node], n_own = pattern.start[node + 1] - first,
-                      n_upper = pattern.upper_end[node] - first;
-    present.columns.resize(n_transposed + n_own);
-    present.blocks.resize(n_transposed + n_own);
+    present_node            = node;
+    const auto [begin, end] = transposed_range(node);
+    present.columns.resize(end - begin);
+    present.blocks.resize(end - begin);
     // Stored column by column: a[3 r + c] is entry (c, r), and its transpose goes to (r, c).
-    for (std::size_t m = 0; m < n_transposed; ++m)
+    for (std::size_t m = 0; m < end - begin; ++m)
       {
-        const auto &[other, k] = transposed.blocks[begin + m];
-        const Number *a        = matrix.entries.data() + block * k;
-        present.columns[m]     = other;
+        const unsigned int other = transposed->nodes[begin + m];
+        const Number      *a = matrix.entries.data() + block * matrix.pattern->block(other, node);
+        present.columns[m]   = other;
         for (unsigned int r = 0; r < dim; ++r)
           for (unsigned int c = 0; c < dim; ++c)
             present.blocks[m][dim * c + r] = a[dim * r + c];
       }
-    // The diagonal is the first of what follows the upper part.
-    const auto copy = [&](const std::size_t from, const std::size_t n, const std::size_t to) {
-      std::copy_n(pattern.column.begin() + first + from, n, present.columns.begin() + to);
-      std::copy_n(matrix.entries.data() + block * (first + from),
-                  block * n,
-                  reinterpret_cast<Number *>(present.blocks.data() + to));
-    };
-    // Where upper blocks follow, the diagonal block has to be put before them; otherwise all is
-    // in order.
-    const std::size_t n_middle = n_upper > 0 ? 1 : 0;
-    copy(n_upper, n_middle, n_transposed);
-    copy(0, n_upper, n_transposed + n_middle);
-    copy(n_upper + n_middle, n_own - n_upper - n_middle, n_transposed + n_upper + n_middle);
+    append_stored(node);
     return present;
   }
 

@@ -56,7 +56,7 @@ namespace Touchstone
 
   // In this order, for exchange() sends the parts of all sources, of the stiffness and of contact
   // terms, and gather() also sums up those that were received.
-  Condensation::Condensation(const CondensationInput &input, LocalIndices &columns)
+  Condensation::Condensation(const CondensationInput &input, LocalIndices &columns, const bool half)
     : values(input.dofs.NumMyElements())
     , system(input.system)
     , dofs(input.dofs)
@@ -66,7 +66,10 @@ namespace Touchstone
     , test(input.test, row_indices)
     , number(input.dofs.NumMyElements(), -1)
     , replaced(input.dofs.NumMyElements())
+    , half(half)
   {
+    // Whole rows of the stiffness are read twice; what that takes is made once.
+    const auto transposed = system.stiffness->couplings().transposed_blocks();
     add_stiffness();
     add_terms();
     if (Utilities::MPI::n_mpi_processes(system.rhs.get_mpi_communicator()) > 1)
@@ -132,8 +135,17 @@ namespace Touchstone
                          [&](const int column, const double value) {
                            accumulator.add(column, value);
                          });
-        end          = sum(begin, values[row]);
-        new_row(row) = accumulator.take();
+        end             = sum(begin, values[row]);
+        SparseRow whole = accumulator.take();
+        if (half)
+          whole.erase(std::remove_if(whole.begin(),
+                                     whole.end(),
+                                     [&](const auto &entry) {
+                                       return entry.first / int(dim) < row / int(dim);
+                                     }),
+                      whole.end());
+        // As long as it is, for these rows are many.
+        new_row(row) = SparseRow(whole);
         for (std::size_t k = begin; k < end; ++k)
           if (--uses[parts[k].source] == 0)
             SparseRow().swap(sources[parts[k].source]);

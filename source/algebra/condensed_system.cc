@@ -19,7 +19,12 @@ namespace Touchstone
     all_dofs(const LinearSystem &system)
     {
       const Epetra_Map &rows = system.stiffness->rows();
-      std::vector<int>  numbers(rows.MyGlobalElements(),
+      // Copies share their numbers.
+      int any = 0, here = system.n_extra > 0;
+      rows.Comm().MaxAll(&here, &any, 1);
+      if (any == 0)
+        return rows;
+      std::vector<int> numbers(rows.MyGlobalElements(),
                                rows.MyGlobalElements() + rows.NumMyElements());
       for (Index k = 0; k < system.n_extra; ++k)
         numbers.push_back(static_cast<int>(system.first_extra + k));

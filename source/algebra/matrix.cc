@@ -50,8 +50,10 @@ namespace Touchstone
     for (const Index node : far)
       for (unsigned int d = 0; d < dim; ++d)
         numbers.push_back(static_cast<int>(dim * node + d));
-    column_map = std::make_shared<Epetra_Map>(
-      -1, static_cast<int>(numbers.size()), numbers.data(), 0, row_map->Comm());
+    column_map = row_map;
+    if (Utilities::MPI::max(far.empty() ? 0 : 1, communicator) == 1)
+      column_map = std::make_shared<Epetra_Map>(
+        -1, static_cast<int>(numbers.size()), numbers.data(), 0, row_map->Comm());
 
     auto made         = std::make_shared<BlockPattern>();
     made->partitioner = BlockRows::number(*row_map, numbers.data(), numbers.size());

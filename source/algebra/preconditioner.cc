@@ -10,11 +10,11 @@ namespace Touchstone
   Epetra_MultiVector
   near_null_space(const CondensedSystem &system, const RigidMotions &motions)
   {
-    Epetra_MultiVector result(motions.columns);
-    for (int v = 0; v < result.NumVectors(); ++v)
+    Epetra_MultiVector result(motions.position.Map(), motions.n);
+    for (unsigned int k = 0; k < motions.n; ++k)
       for (int i = 0; i < result.MyLength(); ++i)
-        if (system.constrained[i] || system.changed[i])
-          result[v][i] = 0.;
+        if (!system.constrained[i] && !system.changed[i])
+          result[k][i] = motions(k, i);
     return result;
   }
 } // namespace Touchstone

@@ -35,12 +35,13 @@ namespace Touchstone
                       extra_names,
                       "Names for boundaries that have only numbers in the file: 'contact: "
                       "1, bottom: 2'. Faces that the file does not mark are number 0.");
-    prm.add_parameter("Boundary arrays",
-                      boundary_arrays,
-                      "Boundaries of a .vtu file by arrays of one component that have these "
-                      "names: 'contact, bottom'. A face belongs to each whose value is not zero "
-                      "in it, if it is a cell of the file, or at all of its corners. An "
-                      "array that marks points but no whole face names a set of nodes.");
+    prm.add_parameter(
+      "Boundary arrays",
+      boundary_arrays,
+      "Boundaries of a .vtk or .vtu file by arrays of one component that have these "
+      "names: 'contact, bottom'. A face belongs to each whose value is not zero "
+      "in it, if it is a cell of the file, or at all of its corners. An "
+      "array that marks points but no whole face names a set of nodes.");
     prm.add_parameter("Exact surfaces",
                       exact,
                       std::string("The shapes that boundaries of the mesh stand for; "
@@ -63,12 +64,12 @@ namespace Touchstone
                        file.empty() ? "there is no file name."
                                     : "the name does not end in .msh, .inp, .vtk or .vtu",
                        "name a mesh file of Gmsh (.msh), Abaqus (.inp) or VTK (.vtk, .vtu)");
-    if (!boundary_arrays.empty() && extension != ".vtu")
+    if (!boundary_arrays.empty() && extension != ".vtu" && extension != ".vtk")
       throw InputError(section,
                        "Boundary arrays",
                        Patterns::Tools::to_string(boundary_arrays),
                        "the file '" + file + "' has no arrays of boundaries",
-                       "leave it empty; only .vtu files have such arrays");
+                       "leave it empty; only .vtk and .vtu files have such arrays");
     try
       {
         parse_exact_surfaces(exact);

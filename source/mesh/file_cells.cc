@@ -37,7 +37,7 @@ namespace Touchstone
         MeshFile          mesh      = extension == ".msh"   ? read_gmsh(in)
                                       : extension == ".inp" ? read_abaqus(in)
                                       : extension == ".vtu" ? read_vtu(in, boundary_arrays)
-                                                            : read_vtk(in);
+                                                            : read_vtk(in, boundary_arrays);
         if (mesh.cells.empty())
           throw MeshFileError("The file has no hexahedra.");
         return mesh;

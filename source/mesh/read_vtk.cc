@@ -2,6 +2,7 @@
 
 #include <touchstone/mesh/mesh_file.h>
 #include <touchstone/mesh/mesh_text.h>
+#include <touchstone/mesh/named_arrays.h>
 
 #include <algorithm>
 #include <cctype>
@@ -9,8 +10,9 @@
 #include <set>
 
 // Meshes from legacy VTK files: hexahedra become cells and quadrilaterals faces; a scalar field
-// of the cells numbers volumes and boundaries. CELLS, CELL_TYPES and CELL_DATA come one after the
-// other in the file, so cells are kept as they are and translated at the end.
+// of the cells numbers volumes and boundaries, and arrays that are asked for name boundaries and
+// sets of nodes. CELLS, CELL_TYPES and CELL_DATA come one after the other in the file, so cells are
+// kept as they are and translated at the end.
 namespace Touchstone
 {
   using namespace dealii;
@@ -24,12 +26,23 @@ namespace Touchstone
       int                       number = 0;
     };
 
+    /** Whether a field of the cells gives the numbers of volumes and boundaries, as deal.II and
+     * Gmsh name them. */
+    bool
+    is_number(const std::string &name)
+    {
+      return name == "MaterialID" || name == "CellEntityIds";
+    }
+
+
+
     /** One pass through a legacy .vtk file, keyword by keyword. */
     class VtkReader
     {
     public:
-      explicit VtkReader(std::istream &in)
+      VtkReader(std::istream &in, const std::vector<std::string> &boundary_arrays)
         : text(in)
+        , boundary_arrays(boundary_arrays)
       {
       }
 
@@ -37,11 +50,14 @@ namespace Touchstone
       read();
 
     private:
-      MeshText             text;
-      MeshFile             mesh;
-      std::vector<VtkCell> cells;
-      /** Whether CELL_DATA, not POINT_DATA, rules, and its numbers have been found. */
-      bool has_cell_data = false, has_numbers = false;
+      MeshText                       text;
+      const std::vector<std::string> boundary_arrays;
+      MeshFile                       mesh;
+      std::vector<VtkCell>           cells;
+      NamedArrays                    named;
+      /** Which of CELL_DATA and POINT_DATA rules, and whether the numbers of cells have been found.
+       */
+      bool has_cell_data = false, has_point_data = false, has_numbers = false;
 
       void
       read_header();
@@ -51,9 +67,18 @@ namespace Touchstone
       read_cells();
       void
       read_types();
+      void
+      read_data(bool of_cells);
       /** @return whether the numbers were read, not skipped */
       bool
       read_scalars();
+      void
+      read_fields();
+      bool
+      wanted(const std::string &name);
+      /** The values of an array of one component. */
+      void
+      read_array(const std::string &name, const char *what);
     };
 
 
@@ -135,8 +160,82 @@ namespace Touchstone
 
 
 
-    /** Numbers of the cells: the field MaterialID or CellEntityIds, as deal.II
-     * and Gmsh write it, or else the last one. */
+    /** The head of CELL_DATA or POINT_DATA. */
+    void
+    VtkReader::read_data(const bool of_cells)
+    {
+      const char *const what  = of_cells ? "CELL_DATA" : "POINT_DATA";
+      const std::size_t there = of_cells ? cells.size() : mesh.vertices.size();
+      if (const unsigned long n = text.number(what); n != there)
+        text.fail(std::string(what) + " announces " + std::to_string(n) +
+                  (of_cells ? " cells, CELLS " : " points, POINTS ") + std::to_string(there) + ".");
+      has_cell_data  = of_cells;
+      has_point_data = !of_cells;
+    }
+
+
+
+    /** Whether an array is asked for, or numbers the cells. Others are skipped, whatever they hold.
+     */
+    bool
+    VtkReader::wanted(const std::string &name)
+    {
+      named.known += (named.known.empty() ? "'" : ", '") + name + "'";
+      return (has_cell_data && is_number(name)) ||
+             std::count(boundary_arrays.begin(), boundary_arrays.end(), name) > 0;
+    }
+
+
+
+    void
+    VtkReader::read_array(const std::string &name, const char *const what)
+    {
+      std::vector<double> values(has_cell_data ? cells.size() : mesh.vertices.size());
+      for (double &value : values)
+        value = text.real(what);
+      if (has_cell_data && is_number(name))
+        {
+          // Ids have no sign: negative numbers count as 0.
+          for (std::size_t c = 0; c < cells.size(); ++c)
+            cells[c].number = std::max(0., values[c]);
+          has_numbers = true;
+        }
+      (has_cell_data ? named.of_cells : named.of_points)[name] = std::move(values);
+    }
+
+
+
+    /** Arrays of cells or points, as ParaView and other programs write them. */
+    void
+    VtkReader::read_fields()
+    {
+      text.text("FIELD"); // its name
+      const unsigned long n_arrays = text.number("FIELD");
+      const std::size_t   size     = has_cell_data ? cells.size() : mesh.vertices.size();
+      for (unsigned long k = 0; k < n_arrays; ++k)
+        {
+          std::string name = text.text("FIELD");
+          // Behind an array, up to an empty line, there may be names of its components.
+          if (name == "METADATA")
+            {
+              do
+                text.next_line();
+              while (!text.at_end_of_line());
+              name = text.text("FIELD");
+            }
+          const unsigned long n_components = text.number("FIELD"), n = text.number("FIELD");
+          text.text("FIELD"); // type
+          if (n_components == 1 && n == size && wanted(name))
+            read_array(name, "FIELD");
+          else
+            for (unsigned long i = 0; i < n_components * n; ++i)
+              text.text("FIELD");
+        }
+    }
+
+
+
+    /** An array of one component; where no field numbers the cells, the last one does. */
     bool
     VtkReader::read_scalars()
     {
@@ -147,12 +246,16 @@ namespace Touchstone
       if (text.text("SCALARS") != "LOOKUP_TABLE")
         text.fail_in("SCALARS");
       text.text("SCALARS"); // its name
+      if (one_component && (has_cell_data || has_point_data) && wanted(name))
+        {
+          read_array(name, "SCALARS");
+          return true;
+        }
       if (!has_cell_data || has_numbers || !one_component)
         return false;
       for (VtkCell &cell : cells)
         // Ids have no sign: negative numbers count as 0.
         cell.number = std::max(0., text.real("SCALARS"));
-      has_numbers = name == "MaterialID" || name == "CellEntityIds";
       return true;
     }
 
@@ -190,22 +293,26 @@ namespace Touchstone
             }
           else if (word == "CELL_DATA")
             {
-              if (const unsigned long n = text.number("CELL_DATA"); n != cells.size())
-                text.fail("CELL_DATA announces " + std::to_string(n) + " cells, CELLS " +
-                          std::to_string(cells.size()) + ".");
-              has_cell_data = true;
-              section       = word;
+              read_data(true);
+              section = word;
             }
           else if (word == "POINT_DATA")
-            has_cell_data = false;
+            read_data(false);
           else if (word == "SCALARS" && read_scalars())
             section = word;
+          else if (word == "FIELD" && (has_cell_data || has_point_data))
+            read_fields();
         }
       for (const char *needed : {"POINTS", "CELLS", "CELL_TYPES"})
         if (sections.count(needed) == 0)
           throw MeshFileError(std::string("The file has no ") + needed + ".");
-      for (const VtkCell &cell : cells)
-        add_vtk_cell(mesh, cell.type, cell.vertices, cell.number, cell.line);
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        {
+          const VtkCell &cell = cells[c];
+          add_vtk_cell(mesh, cell.type, cell.vertices, cell.number, cell.line);
+          named.cell_of_face.resize(mesh.faces.size(), c);
+        }
+      named.add_boundaries(mesh, boundary_arrays);
       mesh.join_copies(false);
       return std::move(mesh);
     }
@@ -214,8 +321,8 @@ namespace Touchstone
 
 
   MeshFile
-  read_vtk(std::istream &in)
+  read_vtk(std::istream &in, const std::vector<std::string> &boundary_arrays)
   {
-    return VtkReader(in).read();
+    return VtkReader(in, boundary_arrays).read();
   }
 } // namespace Touchstone

@@ -2,15 +2,14 @@
 
 #include <touchstone/mesh/mesh_file.h>
 #include <touchstone/mesh/mesh_text.h>
+#include <touchstone/mesh/named_arrays.h>
 #include <touchstone/mesh/vtu_arrays.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <istream>
 #include <limits>
 #include <map>
-#include <set>
 #include <sstream>
 
 // Meshes from VTK's XML files (.vtu): hexahedra become cells and quadrilaterals faces, numbered by
@@ -67,10 +66,6 @@ namespace Touchstone
       add_cells();
       void
       add_named_boundaries();
-      void
-      add_boundary_of_points(const std::vector<double> &marks, MeshFile::Group &group);
-      bool
-      add_node_set(const std::vector<double> &marks, const std::string &name);
     };
 
 
@@ -147,92 +142,19 @@ namespace Touchstone
 
 
 
-    /** The faces of cells all of whose corners are marked. */
-    void
-    VtuReader::add_boundary_of_points(const std::vector<double> &marks, MeshFile::Group &group)
-    {
-      for (const CellData<3> &cell : mesh.cells)
-        for (const unsigned int f : GeometryInfo<3>::face_indices())
-          {
-            std::array<unsigned int, 4> face;
-            bool                        marked = true;
-            for (unsigned int v = 0; v < 4; ++v)
-              {
-                face[v] = cell.vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
-                marked  = marked && marks[face[v]] != 0.;
-              }
-            if (marked)
-              {
-                group.members.push_back(mesh.faces.size());
-                mesh.faces.push_back(face);
-              }
-          }
-    }
-
-
-
-    /** The marked points, of which no four are a face: nodes of an edge, for example. @return
-     * whether there are any. */
-    bool
-    VtuReader::add_node_set(const std::vector<double> &marks, const std::string &name)
-    {
-      std::set<unsigned int> nodes;
-      for (unsigned int v = 0; v < marks.size(); ++v)
-        if (marks[v] != 0.)
-          nodes.insert(v);
-      if (!nodes.empty())
-        mesh.node_sets[name] = nodes;
-      return !nodes.empty();
-    }
-
-
-
+    // Only those that are asked for; get() refuses a wrong number of values.
     void
     VtuReader::add_named_boundaries()
     {
-      // Behind the numbers that fields of the faces give.
-      unsigned int next = 1;
-      for (const MeshFile::Group &group : mesh.surfaces)
-        next = std::max(next, group.number + 1);
+      NamedArrays named;
+      named.known        = arrays.names();
+      named.cell_of_face = mesh.face_lines;
       for (const std::string &name : boundary_arrays)
-        {
-          MeshFile::Group group{next++, name, {}};
-          if (arrays.find("PointData", name) != nullptr)
-            {
-              const std::vector<double> marks = get("PointData", name, arrays.n_points());
-              add_boundary_of_points(marks, group);
-              if (group.members.empty() && add_node_set(marks, name))
-                continue;
-            }
-          else if (arrays.find("CellData", name) != nullptr)
-            {
-              const std::vector<double> marks = get("CellData", name, arrays.n_cells());
-              for (unsigned int f = 0; f < mesh.face_lines.size(); ++f)
-                if (marks[mesh.face_lines[f]] != 0.)
-                  group.members.push_back(f);
-            }
-          else
-            throw MeshFileError("The file has no array '" + name +
-                                  "' of one component in PointData or CellData.",
-                                "name arrays of the file in 'Boundary arrays'; it has " +
-                                  arrays.names() + ".");
-          if (group.members.empty())
-            throw MeshFileError(
-              "The array '" + name + "' marks no face and no point.",
-              "give it other values than 0 at all corners of faces, at points, or in quadrilateral cells");
-          // A face that a named array marks leaves the numbers of the fields.
-          for (MeshFile::Group &other : mesh.surfaces)
-            if (other.name.empty())
-              other.members.erase(std::remove_if(other.members.begin(),
-                                                 other.members.end(),
-                                                 [&](const unsigned int f) {
-                                                   return std::binary_search(group.members.begin(),
-                                                                             group.members.end(),
-                                                                             f);
-                                                 }),
-                                  other.members.end());
-          mesh.surfaces.push_back(group);
-        }
+        if (arrays.find("PointData", name) != nullptr)
+          named.of_points[name] = get("PointData", name, arrays.n_points());
+        else if (arrays.find("CellData", name) != nullptr)
+          named.of_cells[name] = get("CellData", name, arrays.n_cells());
+      named.add_boundaries(mesh, boundary_arrays);
     }
 
 

@@ -62,8 +62,7 @@ namespace Touchstone
 
   RigidBodyModes::RigidBodyModes(const Solid &solid)
     : solid(solid)
-    , rigid(new RigidMotions{Epetra_MultiVector(solid.stiffness().rows(), 6),
-                             bodies_of_unknowns(solid)})
+    , rigid(new RigidMotions{Epetra_Vector(solid.stiffness().rows()), bodies_of_unknowns(solid)})
     , centres(solid.bodies.size())
     , sizes(solid.bodies.size())
   {
@@ -83,26 +82,25 @@ namespace Touchstone
         sizes[b] = 0.5 * std::sqrt(diagonal);
       }
 
-    // Multigrid takes six columns for all bodies, about the centre of the first: restricted to
+    // Multigrid takes six motions for all bodies, about the centre of the first: restricted to
     // any body they span its rigid motions just as well.
-    Epetra_MultiVector &modes = rigid->columns;
-    std::vector<Index>  dofs(solid.fe.n_dofs_per_cell());
-    std::vector<char>   known(modes.MyLength());
+    Epetra_Vector     &position = rigid->position;
+    std::vector<Index> dofs(solid.fe.n_dofs_per_cell());
+    std::vector<char>  known(position.MyLength());
     for (const auto &cell : solid.dof_handler.active_cell_iterators())
       if (!cell->is_artificial())
         {
           cell->get_dof_indices(dofs);
           for (unsigned int i = 0; i < dofs.size(); ++i)
             {
-              const int row = modes.Map().LID(static_cast<int>(dofs[i]));
+              const int row = position.Map().LID(static_cast<int>(dofs[i]));
               if (row < 0 || known[row])
                 continue;
               known[row] = 1;
               const Tensor<1, dim> x =
                 solid.mapping.transform_unit_to_real_cell(cell, solid.fe.unit_support_point(i)) -
                 centres[0];
-              for (unsigned int k = 0; k < 6; ++k)
-                modes[k][row] = mode(k, x / sizes[0])[dofs[i] % dim];
+              position[row] = x[dofs[i] % dim] / sizes[0];
             }
         }
   }
@@ -243,12 +241,12 @@ namespace Touchstone
       std::array<double, 6> result{};
       Tensor<1, dim>        direction;
       for (unsigned int d = 0; d < dim; ++d)
-        direction[d] = result[d] = rigid->columns[d][row];
+        direction[d] = result[d] = (*rigid)(d, row);
       for (unsigned int k = 0; k < dim; ++k)
         {
           Tensor<1, dim> e;
           e[k]            = 1.;
-          result[dim + k] = (rigid->columns[dim + k][row] * sizes[0] +
+          result[dim + k] = ((*rigid)(dim + k, row) * sizes[0] +
                              cross_product_3d(e, centres[0] - centres[b]) * direction) /
                             sizes[b];
         }

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # ctest: label = quick
-"""Sets of nodes of mesh files: supports and forces on edges and points, Abaqus, Gmsh and VTU. Reactions of a
+"""Sets of nodes of mesh files: supports and forces on edges and points, Abaqus, Gmsh and VTK. Reactions of a
 block that three points hold, and of a beam on two edges, follow from statics, whatever the element, the
 refinement, the solver and the ranks; a force on an edge is the same per length on cells of different length;
 momentum in explicit dynamics; what needs faces is refused."""
@@ -72,9 +72,30 @@ def vtu():
         "</Cells>", "</Piece>", "</UnstructuredGrid>", "</VTKFile>"]) + "\n"
 
 
+def vtk():
+    """The same in the legacy format: sets as scalars and, as ParaView writes them, as fields, and an end of
+    the beam as cells of the file."""
+    end = [[NODES[4, j + a, k + b] for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))] for k in range(2) for j in range(2)]
+    cells = CELLS + end
+    marks = {name: "\n".join(str(int(place in members)) for place in NODES) for name, members in {**EDGES, **POINTS}.items()}
+    return "\n".join([
+        "# vtk DataFile Version 3.0", "beam", "ASCII", "DATASET UNSTRUCTURED_GRID",
+        f"POINTS {len(NODES)} double", *(f"{X[i]} {Y[j]} {Z[k]}" for i, j, k in NODES),
+        f"CELLS {len(cells)} {sum(map(len, cells)) + len(cells)}",
+        *(" ".join(map(str, [len(cell), *(n - 1 for n in cell)])) for cell in cells),
+        f"CELL_TYPES {len(cells)}", *("12" for cell in CELLS), *("9" for cell in end),
+        f"POINT_DATA {len(NODES)}",
+        *(f"SCALARS {name} int 1\nLOOKUP_TABLE default\n{marks[name]}" for name in EDGES),
+        f"FIELD FieldData {len(POINTS) + 1}", f"motion 3 {len(NODES)} float", *("0 0 nan" for place in NODES),
+        *(f"{name} 1 {len(NODES)} int\n{marks[name]}\nMETADATA\nINFORMATION 0\n" for name in POINTS),
+        f"CELL_DATA {len(cells)}", "FIELD FieldData 1", f"end 1 {len(cells)} int",
+        *("0" for cell in CELLS), *("1" for cell in end)]) + "\n"
+
+
 pathlib.Path(folder / "beam.inp").write_text(abaqus(), encoding="utf-8")
 pathlib.Path(folder / "beam.msh").write_text(gmsh(), encoding="utf-8")
 pathlib.Path(folder / "beam.vtu").write_text(vtu(), encoding="utf-8")
+pathlib.Path(folder / "beam.vtk").write_text(vtk(), encoding="utf-8")
 ARRAYS = f"\n    set Boundary arrays = {', '.join([*EDGES, *POINTS])}"
 HEAD = """set Title  = Sets of nodes
 set Bodies = beam
@@ -102,7 +123,8 @@ end
 def scene(name, file, *lines):
     """A scene with these lines in the body."""
     path = folder / f"{name}.prm"
-    path.write_text(HEAD.format(file=file + (ARRAYS if file.endswith("vtu") else "")) + "\n".join(lines) + "\n" + TAIL, encoding="utf-8")
+    arrays = {".vtu": ARRAYS, ".vtk": ARRAYS + ", end"}.get(pathlib.Path(file).suffix, "")
+    path.write_text(HEAD.format(file=file + arrays) + "\n".join(lines) + "\n" + TAIL, encoding="utf-8")
     return path
 
 
@@ -114,8 +136,8 @@ def boundary(name, *entries):
 BEAM = ["  set Boundary conditions = left, right, top, one",
         *boundary("left", "Displacement z = 0", "Displacement x = 0"), *boundary("right", "Displacement z = 0"),
         *boundary("one", "Displacement y = 0"), *boundary("top", "Force z = -2*t")]
-bent = {name: scene(f"beam_{name}", f"beam.{name}", *BEAM) for name in ("inp", "msh", "vtu")}
-for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1), ("vtu", "vtu", {}, 1), ("ranks", "inp", {}, 2),
+bent = {name: scene(f"beam_{name}", f"beam.{name}", *BEAM) for name in ("inp", "msh", "vtu", "vtk")}
+for name, file, settings, ranks in (("inp", "inp", {}, 1), ("msh", "msh", {}, 1), ("vtu", "vtu", {}, 1), ("vtk", "vtk", {}, 1), ("ranks", "inp", {}, 2),
                                     ("fine", "inp", {FACTOR: 2}, 2), ("degree", "msh", {DEGREE: 2}, 1),
                                     ("both", "msh", {DEGREE: 2, FACTOR: 2}, 2), ("cg", "inp", CG, 1),
                                     ("adaptive", "inp", {"Refinement/Estimator": "recovered stress",
@@ -155,6 +177,18 @@ for name, entries, text in (("pressure", ["Pressure = 1"], "needs faces, but thi
     bad = scene(f"bad_{name}", "beam.inp", "  set Fixed = left, two", "  set Boundary conditions = top",
                 *boundary("top", *entries))
     refused = run(f"bad_{name}", bad, fails=True)
+    check(text in refused.text, f"{name}: {refused.text[-500:]}")
+# A boundary by an array of the cells of a .vtk file, and arrays that are damaged or not there.
+pulled = run("pulled", scene("pulled", "beam.vtk", "  set Fixed = left, right", "  set Boundary conditions = end",
+                             *boundary("end", "Traction x = 3*t")))
+below("traction on the cells of an array", relative(sum(pulled.reaction("beam", edge)[0] for edge in ("left", "right")), -3), 1e-7)
+whole = vtk()
+for name, old, new, text in (("number", "POINT_DATA 45", "POINT_DATA 44", "POINT_DATA announces 44 points, POINTS 45"),
+                             ("name", "end 1 20 int", "End 1 20 int", "has no array 'end' of one component"),
+                             ("short", "end 1 20 int\n0", "end 1 20 int", "FIELD")):
+    check(whole.count(old) == 1, f"{name}: the file has no '{old}'")
+    (folder / f"bad_{name}.vtk").write_text(whole.replace(old, new), encoding="utf-8")
+    refused = run(f"bad_{name}", scene(f"bad_vtk_{name}", f"bad_{name}.vtk", "  set Fixed = left"), fails=True)
     check(text in refused.text, f"{name}: {refused.text[-500:]}")
 symmetric = run("bad_symmetry", scene("bad_symmetry", "beam.inp", "  set Symmetry = left"), fails=True)
 check("is a set of nodes, but faces are needed here" in symmetric.text, symmetric.text[-500:])

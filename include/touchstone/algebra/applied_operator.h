@@ -9,6 +9,8 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace Touchstone
 {
@@ -45,6 +47,9 @@ namespace Touchstone
     std::unique_ptr<BlockRows>
     block_rows() const override
     {
+      // Multigrid is set up, which takes most memory of a run.
+      all.reset();
+      force.reset();
       return condensed_block_rows(input);
     }
 
@@ -57,9 +62,12 @@ namespace Touchstone
      * any. And what R gives, as the elongations of springs. */
     std::unique_ptr<Epetra_CrsMatrix> left, right;
     std::unique_ptr<Epetra_Vector>    elongations;
-    /** Diagonal entries of constrained dofs, zero at others. */
-    Epetra_Vector         diagonal;
-    mutable Epetra_Vector all, force, part;
+    /** Forces of springs; null without any. */
+    std::unique_ptr<Epetra_Vector> part;
+    /** Constrained dofs, and their entries on the diagonal. */
+    std::vector<std::pair<int, double>> diagonal;
+    /** Work space of products, made when it is needed. */
+    mutable std::unique_ptr<Epetra_Vector> all, force;
 
     /** Forms of this rank's terms as the rows of a matrix. */
     std::unique_ptr<Epetra_CrsMatrix>

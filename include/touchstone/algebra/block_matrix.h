@@ -35,11 +35,19 @@ namespace Touchstone
     virtual ~BlockRows() = default;
 
     /** @brief The rows of a node of this rank: nodes to which it is coupled, itself
-     * included, by local index, and blocks. Valid until the next call. */
+     * included, by local index, and blocks. Valid until the next call. Rows of a symmetric
+     * matrix need not have blocks of earlier nodes of this rank, of which those nodes' rows
+     * have the transposes; who reads them looks at the others only. */
     virtual const RowOfBlocks<Block> &
     read(unsigned int node) = 0;
 
-    /** @brief About as many blocks as all rows of this rank have. */
+    /** @brief These rows will not be read again: what they alone need may be freed. */
+    virtual void
+    forget(unsigned int /*node*/)
+    {
+    }
+
+    /** @brief About as many blocks as all rows of this rank have, if they are whole. */
     virtual std::size_t
     n_blocks() const = 0;
 
@@ -192,10 +200,28 @@ namespace Touchstone
       const Row &
       read(unsigned int node);
 
+      /** @brief The same without blocks that other rows store as transposes. */
+      const Row &
+      read_stored(unsigned int node);
+
+      /** @brief Blocks in the whole row of a node. */
+      unsigned int
+      length(unsigned int node);
+
     private:
       const BlockMatrix &matrix;
       Row                present;
       unsigned int       present_node = dealii::numbers::invalid_unsigned_int;
+      /** Of the pattern, from the first whole row on. */
+      std::shared_ptr<const BlockPattern::TransposedBlocks> transposed;
+
+      /** Row pointers of the transposed blocks of a node. */
+      std::pair<std::size_t, std::size_t>
+      transposed_range(unsigned int node);
+
+      /** Append the blocks that the row of a node stores. */
+      void
+      append_stored(unsigned int node);
     };
 
   protected:

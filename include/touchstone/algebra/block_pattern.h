@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace Touchstone
@@ -79,14 +78,6 @@ namespace Touchstone
       return std::lower_bound(begin, end, other) - column.begin();
     }
 
-    /** @brief Blocks in the row of a node, others' transposes included. */
-    unsigned int
-    row_length(const unsigned int node) const
-    {
-      return transposed_blocks().start[node + 1] - transposed_blocks().start[node] +
-             start[node + 1] - start[node];
-    }
-
     /** @brief That on the diagonal. */
     std::size_t
     diagonal(const unsigned int node) const
@@ -101,16 +92,17 @@ namespace Touchstone
     {
       /** @brief Row pointers. */
       std::vector<std::size_t> start;
-      /** @brief The node in whose row it is, and its number, in ascending order. */
-      std::vector<std::pair<unsigned int, unsigned int>> blocks;
+      /** @brief The nodes in whose rows they are, in ascending order. */
+      std::vector<unsigned int> nodes;
     };
 
-    /** @brief Made when first asked for. */
-    const TransposedBlocks &
+    /** @brief Made anew unless somebody still has them: they take a tenth of the memory of a
+     * matrix in single precision, and are needed where whole rows are read. */
+    std::shared_ptr<const TransposedBlocks>
     transposed_blocks() const;
 
   private:
-    mutable std::unique_ptr<const TransposedBlocks> known_transposed;
+    mutable std::weak_ptr<const TransposedBlocks> known_transposed;
 
     unsigned int
     n_owned() const

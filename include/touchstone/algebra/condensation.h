@@ -112,8 +112,9 @@ namespace Touchstone
   {
   public:
     /** @param columns Indices of the columns; those of the stiffness come first.
+     * @param half Columns of earlier nodes of this rank are left out of rows.
      */
-    Condensation(const CondensationInput &input, LocalIndices &columns);
+    Condensation(const CondensationInput &input, LocalIndices &columns, bool half = false);
 
     /** @brief The row that replaces that of the stiffness, by local index; null:
      * it is as it was. */
@@ -121,6 +122,15 @@ namespace Touchstone
     row(const int i) const
     {
       return number[i] < 0 ? nullptr : &rows[number[i]];
+    }
+
+    /** @brief Give away a row for which row() is not null. */
+    SparseRow
+    take(const int i)
+    {
+      SparseRow result;
+      result.swap(rows[number[i]]);
+      return result;
     }
 
     /** @brief Right-hand side of this rank's rows. */
@@ -152,6 +162,7 @@ namespace Touchstone
     std::vector<Part>      parts;
     /** Marks rows of the stiffness that are replaced. */
     std::vector<char> replaced;
+    const bool        half;
 
     SparseRow &
     new_row(int i);

@@ -37,8 +37,8 @@ namespace Touchstone
     virtual std::shared_ptr<Epetra_CrsMatrix>
     matrix() const = 0;
 
-    /** @brief The same to be read node by node; of displacements only.
-     * Collective. */
+    /** @brief The same to be read node by node; of displacements only, and half of a symmetric
+     * matrix (BlockRows::read()). Collective. */
     virtual std::unique_ptr<BlockRows>
     block_rows() const = 0;
   };
@@ -49,7 +49,8 @@ namespace Touchstone
   std::shared_ptr<Epetra_CrsMatrix>
   assemble_condensed_matrix(const CondensationInput &input, std::vector<double> *values);
 
-  /** @brief The same rows as 3 x 3 blocks, made as they are read. Collective. */
+  /** @brief The same rows as 3 x 3 blocks, of a symmetric matrix half of them
+   * (BlockRows::read()). Collective. */
   std::unique_ptr<BlockRows>
   condensed_block_rows(const CondensationInput &input);
 

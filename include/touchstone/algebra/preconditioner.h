@@ -8,6 +8,7 @@
 
 #include <Epetra_MultiVector.h>
 #include <Epetra_Operator.h>
+#include <Epetra_Vector.h>
 #include <memory>
 #include <vector>
 
@@ -16,11 +17,27 @@ namespace Touchstone
   /** @brief The rigid motions of the bodies over the displacements, for multigrid. */
   struct RigidMotions
   {
-    /** Three translations and three rotations, over the rows of the stiffness. Bodies
-     * share the columns: one restricted to a body is a motion of that body. */
-    Epetra_MultiVector columns;
+    /** The coordinate of each row of the stiffness along its own direction, from a centre and
+     * over a length that are those of all bodies: a motion restricted to a body is one of that
+     * body. The six motions themselves would take six times the memory. */
+    Epetra_Vector position;
     /** Body of each row of this rank. */
     std::vector<unsigned int> body;
+    /** Translations, then rotations. */
+    unsigned int n = 2 * dim;
+
+    /** @brief Displacement of a row of this rank in the motion @p k: e_k, or e_(k-3) x position. */
+    double
+    operator()(const unsigned int k, const int row) const
+    {
+      const unsigned int along = row % dim, axis = k % dim;
+      if (k < dim)
+        return along == axis ? 1. : 0.;
+      const int first = row - static_cast<int>(along);
+      if (along == (axis + 1) % dim)
+        return -position[first + (axis + 2) % dim];
+      return along == (axis + 2) % dim ? position[first + (axis + 1) % dim] : 0.;
+    }
   };
 
   /** @brief Displacements with little or no energy, which coarse levels of multigrid must be

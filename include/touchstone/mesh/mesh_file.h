@@ -95,13 +95,15 @@ namespace Touchstone
   read_abaqus(std::istream &in);
 
   /** @brief Read a legacy VTK file, ASCII, with an unstructured grid.
+   * @param boundary_arrays See read_vtu().
    * @throws MeshFileError */
   MeshFile
-  read_vtk(std::istream &in);
+  read_vtk(std::istream &in, const std::vector<std::string> &boundary_arrays);
 
   /** @brief Read an unstructured grid of VTK's XML format.
    * @param boundary_arrays Names of arrays that are not zero in the faces of a boundary, which
-   *   gets that name: in quadrilateral cells, or in all corners of a face.
+   *   gets that name: in quadrilateral cells, or in all corners of a face
+   *   (NamedArrays::add_boundaries()).
    * @throws MeshFileError */
   MeshFile
   read_vtu(std::istream &in, const std::vector<std::string> &boundary_arrays);

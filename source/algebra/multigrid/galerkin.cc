@@ -32,8 +32,8 @@ namespace Touchstone
     /** A block of P^T A P, in the message to the rank that owns its row. */
     struct SentCoarseBlock
     {
-      Index                                 row, column; // aggregates, global indices
-      std::array<double, n_modes * n_modes> entries;
+      Index                        row, column; // aggregates, global indices
+      Prolongation::AggregateBlock entries;
     };
 
     /**
@@ -47,25 +47,26 @@ namespace Touchstone
       std::size_t         size;
     };
 
-    /** product += A_i P, of a row of blocks of the matrix. */
+    using PaddedBlock = Prolongation::PaddedBlock;
+
+    /** product += factor a p, of a block a of the matrix and the row p of P of its column. */
     TOUCHSTONE_VECTORISED void
-    add_product(const RowOfBlocks<BlockRows::Block> &row,
-                const std::vector<RowOfP>           &p,
-                RowOfBlocks<NodeRows>               &product)
+    add_product(BlockRows::Block       a,
+                const double           factor,
+                const RowOfP          &p,
+                RowOfBlocks<NodeRows> &product)
     {
-      for (unsigned int k = 0; k < row.columns.size(); ++k)
-        {
-          const RowOfP &of_node = p[row.columns[k]];
-          for (std::size_t b = 0; b < of_node.size; ++b)
-            Touchstone::add_product(row.blocks[k],
-                                    of_node.entries + dim * n_modes * b,
-                                    product.at(static_cast<int>(of_node.columns[b])));
-        }
+      for (double &entry : a)
+        entry *= factor;
+      for (std::size_t b = 0; b < p.size; ++b)
+        Touchstone::add_product(a,
+                                p.entries + dim * n_modes * b,
+                                product.at(static_cast<int>(p.columns[b])));
     }
 
     /** to += p^T ap, of a block of P and one of A P. */
     TOUCHSTONE_VECTORISED void
-    add_transposed_product(const float *p, const NodeRows &ap, Prolongation::AggregateBlock &to)
+    add_transposed_product(const float *p, const NodeRows &ap, PaddedBlock &to)
     {
       const Vector8 ap0 = ap[0], ap1 = ap[1], ap2 = ap[2];
       for (unsigned int i = 0; i < n_modes; ++i)
@@ -73,10 +74,39 @@ namespace Touchstone
           double(p[i]) * ap0 + double(p[n_modes + i]) * ap1 + double(p[2 * n_modes + i]) * ap2;
     }
 
+    /** to += ap^T p, its transpose. */
+    TOUCHSTONE_VECTORISED void
+    add_transposed_product(const NodeRows &ap, const float *p, PaddedBlock &to)
+    {
+      using Floats     = Simd<float, 8>::type;
+      const Vector8 p0 = TOUCHSTONE_CONVERT(*reinterpret_cast<const Floats *>(p), Vector8),
+                    p1 =
+                      TOUCHSTONE_CONVERT(*reinterpret_cast<const Floats *>(p + n_modes), Vector8),
+                    p2 = TOUCHSTONE_CONVERT(*reinterpret_cast<const Floats *>(p + 2 * n_modes),
+                                            Vector8);
+      for (unsigned int i = 0; i < n_modes; ++i)
+        to[i] += ap[0][i] * p0 + ap[1][i] * p1 + ap[2][i] * p2;
+    }
+
+    /** A row that is complete, without padding. */
+    Prolongation::AggregateRow
+    pack(Prolongation::RowOfAggregates<PaddedBlock> &&row)
+    {
+      Prolongation::AggregateRow result;
+      result.positions = row.positions;
+      result.blocks.resize(row.blocks.size());
+      for (std::size_t k = 0; k < row.blocks.size(); ++k)
+        for (unsigned int i = 0; i < n_modes; ++i)
+          for (unsigned int m = 0; m < n_modes; ++m)
+            result.blocks[k][n_modes * i + m] = row.blocks[k][i][m];
+      row = {};
+      return result;
+    }
+
     /**
      * The rows of aggregates as those of nodes: the six dofs of an aggregate are two nodes of
      * three, so a 6 x 6 block is 2 x 2 blocks of 3 x 3 and coarse levels need no code of their
-     * own.
+     * own. Of a symmetric matrix the blocks of earlier aggregates are missing.
      */
     class AggregateRows : public BlockRows
     {
@@ -90,27 +120,21 @@ namespace Touchstone
                     const Partitioner                        &coarse)
         : BlockRows(make_partitioner(rows, coarse))
         , rows(std::move(rows))
-        , below(this->rows.size())
+        , symmetric(symmetric)
       {
         const int first = static_cast<int>(partitioner->local_range().first / n_modes);
         for (unsigned int row = 0; row < this->rows.size(); ++row)
           {
-            this->rows[row].blocks.shrink_to_fit();
             // A motion that the aggregate does not have (one node has no rotations, a straight
             // row of nodes none about itself) is a zero column of P and a zero row here: a one on
             // the diagonal keeps the matrix regular, and the motion stays zero.
             Prolongation::AggregateBlock &own = this->rows[row].at(first + static_cast<int>(row));
             for (unsigned int i = 0; i < n_modes; ++i)
-              if (own[i][i] == 0.)
-                own[i][i] = 1.;
+              if (own[(n_modes + 1) * i] == 0.)
+                own[(n_modes + 1) * i] = 1.;
             for (auto &[aggregate, position] : this->rows[row].positions)
-              {
-                aggregate = static_cast<int>(
-                  partitioner->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
-                const auto column = static_cast<unsigned int>(aggregate);
-                if (symmetric && column > row && column < below.size())
-                  below[column].emplace_back(row, position);
-              }
+              aggregate = static_cast<int>(
+                partitioner->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
           }
       }
 
@@ -118,45 +142,39 @@ namespace Touchstone
       read(const unsigned int node) override
       {
         present.clear();
-        const unsigned int begin = dim * (node % n_parts);
-        const auto         add   = [&](const unsigned int aggregate, const auto &entry) {
+        const unsigned int                begin = dim * (node % n_parts);
+        const Prolongation::AggregateRow &row   = rows[node / n_parts];
+        for (const auto &[aggregate, position] : row.positions)
           for (unsigned int part = 0; part < n_parts; ++part)
             {
               Block &to = present.at(static_cast<int>(n_parts * aggregate + part));
               for (unsigned int r = 0; r < dim; ++r)
                 for (unsigned int c = 0; c < dim; ++c)
-                  to[dim * r + c] = entry(begin + r, dim * part + c);
+                  to[dim * r + c] = row.blocks[position][n_modes * (begin + r) + dim * part + c];
             }
-        };
-        for (const auto &[other, position] : below[node / n_parts])
-          {
-            const Prolongation::AggregateBlock &from = rows[other].blocks[position];
-            add(other, [&](const unsigned int r, const unsigned int c) { return from[c][r]; });
-          }
-        const Prolongation::AggregateRow &row = rows[node / n_parts];
-        for (const auto &[aggregate, position] : row.positions)
-          {
-            const Prolongation::AggregateBlock &from = row.blocks[position];
-            add(aggregate, [&](const unsigned int r, const unsigned int c) { return from[r][c]; });
-          }
         return present;
+      }
+
+      void
+      forget(const unsigned int node) override
+      {
+        if (node % n_parts == n_parts - 1)
+          rows[node / n_parts] = {};
       }
 
       std::size_t
       n_blocks() const override
       {
         std::size_t n = 0;
-        for (unsigned int row = 0; row < rows.size(); ++row)
-          n += rows[row].positions.size() + below[row].size();
+        for (const auto &row : rows)
+          n += (symmetric ? 2 : 1) * row.positions.size();
         return n_parts * n_parts * n;
       }
 
     private:
       static constexpr unsigned int           n_parts = Prolongation::n_nodes_of_aggregate;
       std::vector<Prolongation::AggregateRow> rows;
-      /** Of a symmetric matrix, by row: the blocks of earlier rows whose transposes belong to it,
-       * as row and number. */
-      std::vector<std::vector<std::pair<unsigned int, unsigned int>>> below;
+      const bool                              symmetric;
 
       static std::shared_ptr<const Partitioner>
       make_partitioner(const std::vector<Prolongation::AggregateRow> &rows,
@@ -237,31 +255,66 @@ namespace Touchstone
     for (unsigned int i = 0; i < far.size(); ++i)
       for (const Index aggregate : far[i].aggregates)
         far_columns[i].push_back(indices.local(aggregate));
-    std::vector<RowOfP> p;
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      p.push_back({entries.data() + block * start[node],
-                   column.data() + start[node],
-                   start[node + 1] - start[node]});
-    for (unsigned int i = 0; i < far.size(); ++i)
-      p.push_back({far[i].entries.data(), far_columns[i].data(), far_columns[i].size()});
+    const auto row_of_p = [&](const unsigned int node) {
+      if (node < n_nodes)
+        return RowOfP{entries.data() + block * start[node],
+                      column.data() + start[node],
+                      start[node + 1] - start[node]};
+      const auto &aggregates = far_columns[node - n_nodes];
+      return RowOfP{far[node - n_nodes].entries.data(), aggregates.data(), aggregates.size()};
+    };
 
-    // Row by row of A P, added to the rows of the aggregates to which the node belongs.
-    std::vector<AggregateRow> sums((coarse->locally_owned_size() + coarse->n_ghost_indices()) /
-                                   n_modes);
-    RowOfBlocks<NodeRows>     product;
+    // Of a symmetric matrix the blocks between nodes of this rank are read once for two: with U,
+    // what is above the diagonal and half of this, P^T (U + U^T) P is a sum and its transpose. The
+    // rest, all of a matrix that is not symmetric, is summed up as it is.
+    std::vector<RowOfAggregates<PaddedBlock>> sums(
+      (coarse->locally_owned_size() + coarse->n_ghost_indices()) / n_modes);
+    const auto stored = [&](const unsigned int row, const unsigned int aggregate) {
+      return !symmetric || aggregate >= row || row >= n_mine;
+    };
+    // A row gets nothing after the last node of its aggregate, for what it gets as a transpose
+    // comes from earlier nodes; without symmetry from that node itself.
+    std::vector<unsigned int> last(sums.size(), 0);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+        last[column[b]] = node;
+    std::vector<AggregateRow> result(sums.size());
+    RowOfBlocks<NodeRows>     of_half, of_rest;
     for (unsigned int node = 0; node < n_nodes; ++node)
       {
-        product.clear();
-        add_product(matrix.read(node), p, product);
+        of_half.clear();
+        of_rest.clear();
+        const auto &row = matrix.read(node);
+        for (unsigned int k = 0; k < row.columns.size(); ++k)
+          if (const auto other = static_cast<unsigned int>(row.columns[k]);
+              !symmetric || other >= n_nodes)
+            add_product(row.blocks[k], 1., row_of_p(other), of_rest);
+          else if (other >= node)
+            add_product(row.blocks[k], other == node ? 0.5 : 1., row_of_p(other), of_half);
+        matrix.forget(node);
         for (std::size_t b = start[node]; b < start[node + 1]; ++b)
-          for (unsigned int k = 0; k < product.columns.size(); ++k)
-            if (const auto other = static_cast<unsigned int>(product.columns[k]);
-                !symmetric || other >= column[b] || column[b] >= n_mine)
-              add_transposed_product(entries.data() + block * b,
-                                     product.blocks[k],
-                                     sums[column[b]].at(product.columns[k]));
+          {
+            const float *const of_node = entries.data() + block * b;
+            const int          own     = static_cast<int>(column[b]);
+            for (unsigned int k = 0; k < of_half.columns.size(); ++k)
+              {
+                const int other = of_half.columns[k];
+                if (stored(own, other))
+                  add_transposed_product(of_node, of_half.blocks[k], sums[own].at(other));
+                if (stored(other, own))
+                  add_transposed_product(of_half.blocks[k], of_node, sums[other].at(own));
+              }
+            for (unsigned int k = 0; k < of_rest.columns.size(); ++k)
+              if (stored(own, of_rest.columns[k]))
+                add_transposed_product(of_node,
+                                       of_rest.blocks[k],
+                                       sums[own].at(of_rest.columns[k]));
+          }
+        for (std::size_t b = start[node]; b < start[node + 1]; ++b)
+          if (last[column[b]] == node)
+            result[column[b]] = pack(std::move(sums[column[b]]));
       }
-    return sums;
+    return result;
   }
 
 
@@ -293,9 +346,7 @@ namespace Touchstone
             {
               to.push_back({static_cast<Index>(global[row]), static_cast<Index>(aggregate), {}});
               const AggregateBlock &from = parts[row].blocks[position];
-              for (unsigned int i = 0; i < n_modes; ++i)
-                for (unsigned int m = 0; m < n_modes; ++m)
-                  to.back().entries[n_modes * i + m] = from[i][m];
+              to.back().entries          = from;
             }
       }
     parts.resize(n_mine);
@@ -308,9 +359,8 @@ namespace Touchstone
             continue;
           AggregateRow   &to  = parts[coarse->global_to_local(n_modes * received.row) / n_modes];
           AggregateBlock &sum = to.at(static_cast<int>(received.column));
-          for (unsigned int i = 0; i < n_modes; ++i)
-            for (unsigned int m = 0; m < n_modes; ++m)
-              sum[i][m] += received.entries[n_modes * i + m];
+          for (unsigned int i = 0; i < sum.size(); ++i)
+            sum[i] += received.entries[i];
         }
   }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/multigrid/multigrid.h>
+#include <touchstone/base/free_memory.h>
 #include <touchstone/base/non_convergence.h>
+
+#include <deal.II/lac/vector_memory.h>
 
 #include <Amesos.h>
 #include <algorithm>
@@ -64,56 +67,70 @@ namespace Touchstone
     Chebyshev::AdditionalData data(degree, range, estimate_iterations);
     data.preconditioner = std::make_shared<DiagonalMatrix<VectorType>>(matrix.inverse_diagonal());
     smoother.initialize(matrix, data);
-    for (VectorType *vector : {&rhs, &solution, &residual})
-      matrix.initialize_vector(*vector);
+    matrix.initialize_vector(rhs);
   }
 
 
 
-  Multigrid::Multigrid(const Epetra_Map                         &map,
-                       std::unique_ptr<BlockRows>                rows,
-                       std::unique_ptr<const Epetra_MultiVector> near_kernel,
-                       const std::vector<unsigned int>          &body,
-                       const bool                                symmetric)
+  Multigrid::Multigrid(const Epetra_Map                &map,
+                       std::unique_ptr<BlockRows>       rows,
+                       Prolongation::NearKernel         near_kernel,
+                       const std::vector<unsigned int> &body,
+                       const bool                       symmetric)
     : SquareOperator(map, "smoothed aggregation")
   {
     // Bodies by node; motions.body is by dof.
-    const Epetra_MultiVector *modes = near_kernel.get();
     std::vector<unsigned int> bodies(map.NumMyElements() / dim);
     for (unsigned int node = 0; node < bodies.size(); ++node)
       bodies[node] = body[dim * node];
     unsigned int group = 1;
     // From fine to coarse until few dofs are left. The rows of a level are made by the Galerkin
     // product of the one above and are read twice, for the copy in single precision and for the
-    // next product in double.
+    // next product in double, which frees them one by one: the set-up is what takes most memory of
+    // a run.
     while (rows->numbers()->size() > few)
       {
+        give_back_free_memory();
         levels.push_back(std::make_unique<Level>(*rows, symmetric));
         Level       &level   = *levels.back();
         const double largest = largest_eigenvalue(level);
         auto         prolongation =
-          std::make_unique<Prolongation>(level.matrix, *modes, bodies, group, largest);
-        const Index n_coarse = prolongation->coarse_near_kernel().GlobalLength();
+          std::make_unique<Prolongation>(level.matrix, near_kernel, bodies, group, largest);
+        const auto  kernel   = prolongation->coarse_near_kernel();
+        const Index n_coarse = kernel->GlobalLength();
+        near_kernel          = [kernel] { return kernel; };
         if (n_coarse == 0 || n_coarse > rows->numbers()->size() * 4 / 5)
           {
             // The coarse level is hardly smaller. On the finest level nothing is coupled then, and
             // smoothing is enough. On a later one few nodes are left of many bodies and ranks; as
             // this matrix is sparse, the direct solver takes it although it is larger than usual.
             if (levels.size() == 1)
-              return;
+              {
+                make_work_space();
+                return;
+              }
             levels.pop_back();
             break;
           }
-        // Not needed any more, where the memory of the set-up is largest.
-        near_kernel.reset();
-        modes  = &prolongation->coarse_near_kernel();
         rows   = prolongation->galerkin(*rows, symmetric);
         bodies = prolongation->coarse_body();
         group  = Prolongation::n_nodes_of_aggregate;
         prolongation->initialize_coarse_vector(level.coarse_values);
         level.prolongation = std::move(prolongation);
       }
-    make_coarsest(*rows);
+    make_work_space();
+    make_coarsest(*rows, symmetric);
+  }
+
+
+
+  // Last, when the set-up needs no memory any more.
+  void
+  Multigrid::make_work_space()
+  {
+    for (const auto &level : levels)
+      for (VectorType *vector : {&level->solution, &level->residual})
+        level->matrix.initialize_vector(*vector);
   }
 
 
@@ -131,6 +148,8 @@ namespace Touchstone
     try
       {
         largest = level.smoother.estimate_eigenvalues(level.rhs).max_eigenvalue_estimate / margin;
+        // Vectors of its conjugate gradients, which deal.II would keep for later ones.
+        GrowingVectorMemory<VectorType>::release_unused_memory();
       }
     catch (const ExceptionBase &)
       {
@@ -146,29 +165,41 @@ namespace Touchstone
   // The coarsest matrix is regular: motions without stiffness got a one on their diagonal
   // (AggregateRows), or else KLU reports it. Its rows stay distributed; Amesos gathers them.
   void
-  Multigrid::make_coarsest(BlockRows &rows)
+  Multigrid::make_coarsest(BlockRows &rows, const bool symmetric)
   {
     const auto      &numbers = *rows.numbers();
     const Epetra_Map own(-1, static_cast<int>(numbers.locally_owned_size()), 0, map.Comm());
     coarsest_matrix = std::make_unique<Epetra_CrsMatrix>(Copy, own, 0);
-    std::vector<int>    columns;
-    std::vector<double> values;
+    // A block by the first local dofs of its row and column. Small, so that blocks are inserted
+    // one by one.
+    const auto insert = [&](const unsigned int row, const unsigned int column, const auto &entry) {
+      int indices[dim];
+      for (unsigned int c = 0; c < dim; ++c)
+        indices[c] = static_cast<int>(numbers.local_to_global(column + c));
+      for (unsigned int r = 0; r < dim; ++r)
+        {
+          double values[dim];
+          for (unsigned int c = 0; c < dim; ++c)
+            values[c] = entry(r, c);
+          coarsest_matrix->InsertGlobalValues(own.GID(row + r), dim, values, indices);
+        }
+    };
     for (unsigned int node = 0; node < rows.n_nodes(); ++node)
       {
         const auto &row = rows.read(node);
-        columns.clear();
-        for (const int other : row.columns)
-          for (unsigned int c = 0; c < dim; ++c)
-            columns.push_back(static_cast<int>(numbers.local_to_global(dim * other + c)));
-        for (unsigned int r = 0; r < dim; ++r)
+        for (unsigned int k = 0; k < row.columns.size(); ++k)
           {
-            values.clear();
-            for (const auto &block : row.blocks)
-              values.insert(values.end(), &block[dim * r], &block[dim * r] + dim);
-            coarsest_matrix->InsertGlobalValues(own.GID(dim * node + r),
-                                                columns.size(),
-                                                values.data(),
-                                                columns.data());
+            const BlockRows::Block &block = row.blocks[k];
+            const unsigned int      other = row.columns[k];
+            if (symmetric && other < node)
+              continue;
+            insert(dim * node, dim * other, [&](const unsigned int r, const unsigned int c) {
+              return block[dim * r + c];
+            });
+            if (symmetric && other > node && other < rows.n_nodes())
+              insert(dim * other, dim * node, [&](const unsigned int r, const unsigned int c) {
+                return block[dim * c + r];
+              });
           }
       }
     coarsest_matrix->FillComplete();

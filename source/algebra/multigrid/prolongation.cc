@@ -3,6 +3,7 @@
 #include <touchstone/algebra/multigrid/aggregation.h>
 #include <touchstone/algebra/multigrid/prolongation.h>
 #include <touchstone/algebra/multigrid/row_of_blocks.h>
+#include <touchstone/base/free_memory.h>
 #include <touchstone/base/vectorised.h>
 
 #include <algorithm>
@@ -39,6 +40,9 @@ namespace Touchstone
       for (unsigned int node = 0; node < n_nodes; ++node)
         {
           const BlockMatrix<float>::Rows::Row &row = matrix.read(node);
+          // What lists leave behind as they grow would take as much memory as they do.
+          if (group == 1)
+            graph[node].reserve(row.columns.size());
           for (unsigned int k = 0; k < row.columns.size(); ++k)
             {
               const unsigned int other = row.columns[k];
@@ -107,17 +111,16 @@ namespace Touchstone
     using GhostedVector = LinearAlgebra::distributed::Vector<double>;
 
     /**
-     * A vector of own values with those of ghosts. It is returned behind a pointer to const,
-     * since a copy would lose the values of the ghosts.
+     * Give @p vector the @p value(i) of each dof i of this rank, and those of ghosts.
      */
-    std::unique_ptr<const GhostedVector>
-    with_ghosts(const std::shared_ptr<const Partitioner> &partitioner,
-                const std::vector<double>                &values)
+    template <class Value>
+    void
+    fill_with_ghosts(GhostedVector &vector, const Value &value)
     {
-      auto result = std::make_unique<GhostedVector>(partitioner);
-      std::copy(values.begin(), values.end(), result->begin());
-      result->update_ghost_values();
-      return result;
+      vector.zero_out_ghost_values();
+      for (unsigned int i = 0; i < vector.locally_owned_size(); ++i)
+        vector.local_element(i) = value(i);
+      vector.update_ghost_values();
     }
 
     /**
@@ -159,8 +162,9 @@ namespace Touchstone
 
 
 
+  // What is not needed any more is freed before the entries of P are made, for then most is stored.
   Prolongation::Prolongation(const BlockMatrix<float>        &matrix,
-                             const Epetra_MultiVector        &near_kernel,
+                             const NearKernel                &near_kernel,
                              const std::vector<unsigned int> &body,
                              const unsigned int               group,
                              const double                     largest)
@@ -173,43 +177,45 @@ namespace Touchstone
         diagonal[i] = 1.f / inverse.local_element(i);
     }
     BlockMatrix<float>::Rows rows(matrix);
-    const Aggregates         aggregates = aggregate(couplings(rows, diagonal, group), body);
-
-    std::vector<std::vector<unsigned int>> nodes(aggregates.n);
-    for (unsigned int node = 0; node < matrix.n_nodes(); ++node)
-      if (aggregates.of_node[node / group] >= 0)
-        nodes[aggregates.of_node[node / group]].push_back(node);
-    body_of_aggregate.resize(aggregates.n);
-    for (int a = 0; a < aggregates.n; ++a)
-      body_of_aggregate[a] = body[nodes[a].front() / group];
-
-    const Tentative tentative = restrict_to_aggregates(near_kernel, nodes);
+    Tentative                tentative;
+    {
+      const Aggregates aggregates = aggregate(couplings(rows, diagonal, group), body);
+      std::vector<std::vector<unsigned int>> nodes(aggregates.n);
+      for (unsigned int node = 0; node < matrix.n_nodes(); ++node)
+        if (aggregates.of_node[node / group] >= 0)
+          nodes[aggregates.of_node[node / group]].push_back(node);
+      body_of_aggregate.resize(aggregates.n);
+      for (int a = 0; a < aggregates.n; ++a)
+        body_of_aggregate[a] = body[nodes[a].front() / group];
+      give_back_free_memory();
+      tentative = restrict_to_aggregates(*near_kernel(), nodes);
+    }
+    give_back_free_memory();
     // Nothing is coupled, on any rank.
     if (coarse_kernel->GlobalLength() == 0)
       return;
-    const LocalTentative local = exchange(tentative);
-    smooth(rows, diagonal, local, 4. / 3. / largest);
+    exchange(tentative);
+    smooth(rows, diagonal, tentative, 4. / 3. / largest);
   }
 
 
 
-  // P_0: the near-kernel restricted to the nodes of each aggregate, orthonormal by QR. Q are
-  // columns of P_0, in six vectors over the dofs of this level; R are the values of the
+  // P_0: the near-kernel restricted to the nodes of each aggregate, orthonormal by QR. Q are the
+  // blocks of P_0; R are the values of the
   // near-kernel on the coarse level, so that P_0 R reproduces it exactly there.
   Prolongation::Tentative
   Prolongation::restrict_to_aggregates(const Epetra_MultiVector                     &near_kernel,
                                        const std::vector<std::vector<unsigned int>> &nodes)
   {
-    const unsigned int n_dofs = fine->locally_owned_size(), n_given = near_kernel.NumVectors();
-    const Epetra_Map   coarse_map(-1,
+    const unsigned int n_nodes = fine->locally_owned_size() / dim,
+                       n_given = near_kernel.NumVectors();
+    const Epetra_Map coarse_map(-1,
                                 static_cast<int>(nodes.size() * n_modes),
                                 0,
                                 near_kernel.Comm());
-    const Index        first = static_cast<Index>(coarse_map.MinMyGID()) / n_modes;
-    coarse_kernel            = std::make_unique<Epetra_MultiVector>(coarse_map, n_modes);
-    Tentative result{std::vector<double>(n_dofs, no_aggregate), {}};
-    for (auto &column_of_mode : result.columns)
-      column_of_mode.resize(n_dofs, 0.);
+    const auto       kernel = std::make_shared<Epetra_MultiVector>(coarse_map, n_modes);
+    coarse_kernel           = kernel;
+    Tentative          result{std::vector<int>(n_nodes, -1), std::vector<float>(block * n_nodes)};
     std::vector<Modes> q;
     for (std::size_t a = 0; a < nodes.size(); ++a)
       {
@@ -220,57 +226,68 @@ namespace Touchstone
         const Factor factor = orthonormalise(q);
         for (unsigned int k = 0; k < q.size(); ++k)
           {
-            const unsigned int i = dim * nodes[a][k / dim] + k % dim;
-            result.aggregate[i]  = static_cast<double>(first + a);
+            const unsigned int node = nodes[a][k / dim];
+            result.aggregate[node]  = static_cast<int>(a);
             for (unsigned int m = 0; m < n_modes; ++m)
-              result.columns[m][i] = q[k][m];
+              result.blocks[block * node + n_modes * (k % dim) + m] = static_cast<float>(q[k][m]);
           }
         for (unsigned int m = 0; m < n_modes; ++m)
           for (unsigned int i = 0; i < n_modes; ++i)
-            (*coarse_kernel)[m][n_modes * a + i] = factor[n_modes * i + m];
+            (*kernel)[m][n_modes * a + i] = factor[n_modes * i + m];
       }
     return result;
   }
 
 
 
-  // Aggregates and motions of ghost nodes, exchanged as vectors over the dofs: the number of an
-  // aggregate travels as a double, which is exact. Aggregates met there are the ghosts of the
-  // coarse level.
-  Prolongation::LocalTentative
-  Prolongation::exchange(const Tentative &tentative)
+  // Aggregates and motions of ghost nodes, exchanged as vectors over the dofs, one after the other:
+  // the number of an aggregate travels as a double, which is exact. Aggregates met there are the
+  // ghosts of the coarse level.
+  void
+  Prolongation::exchange(Tentative &tentative)
   {
-    const auto                                        aim = with_ghosts(fine, tentative.aggregate);
-    std::vector<std::unique_ptr<const GhostedVector>> shape;
-    for (const auto &values : tentative.columns)
-      shape.push_back(with_ghosts(fine, values));
-    const unsigned int n_local = fine->locally_owned_size() + fine->n_ghost_indices();
-    std::vector<Index> far;
-    for (unsigned int i = fine->locally_owned_size(); i < n_local; ++i)
-      if (aim->local_element(i) != no_aggregate)
-        for (unsigned int m = 0; m < n_modes; ++m)
-          far.push_back(n_modes * static_cast<Index>(aim->local_element(i)) + m);
+    const Epetra_BlockMap &map    = coarse_kernel->Map();
+    const unsigned int     n_dofs = fine->locally_owned_size(),
+                       n_local    = n_dofs + fine->n_ghost_indices();
+    const Index first = map.NumMyElements() > 0 ? static_cast<Index>(map.MinMyGID()) / n_modes : 0;
+    GhostedVector values(fine);
+    fill_with_ghosts(values, [&](const unsigned int i) {
+      const int aggregate = tentative.aggregate[i / dim];
+      return aggregate < 0 ? no_aggregate : static_cast<double>(first + aggregate);
+    });
+    std::vector<double> of_ghost;
+    std::vector<Index>  far;
+    for (unsigned int i = n_dofs; i < n_local; i += dim)
+      {
+        of_ghost.push_back(values.local_element(i));
+        if (of_ghost.back() != no_aggregate)
+          for (unsigned int m = 0; m < n_modes; ++m)
+            far.push_back(n_modes * static_cast<Index>(of_ghost.back()) + m);
+      }
     std::sort(far.begin(), far.end());
-    const Epetra_BlockMap &map = coarse_kernel->Map();
-    IndexSet               owned(map.NumGlobalElements()), ghosts(map.NumGlobalElements());
+    IndexSet owned(map.NumGlobalElements()), ghosts(map.NumGlobalElements());
     if (map.NumMyElements() > 0)
       owned.add_range(map.MinMyGID(), map.MinMyGID() + map.NumMyElements());
     ghosts.add_indices(far.begin(), far.end());
     coarse = std::make_shared<Partitioner>(owned, ghosts, fine->get_mpi_communicator());
+    for (const double aggregate : of_ghost)
+      tentative.aggregate.push_back(
+        aggregate == no_aggregate
+          ? -1
+          : static_cast<int>(coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) /
+                             n_modes));
 
-    LocalTentative result{std::vector<int>(n_local / dim, -1), {}};
-    result.blocks.resize(block * result.aggregate.size() + 2);
-    for (unsigned int node = 0; node < result.aggregate.size(); ++node)
-      if (const double aggregate = aim->local_element(dim * node); aggregate != no_aggregate)
-        {
-          result.aggregate[node] = static_cast<int>(
-            coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) / n_modes);
-          for (unsigned int r = 0; r < dim; ++r)
-            for (unsigned int m = 0; m < n_modes; ++m)
-              result.blocks[block * node + n_modes * r + m] =
-                static_cast<float>(shape[m]->local_element(dim * node + r));
-        }
-    return result;
+    const bool          several = map.Comm().NumProc() > 1;
+    std::vector<float> &blocks  = tentative.blocks;
+    blocks.resize(block * tentative.aggregate.size() + 2);
+    for (unsigned int m = 0; m < n_modes && several; ++m)
+      {
+        fill_with_ghosts(values,
+                         [&](const unsigned int i) { return double(blocks[n_modes * i + m]); });
+        for (unsigned int i = n_dofs; i < n_local; ++i)
+          if (tentative.aggregate[i / dim] >= 0)
+            blocks[n_modes * i + m] = static_cast<float>(values.local_element(i));
+      }
   }
 
 
@@ -280,7 +297,7 @@ namespace Touchstone
   void
   Prolongation::smooth(BlockMatrix<float>::Rows &rows,
                        const std::vector<float> &diagonal,
-                       const LocalTentative     &tentative,
+                       const Tentative          &tentative,
                        const double              omega)
   {
     const unsigned int    n_nodes = diagonal.size() / dim;

@@ -5,6 +5,7 @@
 
 #include <Ifpack_PointRelaxation.h>
 #include <Teuchos_ParameterList.hpp>
+#include <memory>
 
 // Registers the preconditioner 'multigrid', and takes one sweep of Gauss-Seidel in its place
 // where inertia makes the system easy, as in dynamics with small steps.
@@ -42,8 +43,9 @@ namespace Touchstone
     double
     stiffness_of_motions(const CondensedSystem &system, const RigidMotions &motions)
     {
-      const Epetra_Vector &translation = *motions.columns(0);
-      Epetra_Vector        force(system.rhs->Map());
+      Epetra_Vector translation(motions.position.Map()), force(system.rhs->Map());
+      for (int i = 0; i < translation.MyLength(); ++i)
+        translation[i] = motions(0, i);
       system.product().Apply(translation, force);
       double sums[2] = {0., 0.}, all[2];
       for (int i = 0; i < force.MyLength(); ++i)
@@ -71,13 +73,11 @@ namespace Touchstone
         constexpr double much = 0.15;
         if (stiffness_of_motions(system, motions) >= much)
           return std::make_unique<GaussSeidel>(system.matrix());
-        return std::make_unique<Multigrid>(system.rows(),
-                                           system.block_rows(),
-                                           std::unique_ptr<const Epetra_MultiVector>(
-                                             new Epetra_MultiVector(
-                                               near_null_space(system, motions))),
-                                           motions.body,
-                                           system.symmetric);
+        const auto near_kernel = [&] {
+          return std::make_shared<const Epetra_MultiVector>(near_null_space(system, motions));
+        };
+        return std::make_unique<Multigrid>(
+          system.rows(), system.block_rows(), near_kernel, motions.body, system.symmetric);
       }
     };
 

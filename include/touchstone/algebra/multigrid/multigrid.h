@@ -40,11 +40,11 @@ namespace Touchstone
      * @throws LinearSolverFailure if the coarsest level is singular, or a level is indefinite or
      *         not finite, on all ranks.
      */
-    Multigrid(const Epetra_Map                         &map,
-              std::unique_ptr<BlockRows>                rows,
-              std::unique_ptr<const Epetra_MultiVector> near_kernel,
-              const std::vector<unsigned int>          &body,
-              bool                                      symmetric);
+    Multigrid(const Epetra_Map                &map,
+              std::unique_ptr<BlockRows>       rows,
+              Prolongation::NearKernel         near_kernel,
+              const std::vector<unsigned int> &body,
+              bool                             symmetric);
 
     /** @brief One V-cycle from zero, for each vector. Collective. */
     int
@@ -81,7 +81,10 @@ namespace Touchstone
     largest_eigenvalue(const Level &level);
 
     void
-    make_coarsest(BlockRows &rows);
+    make_work_space();
+
+    void
+    make_coarsest(BlockRows &rows, bool symmetric);
 
     /** @brief One cycle from level @p k on, over the dofs of this rank; @p rhs and @p
      * solution may be the same. */

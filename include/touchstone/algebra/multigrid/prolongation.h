@@ -10,6 +10,7 @@
 #include <Epetra_MultiVector.h>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -33,21 +34,28 @@ namespace Touchstone
   public:
     using VectorType = BlockMatrix<float>::VectorType;
 
+    /** @brief Makes rigid motions over a level where they are needed, for they take the memory of
+     * six vectors. */
+    using NearKernel = std::function<std::shared_ptr<const Epetra_MultiVector>()>;
+
     /** @brief Rigid motions of an aggregate. */
     static constexpr unsigned int n_modes = 6;
 
     /** @brief Nodes that an aggregate is on the coarser level. */
     static constexpr unsigned int n_nodes_of_aggregate = n_modes / dim;
 
-    /** @brief Block of the rows of an aggregate over the dofs of another. */
-    using AggregateBlock = PaddedRows<n_modes>;
+    /** @brief Block of the rows of an aggregate over the dofs of another, by rows; and while it
+     * is summed up, which is faster with rows of eight. */
+    using AggregateBlock = std::array<double, n_modes * n_modes>;
+    using PaddedBlock    = PaddedRows<n_modes>;
 
-    /** @brief A row of P^T A P under construction: blocks over aggregates, which are named by
-     * local or by global indices. */
-    class AggregateRow
+    /** @brief A row of P^T A P: blocks over aggregates, which are named by local or by global
+     * indices. */
+    template <typename Block>
+    class RowOfAggregates
     {
     public:
-      AggregateBlock &
+      Block &
       at(const int aggregate)
       {
         const auto found =
@@ -64,8 +72,9 @@ namespace Touchstone
 
       /** @brief Aggregates in ascending order, with the number of their block. */
       std::vector<std::pair<int, unsigned int>> positions;
-      std::vector<AggregateBlock>               blocks;
+      std::vector<Block>                        blocks;
     };
+    using AggregateRow = RowOfAggregates<AggregateBlock>;
 
     /**
      * @param matrix      Symmetric pattern.
@@ -76,22 +85,23 @@ namespace Touchstone
      * @param largest     Largest eigenvalue of the matrix over its diagonal.
      */
     Prolongation(const BlockMatrix<float>        &matrix,
-                 const Epetra_MultiVector        &near_kernel,
+                 const NearKernel                &near_kernel,
                  const std::vector<unsigned int> &body,
                  unsigned int                     group,
                  double                           largest);
 
     /** @brief The matrix of the coarser level, P^T A P. @param matrix That of which the
-     * constructor got the blocks, in double precision. @param symmetric It is: of two blocks
+     * constructor got the blocks, in double precision; forgets its rows one by one. @param
+     * symmetric It is: of two blocks that are transposes of each other one is read, and of two
      * between aggregates of a rank one is computed. Collective. */
     std::unique_ptr<BlockRows>
     galerkin(BlockRows &matrix, bool symmetric) const;
 
     /** @brief Rigid motions over the coarser level. */
-    const Epetra_MultiVector &
+    const std::shared_ptr<const Epetra_MultiVector> &
     coarse_near_kernel() const
     {
-      return *coarse_kernel;
+      return coarse_kernel;
     }
 
     /** @brief Body of each aggregate of this rank. */
@@ -128,38 +138,32 @@ namespace Touchstone
      * registers of eight (PaddedRows). */
     std::vector<float> entries;
 
-    std::unique_ptr<Epetra_MultiVector> coarse_kernel;
-    std::vector<unsigned int>           body_of_aggregate;
+    std::shared_ptr<const Epetra_MultiVector> coarse_kernel;
+    std::vector<unsigned int>                 body_of_aggregate;
 
-    /** P_0 over the dofs of this rank: the global number of the aggregate of each, or a mark
-     * for none, and the columns of its motions. */
+    /** P_0 by nodes: the local number of the aggregate, or -1, and the block; two more numbers
+     * than there are entries, as in `entries`. */
     struct Tentative
-    {
-      std::vector<double>                      aggregate;
-      std::array<std::vector<double>, n_modes> columns;
-    };
-    /** P_0 by local nodes, ghosts included: the local number of the aggregate, or -1, and the
-     * block; two more numbers than there are entries, as in `entries`. */
-    struct LocalTentative
     {
       std::vector<int>   aggregate;
       std::vector<float> blocks;
     };
 
-    /** @brief P_0 and the near-kernel of the coarse level, from the @p nodes of each aggregate. */
+    /** @brief P_0 of this rank's nodes and the near-kernel of the coarse level, from the @p nodes
+     * of each aggregate. */
     Tentative
     restrict_to_aggregates(const Epetra_MultiVector                     &near_kernel,
                            const std::vector<std::vector<unsigned int>> &nodes);
 
-    /** @brief P_0 with ghosts, and the layout of the coarse level. Collective. */
-    LocalTentative
-    exchange(const Tentative &tentative);
+    /** @brief Append the ghosts to P_0; makes the layout of the coarse level. Collective. */
+    void
+    exchange(Tentative &tentative);
 
     /** @brief The entries of P. */
     void
     smooth(BlockMatrix<float>::Rows &rows,
            const std::vector<float> &diagonal,
-           const LocalTentative     &tentative,
+           const Tentative          &tentative,
            double                    omega);
 
     /** The rows of nodes of other ranks that this one refers to, by node: aggregates by
