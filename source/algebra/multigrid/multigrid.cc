@@ -124,10 +124,11 @@ namespace Touchstone
 
 
 
-  // Last, when the set-up needs no memory any more.
+  // Last, when the set-up needs no memory any more; what it has freed is given back.
   void
   Multigrid::make_work_space()
   {
+    give_back_free_memory();
     for (const auto &level : levels)
       for (VectorType *vector : {&level->solution, &level->residual})
         level->matrix.initialize_vector(*vector);
