@@ -120,10 +120,12 @@ namespace Touchstone
       double gap = 0.;
       if (row.tied)
         {
-          // What supports determine, as at planes of symmetry, is not for the row to close.
+          // What supports determine, as at planes of symmetry, is not for the row to close. Before
+          // the first linear system it is not known, and not all of it in checkpoints.
+          const bool     known = state.constrained.norm_square() > 0.5 || state.refused > 0;
           Tensor<1, dim> open;
           for (unsigned int d = 0; d < dim; ++d)
-            open[d] = state.constrained[d] * row.gap_vector[d];
+            open[d] = (known ? state.constrained[d] : 1.) * row.gap_vector[d];
           gap = std::max(open.norm() - state.admissible_gap, 0.) / row.size;
         }
       else if (state.normal_accepted && (state.active() || row.gap < 0.))
