@@ -103,10 +103,9 @@ FOUR = star("four.prm", (90, 80, 100, 90), ("3, 3, 1", "4, 2, 2", "2, 5, 1", "3,
 for path, n in (THREE, 3), (EXCHANGED, 3), (FOUR, 4):
     for way, settings in ("tied", tied(n)), ("rough", rough(n)):
         name = f"{path[:-4]}_{way}"
-        for enforcement in EXACT_ENFORCEMENTS:
+        for enforcement in EXACT_ENFORCEMENTS if n == 3 else ("elimination",):
             patch(f"{name}_{enforcement}", path, {**settings, ENFORCEMENT: enforcement})
-    patch(f"{name}_2", path, settings, ranks=2)
-    patch(f"{name}_tied_2", path, tied(n), ranks=2)
+    patch(f"{path[:-4]}_rough_2", path, rough(n), ranks=2)
 # One pair without friction beside two that are tied.
 patch("mixed", THREE, {**tied(3), "Contact pair c/Behaviour": "frictionless"})
 # Shear, too: all that is tied moves as one body.
