@@ -58,6 +58,67 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** The slave nodes beside an owned one that leaves its part of all faces around it to them
+     * (Face::without_row), once for each face; none for other nodes. */
+    std::vector<Index>
+    receivers(const Surface &surface, const Index node)
+    {
+      std::vector<Index> result;
+      for (const auto &[face, m] : surface.faces_around(node))
+        for (unsigned int k = 0; face->without_row[m] && k < face->n_nodes(); ++k)
+          if (!face->without_row[k])
+            result.push_back(face->nodes[k]);
+      return result;
+    }
+
+    /** Nodes whose rows have been left to others of their faces (doc/theory.md 3.1, "Edges where
+     * pairs meet") have the mean of their tractions, without an area: that is counted where the
+     * forces are. Collective. */
+    void
+    fill_junctions(const Contact &contact, std::vector<ContactPoint> &points)
+    {
+      std::vector<std::pair<ContactPoint *, std::vector<Index>>> to_fill;
+      for (ContactPoint &point : points)
+        if (const Surface &surface = contact.pair(point.pair).slave();
+            point.status == ContactStatus::no_partner)
+          if (std::vector<Index> from = receivers(surface, point.node); !from.empty())
+            to_fill.emplace_back(&point, std::move(from));
+      if (Utilities::MPI::max(static_cast<int>(!to_fill.empty()), contact.communicator()) == 0)
+        return;
+      for (unsigned int p = 0; p < contact.n_pairs(); ++p)
+        {
+          Vector tractions(contact.solid_model().owned, contact.communicator()),
+            pressures(tractions);
+          for (const ContactPoint &point : points)
+            if (point.pair == p)
+              {
+                for (unsigned int d = 0; d < dim; ++d)
+                  tractions(dim * point.node + d) = point.traction[d];
+                pressures(dim * point.node) = point.pressure;
+              }
+          tractions.compress(VectorOperation::insert);
+          pressures.compress(VectorOperation::insert);
+          const Vector all_tractions = contact.with_ghosts(tractions),
+                       all_pressures = contact.with_ghosts(pressures);
+          for (auto &[point, from] : to_fill)
+            if (point->pair == p)
+              {
+                for (const Index node : from)
+                  {
+                    point->pressure += all_pressures(dim * node) / from.size();
+                    for (unsigned int d = 0; d < dim; ++d)
+                      point->traction[d] += all_tractions(dim * node + d) / from.size();
+                  }
+                point->area = 0.;
+              }
+        }
+    }
+  } // namespace
+
+
+
   std::vector<ContactPoint>
   contact_points(const Contact &contact, const Vector &u)
   {
@@ -76,6 +137,7 @@ namespace Touchstone
     for (ContactPoint &point : result)
       if (const auto found = between.find({point.pair, point.node}); found != between.end())
         point.force += found->second;
+    fill_junctions(contact, result);
     return result;
   }
 

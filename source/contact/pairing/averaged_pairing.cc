@@ -64,8 +64,12 @@ namespace Touchstone
           for (const Face &face : *list)
             {
               const TraceBasis *const basis = input.slave->trace(face);
-              SlaveFace slave{&face, basis, {}, whole_areas(face, basis, /*reference=*/true)};
-              bool      any = false;
+              SlaveFace               slave{&face,
+                              basis,
+                              {},
+                              whole_areas(face, basis, /*reference=*/true),
+                              areas_to_cover(face, basis)};
+              bool                    any = false;
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
                 {
                   const auto found =
@@ -154,8 +158,8 @@ namespace Touchstone
         const Face                      *face;
         const TraceBasis                *basis;
         std::array<int, Face::max_nodes> row;
-        /** whole_areas() in the reference state. */
-        std::array<double, Face::max_nodes> whole;
+        /** whole_areas() in the reference state, and areas_to_cover(). */
+        std::array<double, Face::max_nodes> whole, to_cover;
       };
 
       /** Indices of the rows of the owned nodes, and the slave faces around these in the order
@@ -297,7 +301,7 @@ namespace Touchstone
       const DualBasis dual(total_mass<n>(parts),
                            areas,
                            face.basis,
-                           areas_to_cover(slave, face.basis),
+                           face.to_cover,
                            /*gradual=*/!tied,
                            /*with_derivative=*/false);
       const auto      present = whole_areas(slave, face.basis, /*reference=*/false);
