@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/contact.h>
+#include <touchstone/contact/pairing/sets_of_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -88,6 +89,25 @@ namespace Touchstone
     seen.compress();
     ghosted.reinit(solid.owned, seen, solid.communicator);
     import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
+  }
+
+
+
+  void
+  Contact::set_points(const unsigned int p, const std::vector<MaterialPoint> &points)
+  {
+    // Friction belongs to a point, and to the row of a node only as long as this is its row.
+    for (const ContactRow &row : pairs[p]->rows())
+      if (row.friction && row.between_nodes)
+        {
+          const MaterialPoint *const last       = point_of(pairs[p]->committed_points(), row.slave),
+                                     *const now = point_of(points, row.slave);
+          if (last && now && goes_on_from(*last, *now))
+            friction_rows.recall(row);
+          else if (last || now)
+            friction_rows.forget(row);
+        }
+    pairs[p]->set_points(points);
   }
 
 
