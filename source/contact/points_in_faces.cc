@@ -226,9 +226,19 @@ namespace Touchstone
             place.depth == 0. ||
             !(MissedContact::deep(place) || missed.share(place) > MissedContact::most_share))
           return false;
-      const std::vector<MaterialPoint> wanted  = deepest_of_neighbours(on_edges(missed.points()));
-      std::vector<MaterialPoint>       result  = points;
-      bool                             changed = false;
+      const std::vector<MaterialPoint> found  = on_edges(missed.points());
+      std::vector<MaterialPoint>       wanted = deepest_of_neighbours(found);
+      // Which of two faces is deeper changes as plastic bodies slide, and the force would fall when
+      // one of their points is given up.
+      if (contact.solid_model().has_history())
+        for (const MaterialPoint &point : found)
+          if (continued(point) &&
+              std::none_of(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
+                return other.face == point.face;
+              }))
+            wanted.push_back(point);
+      std::vector<MaterialPoint> result  = points;
+      bool                       changed = false;
       for (MaterialPoint point : wanted)
         {
           // What it has pressed into a plastic body another point would not carry.

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Points inside slave faces with friction and plasticity, whose state goes on from step to step: mirror
-images, ranks, enforcements, and a restart."""
+images, ranks, enforcements, a restart, and finer steps."""
 # ctest: label = quick
 
 import shutil
 
-from touchstone_test import (AUGMENTED, MULTIPLIERS, Run, below, check, finish, folder,
-                             launch, run, settings_options)
+from touchstone_test import (AUGMENTED, MULTIPLIERS, Run, STEPS, below, check, finish, folder,
+                             launch, relative, run, settings_options)
 
 # The lowest of the faces of half a tube, which is the slave, is wider than its contact: its point, in
 # the middle, has equal weights of nodes on both sides.
@@ -125,4 +125,8 @@ for name, settings in (("elastic", {}), ("plastic", PLASTIC), ("regularised", RE
     resumed.says("goes on from checkpoint_")
     below(f"{name}: resumed", difference(forces(one), forces(resumed)), 1e-7)
 
+# Where the contact slides from one face to the next, a point that has pressed is not given up for one that
+# is a little deeper: the force would go to and fro with the steps, by half.
+fine = [run(f"steps_{n}", scene, {**PLASTIC, STEPS: n}) for n in (12, 24)]
+below("plastic: 12 and 24 steps", relative(fine[0].force("c")[2], fine[1].force("c")[2]), 0.1)
 finish()
