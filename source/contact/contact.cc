@@ -2,6 +2,7 @@
 
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/junctions.h>
+#include <touchstone/contact/pairing/sets_of_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -103,6 +104,25 @@ namespace Touchstone
   {
     if (import_ghosts)
       (*import_ghosts)(u, ghosted);
+  }
+
+
+
+  void
+  Contact::set_points(const unsigned int p, const std::vector<MaterialPoint> &points)
+  {
+    // Friction belongs to a point, and to the row of a node only as long as this is its row.
+    for (const ContactRow &row : pairs[p]->rows())
+      if (row.friction && row.between_nodes)
+        {
+          const MaterialPoint *const last       = point_of(pairs[p]->committed_points(), row.slave),
+                                     *const now = point_of(points, row.slave);
+          if (last && now && goes_on_from(*last, *now))
+            friction_rows.recall(row);
+          else if (last || now)
+            friction_rows.forget(row);
+        }
+    pairs[p]->set_points(points);
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/archive/archive.h>
+#include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/row_archive.h>
 
@@ -33,6 +34,8 @@ namespace Touchstone
         row.away = 0.;
       }
     committed = present;
+    if (points_meet)
+      points_before = points();
   }
 
 
@@ -41,6 +44,8 @@ namespace Touchstone
   ContactPair::rollback()
   {
     present = committed;
+    if (points_meet && !(points().empty() && points_before.empty()))
+      point_rows->set(points_before);
   }
 
 
@@ -74,6 +79,79 @@ namespace Touchstone
     KeyPairs faces(memory.of_faces.begin(), memory.of_faces.end());
     std::sort(faces.begin(), faces.end());
     archive.put_keys(input.parameters.section(), faces);
+    if (points_meet)
+      save_points(archive);
+  }
+
+
+
+  namespace
+  {
+    /** A point with its place alone: the rest follows from the mesh. */
+    struct SavedPoint
+    {
+      Index                 slave = invalid_index;
+      std::uint64_t         face  = 0;
+      std::array<double, 2> xi{};
+      double                depth = 0.;
+    };
+
+    std::string
+    name_of_points(const ContactPairParameters &parameters)
+    {
+      return "points in faces of " + parameters.section();
+    }
+  } // namespace
+
+
+
+  void
+  ContactPair::save_points(ArchiveWriter &archive) const
+  {
+    std::vector<NodeRecord> records;
+    for (const MaterialPoint &point : points_before)
+      if (const Index node = point.nodes[point.slave]; input.solid.owned.is_element(dim * node))
+        records.push_back({node, {point.xi[0], point.xi[1], point.depth}, {}, {point.face}});
+    const std::string name = name_of_points(input.parameters);
+    archive.put(name, points_before.size());
+    archive.put_nodes(name, records);
+  }
+
+
+
+  // The ranks that know the nodes need not know the faces.
+  void
+  ContactPair::load_points(const ArchiveReader &archive)
+  {
+    const std::string name = name_of_points(input.parameters);
+    // Checkpoints of earlier versions have none.
+    if (!archive.has(name))
+      return;
+    std::vector<SavedPoint> saved;
+    for (const auto &[node, record] : archive.nodes(name))
+      saved.push_back({node,
+                       record.keys.at(0),
+                       {{record.values.at(0), record.values.at(1)}},
+                       record.values.at(2)});
+    std::vector<MaterialPoint> mine;
+    for (const SavedPoint &one : gather_all(saved, input.solid.communicator))
+      for (const Face &face : slave_surface->owned_faces())
+        if (face.key == one.face)
+          {
+            MaterialPoint point(face, slave_surface->trace(face), one.xi);
+            point.depth = one.depth;
+            for (unsigned int a = 0; a < point.n; ++a)
+              if (point.nodes[a] == one.slave)
+                point.slave = a;
+            mine.push_back(point);
+          }
+    points_before = gather_all(mine, input.solid.communicator);
+    std::sort(points_before.begin(),
+              points_before.end(),
+              [](const MaterialPoint &one, const MaterialPoint &other) {
+                return one.face < other.face;
+              });
+    point_rows->set(points_before);
   }
 
 
@@ -99,6 +177,8 @@ namespace Touchstone
     const KeyPairs &faces = archive.keys(input.parameters.section());
     memory.of_faces.insert(faces.begin(), faces.end());
     committed = present;
+    if (points_meet)
+      load_points(archive);
     // Small sliding: the pairing is that of the reference state, made by the update before.
     if (small)
       return;

@@ -15,8 +15,8 @@
 
 // Which points inside slave faces have rows (doc/theory.md 4.2). It follows from states of balance
 // alone, each with fewer points than the next, the first of a step without any: so it depends
-// neither on the iterates of Newton's method nor on the steps before, nor on numbers of nodes or
-// ranks.
+// neither on the iterates of Newton's method nor on numbers of nodes or ranks, and without
+// plasticity not on the steps before either.
 namespace Touchstone
 {
   using namespace dealii;
@@ -61,6 +61,29 @@ namespace Touchstone
 
 
 
+    /** The points of the committed state that carried a force. Collective. */
+    std::vector<MaterialPoint>
+    carrying(const Contact &contact, const ContactPair &pair)
+    {
+      const std::vector<MaterialPoint> &points = pair.committed_points();
+      std::vector<int>                  carry(points.size(), 0);
+      for (const ContactRow &row : pair.rows())
+        if (const MaterialPoint *const point =
+              row.between_nodes ? point_of(points, row.slave) : nullptr)
+          {
+            const RowState &state        = contact.enforcement().states().of_committed(row);
+            carry[point - points.data()] = state.active() && !state.dropped() && state.lambda > 0.;
+          }
+      Utilities::MPI::max(carry, contact.communicator(), carry);
+      std::vector<MaterialPoint> result;
+      for (std::size_t k = 0; k < points.size(); ++k)
+        if (carry[k] == 1)
+          result.push_back(points[k]);
+      return result;
+    }
+
+
+
     class PointsOfPair
     {
     public:
@@ -69,6 +92,7 @@ namespace Touchstone
         , pair(pair)
         , flags(slave_flags(contact, pair))
         , points(pair.points())
+        , of_last_step(carrying(contact, pair))
       {
       }
 
@@ -88,6 +112,12 @@ namespace Touchstone
       const ContactPair         &pair;
       const Vector               flags;
       std::vector<MaterialPoint> points;
+      /** Points that carried a force when the last step ended. */
+      const std::vector<MaterialPoint> of_last_step;
+
+      /** The one of them that @p point goes on from, or null. */
+      const MaterialPoint *
+      continued(const MaterialPoint &point) const;
 
       /** Choose the node that is to have the row; false if there is none. @param before The point
        * that this one takes the place of, or null. @param others That have rows. @param wanted All
@@ -98,6 +128,17 @@ namespace Touchstone
                    const std::vector<MaterialPoint> &others,
                    const std::vector<MaterialPoint> &wanted) const;
     };
+
+
+
+    const MaterialPoint *
+    PointsOfPair::continued(const MaterialPoint &point) const
+    {
+      for (const MaterialPoint &last : of_last_step)
+        if (goes_on_from(last, point))
+          return &last;
+      return nullptr;
+    }
 
 
 
@@ -112,31 +153,42 @@ namespace Touchstone
       for (unsigned int a = 0; a < point.n; ++a)
         if (const Index first = dim * point.nodes[a]; contact.solid_model().owned.is_element(first))
           {
-            const bool own = before && before->nodes[before->slave] == point.nodes[a];
-            free[a]        = flags(first + carries) == 0. && flags(first + refused) == 0. &&
-                      (own || flags(first + taken) == 0.);
+            const bool own      = before && before->nodes[before->slave] == point.nodes[a];
+            const bool possible = flags(first + carries) == 0. && flags(first + refused) == 0. &&
+                                  (own || flags(first + taken) == 0.);
+            // On a plane of symmetry a row has no friction across, which the point has.
+            const bool on_plane = contact.planes_of_symmetry().count(point.nodes[a]) > 0;
+            free[a]             = possible ? (on_plane ? 1 : 2) : 0;
           }
       std::vector<int> all(free.begin(), free.end());
       Utilities::MPI::max(all, contact.communicator(), all);
+      // Friction goes on in the same row.
+      if (const MaterialPoint *const last = continued(point))
+        for (unsigned int a = 0; a < point.n; ++a)
+          if (all[a] > 0 && point.nodes[a] == last->nodes[last->slave])
+            all[a] += 2;
       // Small weights make large coefficients: only where others would close a circle.
       for (const double least : {Tolerances::least_share, 0.25 * Tolerances::least_share})
         {
           double       largest = 0.;
           unsigned int fewest  = 0;
+          int          most    = 0;
           bool         found   = false;
           for (unsigned int a = 0; a < point.n; ++a)
             {
               if (all[a] == 0 || point.weights[a] <= least)
                 continue;
-              // The node that the fewest other rows refer to, of these the one with the largest
-              // weight, and of equal weights the first on the face, which is the same in any
-              // partition.
+              // That of the last step, or a node on no plane of symmetry; of these the one that the
+              // fewest other rows refer to, then the one with the largest weight, and of equal
+              // weights the first on the face, which is the same in any partition.
               const unsigned int n =
                 std::count_if(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
                   return other.face != point.face && refers_to(other, point.nodes[a]);
                 });
-              if (found && (n > fewest ||
-                            (n == fewest && point.weights[a] <= largest + Tolerances::edge_end)))
+              if (found && (all[a] < most ||
+                            (all[a] == most &&
+                             (n > fewest || (n == fewest &&
+                                             point.weights[a] <= largest + Tolerances::edge_end)))))
                 continue;
               std::vector<MaterialPoint> trial(others);
               trial.push_back(point);
@@ -151,6 +203,7 @@ namespace Touchstone
               point.slave = a;
               largest     = point.weights[a];
               fewest      = n;
+              most        = all[a];
               found       = true;
             }
           if (found)
@@ -173,11 +226,29 @@ namespace Touchstone
             place.depth == 0. ||
             !(MissedContact::deep(place) || missed.share(place) > MissedContact::most_share))
           return false;
-      const std::vector<MaterialPoint> wanted  = deepest_of_neighbours(on_edges(missed.points()));
-      std::vector<MaterialPoint>       result  = points;
-      bool                             changed = false;
+      const std::vector<MaterialPoint> found  = on_edges(missed.points());
+      std::vector<MaterialPoint>       wanted = deepest_of_neighbours(found);
+      // Which of two faces is deeper changes as plastic bodies slide, and the force would fall when
+      // one of their points is given up.
+      if (contact.solid_model().has_history())
+        for (const MaterialPoint &point : found)
+          if (continued(point) &&
+              std::none_of(wanted.begin(), wanted.end(), [&](const MaterialPoint &other) {
+                return other.face == point.face;
+              }))
+            wanted.push_back(point);
+      std::vector<MaterialPoint> result  = points;
+      bool                       changed = false;
       for (MaterialPoint point : wanted)
         {
+          // What it has pressed into a plastic body another point would not carry.
+          if (const MaterialPoint *const last = continued(point);
+              last && contact.solid_model().has_history())
+            {
+              const double depth = point.depth;
+              point              = *last;
+              point.depth        = depth;
+            }
           std::vector<MaterialPoint> others = result;
           const auto of_face = [&](const MaterialPoint &other) { return other.face == point.face; };
           others.erase(std::remove_if(others.begin(), others.end(), of_face), others.end());

@@ -138,10 +138,7 @@ namespace Touchstone
     /** @brief Let these material points of the pair @p p have rows from the next update() on, the
      * same on all ranks; see ContactPair::takes_points(). */
     void
-    set_points(const unsigned int p, const std::vector<MaterialPoint> &points)
-    {
-      pairs[p]->set_points(points);
-    }
+    set_points(unsigned int p, const std::vector<MaterialPoint> &points);
 
     /** @brief Update the geometry of the rows, and the slip, to the displacement @p u (owned dofs)
      * at time @p time. Collective. */

@@ -176,6 +176,13 @@ namespace Touchstone
       return point_rows->points();
     }
 
+    /** @brief Those of the last committed state. */
+    const std::vector<MaterialPoint> &
+    committed_points() const
+    {
+      return points_before;
+    }
+
     /** @brief Let these points have rows from the next update() on, on all ranks, where
      * takes_points(). */
     void
@@ -265,6 +272,7 @@ namespace Touchstone
     std::shared_ptr<Pairing>   pairing_method;
     std::unique_ptr<PointRows> point_rows;
     std::vector<ContactRow>    present, committed;
+    std::vector<MaterialPoint> points_before;
     /** Small sliding: the rows of the reference state, and the displacement with the ghosts that
      * their stencils need. */
     std::vector<ContactRow> reference;
@@ -300,6 +308,10 @@ namespace Touchstone
     update_small_sliding(const Vector &u);
     void
     apply_overlap();
+    void
+    save_points(ArchiveWriter &archive) const;
+    void
+    load_points(const ArchiveReader &archive);
   };
 } // namespace Touchstone
 

@@ -163,6 +163,12 @@ namespace Touchstone
           }
       }
     set_anchor(row, k, positions, history);
+    // Which of the nodes of an edge or face has the row is a choice, for equal weights by an order
+    // that mirror images do not have, and another step may make another one. So nothing but the
+    // displacements of the step counts, which any of the nodes knows (equation (20)); the two
+    // points are together already, and there is no way to the contact left to predict.
+    if (row.between_nodes && state.active())
+      history.has_anchor = false;
   }
 
 
@@ -213,6 +219,25 @@ namespace Touchstone
     f.kinematics.start    = force;
     f.kinematics.slip     = Tensor<1, dim>();
     set_anchor(row, f.kinematics, positions, f.history);
+  }
+
+
+
+  void
+  Friction::forget(const ContactRow &row)
+  {
+    FrictionHistory &history  = present[row.index].history;
+    history.has_anchor        = false;
+    history.precontact_offset = {};
+    history.traction          = {};
+  }
+
+
+
+  void
+  Friction::recall(const ContactRow &row)
+  {
+    present[row.index].history = committed[row.index].history;
   }
 
 

@@ -5,6 +5,7 @@
 #include <touchstone/contact/pairing/row_derivative.h>
 #include <touchstone/contact/tolerances.h>
 
+#include <algorithm>
 #include <cmath>
 
 // Rows of material points inside slave faces (doc/theory.md 4.2). A point
@@ -29,9 +30,15 @@ namespace Touchstone
   PointRows::set(const std::vector<MaterialPoint> &points)
   {
     for (const OwnPoint &point : own)
-      released.push_back(point.row);
-    all = points;
+      if (const MaterialPoint &p = *point.point;
+          std::none_of(points.begin(), points.end(), [&](const MaterialPoint &other) {
+            return other.face == p.face && other.xi == p.xi &&
+                   other.nodes[other.slave] == p.nodes[p.slave];
+          }))
+        released.push_back(point.row);
+    const std::vector<MaterialPoint> given = points;
     own.clear();
+    all = given;
     if (input.master && !search && !all.empty())
       search.emplace(*input.master,
                      input.search_distance > 0.

@@ -130,6 +130,27 @@ namespace Touchstone
 
 
 
+  const MaterialPoint *
+  point_of(const std::vector<MaterialPoint> &points, const Index node)
+  {
+    const auto found = std::find_if(points.begin(), points.end(), [&](const MaterialPoint &point) {
+      return point.nodes[point.slave] == node;
+    });
+    return found == points.end() ? nullptr : &*found;
+  }
+
+
+
+  bool
+  goes_on_from(const MaterialPoint &last, const MaterialPoint &point)
+  {
+    // Nearer to each other than to the next sample of an overlap.
+    return last.face == point.face &&
+           std::hypot(last.xi[0] - point.xi[0], last.xi[1] - point.xi[1]) < 0.25;
+  }
+
+
+
   bool
   equally_deep(const MaterialPoint &one, const MaterialPoint &other)
   {

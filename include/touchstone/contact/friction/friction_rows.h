@@ -77,6 +77,15 @@ namespace Touchstone
           double                        slip_length,
           double                        work);
 
+    /** @brief A row between nodes describes another point from now on, which has no history but
+     * the path and work of its node. */
+    void
+    forget(const ContactRow &row);
+
+    /** @brief The row goes on with its committed history. */
+    void
+    recall(const ContactRow &row);
+
     void
     commit() override;
     void

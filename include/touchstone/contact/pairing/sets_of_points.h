@@ -17,6 +17,15 @@ namespace Touchstone
   bool
   refers_to(const MaterialPoint &point, Index node);
 
+  /** @brief The one that has the row of a node, or null. */
+  const MaterialPoint *
+  point_of(const std::vector<MaterialPoint> &points, Index node);
+
+  /** @brief Whether a point is where another one was in the last step, or near it, and takes over
+   * its history. */
+  bool
+  goes_on_from(const MaterialPoint &last, const MaterialPoint &point);
+
   /** @brief Two points in faces that share a node and are about equally deep: round-off, or the
    * numbers of the nodes, would choose one of them, and the result would be less symmetric than
    * the scene. */
