@@ -102,11 +102,12 @@ def moved_inwards(nodes, faces, part, as_promised=False):
     return result
 
 
-def find(path, inset=1.5e-4, as_promised=False):
+def find(path, inset=1.5e-4, as_promised=False, without=lambda x: False):
     """Places where an edge of a surface passes through a face. At the tips of slender bodies the program
-    promises less than what is looked at, unless @p as_promised."""
+    promises less than what is looked at, unless @p as_promised. Faces whose corners are all placed
+    @p without are left out: at planes of symmetry there is no surface."""
     nodes, cells = read(path)
-    faces = surface(nodes, cells)
+    faces = [face for face in surface(nodes, cells) if not all(without(corner[1]) for corner in face[0])]
     at = moved_inwards(nodes, faces, inset, as_promised)
     triangles, edges, lengths = [], {}, []
     for corners, cell in faces:

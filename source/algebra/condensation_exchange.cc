@@ -4,6 +4,7 @@
 #include <touchstone/base/exchange.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 
 // Rows of the condensed system that belong to other ranks: summed up, sent to their owners, and
@@ -47,14 +48,23 @@ namespace Touchstone
     const Index first = system.stiffness->n_nodes() > 0 ? static_cast<Index>(dofs.GID(0)) : n;
     const auto  all   = gather_records(std::vector<First>{{first, system.first_extra}},
                                     system.rhs.get_mpi_communicator());
+    // By first numbers: the last rank of those that begin with the same one has it.
+    std::vector<std::pair<Index, unsigned int>> displacements, extras;
+    for (unsigned int rank = 0; rank < all.size(); ++rank)
+      {
+        displacements.emplace_back(all[rank][0].displacement, rank);
+        extras.emplace_back(all[rank][0].extra, rank);
+      }
+    std::sort(displacements.begin(), displacements.end());
+    std::sort(extras.begin(), extras.end());
     std::vector<unsigned int> result;
     for (const Index dof : of_dofs)
       {
-        unsigned int owner = 0;
-        for (unsigned int rank = 0; rank < all.size(); ++rank)
-          if ((dof >= n ? all[rank][0].extra : all[rank][0].displacement) <= dof)
-            owner = rank;
-        result.push_back(owner);
+        const auto &firsts = dof >= n ? extras : displacements;
+        const auto  above  = std::upper_bound(firsts.begin(),
+                                            firsts.end(),
+                                            std::make_pair(dof, numbers::invalid_unsigned_int));
+        result.push_back(above == firsts.begin() ? 0 : std::prev(above)->second);
       }
     return result;
   }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A strip that a piston crumples in a box: general contact with itself and with the walls, and the energy
 balance. `crossings` looks for surfaces that cross, and contacts are counted
-(doc/general_contact.md, section 7). With two more arguments: cells along the strip, and travel of the piston."""
+(doc/general_contact.md, section 7). With more arguments: cells along the strip, travel of the piston, and
+results, which are few as the tool is slow."""
 
 import sys
 from collections import defaultdict
@@ -12,8 +13,8 @@ import crossings  # of tests/, which touchstone_test finds
 from hexahedra import box
 
 MORE = sys.argv[4:]
-CELLS, TRAVEL = (int(MORE[0]), float(MORE[1])) if len(MORE) == 2 else (60, 25)
-LENGTH, HEIGHT, THICKNESS, WIDTH, SPEED, STEPS = CELLS / 2, 4, 0.3, 1, 1, 20
+CELLS, TRAVEL, STEPS = (int(MORE[0]), float(MORE[1]), int(MORE[2])) if len(MORE) == 3 else (60, 25, 20)
+LENGTH, HEIGHT, THICKNESS, WIDTH, SPEED = CELLS / 2, 4, 0.3, 1, 1
 
 
 def wavy(point):
@@ -102,6 +103,7 @@ check(bool(contacts) and max(contacts)[0] > 1.5 * CELLS, "the strip does not mee
 below("balance error", abs(result.value("motion", "energies", "balance_error")) /
       result.value("motion", "energies", "external"), 1e-2)
 contact_gives(result, 1e-6)
+print("cycles between results:", max(result.column("cycles")))
 rounds = result.summary.get("general_contact", {})
 print(f"checks {rounds.get('checks_of_crossings')}, cycles with more than five {rounds.get('cycles_with_more_than_five')}, "
       f"halvings {rounds.get('halvings')}")

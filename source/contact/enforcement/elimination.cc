@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/ask_owners.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/exact_enforcement.h>
@@ -45,8 +46,8 @@ namespace Touchstone
       prepare(const Contact &contact, LinearSystem &system) override
       {
         const MPI_Comm communicator = system.rhs.get_mpi_communicator();
-        // Stencils cross partitions, so all ranks must know all eliminated slave nodes, hence the
-        // collective exchange; both sets are made anew for each system as rows open and close.
+        // Stencils cross partitions, hence the collective exchange; both sets are made anew for
+        // each system as rows open and close.
         kept.clear();
         if (system.takes_multipliers)
           for (const ContactRow &row : contact.rows())
@@ -108,8 +109,21 @@ namespace Touchstone
       }
 
     private:
-      using Slaves = std::set<std::pair<unsigned int, Index>>;
-      /** Pairs and slave nodes of rows whose conditions are eliminated, of all ranks. */
+      /** A slave node of a pair. */
+      struct SlaveNode
+      {
+        unsigned int pair;
+        Index        node;
+
+        bool
+        operator<(const SlaveNode &other) const
+        {
+          return pair != other.pair ? pair < other.pair : node < other.node;
+        }
+      };
+      using Slaves = std::set<SlaveNode>;
+      /** Slave nodes of rows whose conditions are eliminated: of this rank, and those of other
+       * ranks that rows of this one refer to. */
       Slaves eliminated;
       /** Indices of rows whose forces are multipliers in the linear system, of this rank. */
       std::set<std::size_t> kept;
@@ -188,24 +202,42 @@ namespace Touchstone
         return false;
       }
 
-      /** Pairs and slave nodes of all active rows that are not kept, if any of this rank's rows has
-       * a derivative. Collective. */
+      /** Slave nodes of active rows that are not kept, if any rank's rows have a derivative: those
+       * of this rank, and what their owners say of others that rows of this rank refer to. Rows are
+       * where their slave nodes are owned. Collective. */
       Slaves
       active_slaves(const Contact &contact, const MPI_Comm communicator) const
       {
-        int                                         needed = 0;
-        std::vector<std::pair<unsigned int, Index>> mine;
+        int    needed = 0;
+        Slaves mine, referred;
         for (const ContactRow &row : contact.rows())
-          if (row_states[row].active() && kept.count(row.index) == 0)
+          if (row_states[row].active())
             {
-              mine.emplace_back(row.pair, row.slave);
-              needed |= (row.derivative != nullptr);
+              const auto refer = [&](const Index node) { referred.insert({row.pair, node}); };
+              for (const StencilEntry &entry : row.stencil)
+                refer(entry.node);
+              if (row.derivative)
+                for (const Index node : row.derivative->nodes)
+                  refer(node);
+              if (row.friction)
+                for (const auto &slip : row.friction->kinematics.slip_gradient)
+                  refer(slip.first);
+              if (kept.count(row.index) == 0)
+                {
+                  mine.insert({row.pair, row.slave});
+                  needed |= (row.derivative != nullptr);
+                }
             }
-        Slaves all;
-        if (Utilities::MPI::max(needed, communicator) == 1)
-          for (const auto &of_rank : Utilities::MPI::all_gather(communicator, mine))
-            all.insert(of_rank.begin(), of_rank.end());
-        return all;
+        if (Utilities::MPI::max(needed, communicator) == 0)
+          return {};
+        const std::vector<SlaveNode> known = known_to_owners(
+          std::vector<SlaveNode>(referred.begin(), referred.end()),
+          contact.solid_model().owned,
+          communicator,
+          [](const SlaveNode &slave) { return dim * slave.node; },
+          [&](const SlaveNode &slave) { return mine.count(slave) > 0; });
+        mine.insert(known.begin(), known.end());
+        return mine;
       }
     };
 

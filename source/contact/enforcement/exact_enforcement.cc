@@ -154,16 +154,19 @@ namespace Touchstone
     };
     const MPI_Comm communicator = system.rhs.get_mpi_communicator();
     system.n_extra              = std::count_if(accepted.begin(), accepted.end(), is_unknown);
-    const auto counts           = Utilities::MPI::all_gather(communicator, system.n_extra);
     // No multipliers on any rank: the system stays positive definite.
-    if (std::all_of(counts.begin(), counts.end(), [](const Index n) { return n == 0; }))
+    if (Utilities::MPI::max(system.n_extra, communicator) == 0)
       return;
     // Extra dofs are numbered after all displacements, by rank.
-    system.first_extra = system.rhs.size();
-    for (unsigned int r = 0; r < Utilities::MPI::this_mpi_process(communicator); ++r)
-      system.first_extra += counts[r];
-    system.definite = false;
-    Index extra     = system.first_extra;
+    Index     before = 0;
+    const int error =
+      MPI_Exscan(&system.n_extra, &before, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, communicator);
+    AssertThrowMPI(error);
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      before = 0; // MPI leaves it undefined there
+    system.first_extra = system.rhs.size() + before;
+    system.definite    = false;
+    Index extra        = system.first_extra;
     for (const Accepted &entry : accepted)
       {
         if (!is_unknown(entry))
