@@ -27,10 +27,11 @@ def judge(title, result, master, mu, ranks=1):
     force = result.force("contact")
     supports = result.summary["results"]["reactions"][master].values()
     rest = math.hypot(*(f - sum(r[i] for r in supports) for i, f in enumerate(force)))
-    # Where all contact is lost what is left of its force, 1e-9 of the load, is the tolerance of gaps.
-    loads = [math.hypot(*r) for body in result.summary["results"]["reactions"].values()
-             for r in body.values()]
-    balance = rest / (max(math.hypot(*force), *loads) or 1)
+    load = max(math.hypot(*r) for body in result.summary["results"]["reactions"].values()
+               for r in body.values())
+    # Where all contact is lost what is left of its force is the tolerance of gaps.
+    size = math.hypot(*force)
+    balance = rest / ((size if size > 1e-6 * load else load) or 1)
     # Of tractions: the least pressure and the worst excess over the cone, over the largest
     # pressure. VTU files have six digits.
     nodes = result.contact_nodes()
