@@ -6,7 +6,7 @@ restart, failures that end the run at once, and bending of one-point cells (doc/
 import re
 import shutil
 
-from touchstone_test import (Run, below, check, checks, fail, finish, folder, launch, run,
+from touchstone_test import (STEPS, Run, below, check, checks, fail, finish, folder, launch, prm, run,
                              settings_options)
 
 column, blocks = checks / "explicit_column.prm", checks / "explicit_blocks.prm"
@@ -26,6 +26,12 @@ for cells in "20,1,1", "20,1,2":
     # One cell over the height bends by its hourglass modes alone, two by a quarter.
     check(any("hourglass" in text for text in bent.summary["warnings"]),
           f"{cells} cells: no warning of hourglass energy")
+# Springs against hourglass modes do not yield: in plastic flow three per cent of its work are too much.
+for element, told in ("one point", True), ("F-bar", False):
+    rod = run(f"rod {element}", prm / "benchmarks/taylor_bar.prm",
+              {"Time integration/Scheme": "central_differences", "Body rod/Element": element, STEPS: 2})
+    check(any("of the plastic work" in text for text in rod.summary["warnings"]) == told,
+          f"rod of cells {element}: warnings {rod.summary['warnings']}")
 check(period.summary["warnings"] == [], f"column: warnings {period.summary['warnings']}")
 
 # A cube by itself is stable at the bound, whatever Poisson's ratio: tests/refused/unstable_motion.prm
