@@ -52,7 +52,7 @@ for side, sign in ("left", -1), ("right", 1):
               f"    set Displacement z = y*sin({angle}) + z*(cos({angle}) - 1)\n  end\n")
 mat = run("mat", write("mat", [body("mat", block("-1.5, -0.5, -0.02", "1.5, 0.5, 0.02", "24, 8, 1"),
                                     "  set Boundary conditions = left, right\n" + TURNS, 0.5)], 4,
-                       *map(int, sys.argv[4:])), vtu=1)
+                       *(int(word) for word in sys.argv[4:] if word.isdigit())), vtu=1)
 for path in sorted(mat.folder.glob("solution_*.vtu")):
     places = crossings.find(path)
     check(not places, f"mat: {len(places)} crossings in {path.name}, the first at {places[:1]}")
