@@ -60,6 +60,15 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    /** Relative errors below this are those of the solution of the equations: of an exact solution
+     * they would refine cells at random. */
+    constexpr double of_solver = 1e-6;
+  } // namespace
+
+
+
   Refinement::Values
   Refinement::pressure_variation(const std::vector<Vector>         &fields,
                                  const std::vector<PairBoundaries> &pairs) const
@@ -70,7 +79,9 @@ namespace Touchstone
         // Indicator at the contact: A_F |max t - min t|^2 of the nodal tractions t on each slave
         // face F. It has the same dimension for all faces, so that only ratios enter the bulk
         // criterion.
-        const Vector traction = conforming(fields[Contact::n_fields * p], solid);
+        const Vector &field    = fields[Contact::n_fields * p];
+        const Vector  traction = conforming(field, solid);
+        const double  least    = of_solver * field.linfty_norm();
         for_each_face(solid,
                       pairs[p].slave_body,
                       pairs[p].slave,
@@ -87,8 +98,9 @@ namespace Touchstone
                               }
                             first = false;
                           }
-                        result(cell->active_cell_index()) +=
-                          cell->face(f)->measure() * (highest - lowest).norm_square();
+                        if ((highest - lowest).norm() > least)
+                          result(cell->active_cell_index()) +=
+                            cell->face(f)->measure() * (highest - lowest).norm_square();
                       });
       }
     return result;
@@ -128,9 +140,12 @@ namespace Touchstone
         forces = estimate.relative;
         return estimate.largest();
       }
-    const double squared = Utilities::MPI::sum(errors.l1_norm(), solid.communicator);
     // Relative error in the energy norm, (Sum eta_K^2 / 2E)^(1/2), doc/theory.md 11, "Estimators".
-    return energy > 0. ? std::sqrt(squared / (2. * energy)) : 0.;
+    const double squared  = Utilities::MPI::sum(errors.l1_norm(), solid.communicator),
+                 relative = energy > 0. ? std::sqrt(squared / (2. * energy)) : 0.;
+    if (relative < of_solver)
+      errors = 0.;
+    return relative;
   }
 
 

@@ -7,8 +7,8 @@ is sliding on a fine mesh; all the same on any number of ranks."""
 # ctest: goldens = adaptive_patch_both.mpirun=2, adaptive_hertz, adaptive_hertz.mpirun=2
 # ctest: goldens = adaptive_sliding
 
-from touchstone_test import (AUGMENTED, DEGREE, FACTOR, MULTIPLIERS, PENALTY, STEPS, below, finish,
-                             golden, prm, relative, run, same, tests)
+from touchstone_test import (AUGMENTED, DEGREE, FACTOR, MULTIPLIERS, PENALTY, STEPS, below, check,
+                             finish, golden, prm, relative, run, same, tests)
 
 REGION = {"Refinement/Estimator": "region"}
 
@@ -25,6 +25,11 @@ for side in "slave", "master", "both":
     if side == "both":
         same(one, passes(run("both_3", scene, None, 3)), 1e-8)
     passes(run(f"{side}_degree_2", scene, {DEGREE: 2}, 2))
+# Of an exact solution indicators are round-off: nothing is refined, and matching meshes stay so.
+for estimator in "Kelly", "recovered stress":
+    exact = passes(run(f"exact {estimator}", tests / "patch_matching.prm",
+                       {"Refinement/Estimator": estimator, "Refinement/Cycles": 2}))
+    check(exact.value("cells") == 64, f"{exact}: {exact.value('cells')} cells instead of 64")
 passes(run("both_multipliers", scene, MULTIPLIERS))
 passes(run("both_augmented", scene, AUGMENTED))
 
