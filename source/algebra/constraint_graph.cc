@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/constraint_graph.h>
+#include <touchstone/base/orthogonal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -128,13 +129,10 @@ namespace Touchstone
     std::vector<Tensor<1, dim>> basis;
     for (const ReducedCondition &condition : found->second)
       {
-        Tensor<1, dim> direction = condition.trial.direction;
-        for (const Tensor<1, dim> &earlier : basis)
-          direction -= (direction * earlier) * earlier;
+        const Tensor<1, dim> direction = orthogonal_part(condition.trial.direction, basis);
         basis.push_back(direction / direction.norm());
-        vector -= (vector * basis.back()) * basis.back();
       }
-    return vector;
+    return orthogonal_part(vector, basis);
   }
 
 

@@ -89,7 +89,7 @@ namespace Touchstone
     own_surfaces(const Solid &solid, const Vector &u, const std::set<unsigned int> &bodies)
     {
       std::vector<SurfacePoint> points;
-      std::vector<bool>         done(solid.dof_handler.n_dofs());
+      std::vector<bool>         done(solid.relevant.n_elements());
       std::vector<Point<dim>>   extremes;
       for_each_cell(solid, u, bodies, [&](const BodyCell &cell) {
         const Box box = box_of(cell);
@@ -108,9 +108,10 @@ namespace Touchstone
                 {
                   const unsigned int v = GeometryInfo<dim>::face_to_cell_vertices(f, k);
                   centre += 0.25 * cell.corners[v];
-                  if (!done[cell.nodes[v]])
+                  const auto number = solid.relevant.index_within_set(cell.nodes[v]);
+                  if (!done[number])
                     points.push_back({cell.body, cell.nodes[v], cell.corners[v]});
-                  done[cell.nodes[v]] = true;
+                  done[number] = true;
                 }
               points.push_back({cell.body, invalid_index, centre});
             }

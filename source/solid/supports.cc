@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/orthogonal.h>
 #include <touchstone/solid/boundary_conditions.h>
 
 #include <deal.II/base/mpi.h>
@@ -84,15 +85,14 @@ namespace Touchstone
     std::map<Index, std::vector<Tensor<1, dim>>> taken;
     for (const Prescribed &p : prescribed)
       {
-        Tensor<1, dim> direction = p.direction;
-        for (const Tensor<1, dim> &earlier : taken[p.node])
-          direction -= (direction * earlier) * earlier;
+        std::vector<Tensor<1, dim>> &earlier   = taken[p.node];
+        Tensor<1, dim>               direction = orthogonal_part(p.direction, earlier);
         // Earlier directions span this one, but for an angle of a thousandth: it has no share of
         // its own, and normalising the remainder would amplify round-off.
         if (direction.norm() < 1e-3)
           continue;
         direction /= direction.norm();
-        taken[p.node].push_back(direction);
+        earlier.push_back(direction);
         double share = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           share += direction[d] * unbalanced(dim * p.node + d);

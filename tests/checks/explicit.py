@@ -6,7 +6,7 @@ restart, failures that end the run at once, and bending of one-point cells (doc/
 import re
 import shutil
 
-from touchstone_test import (STEPS, Run, below, check, checks, fail, finish, folder, launch, prm, run,
+from touchstone_test import (STEPS, Run, below, check, checks, finish, folder, launch, lose_last_checkpoint, prm, run,
                              settings_options)
 
 column, blocks = checks / "explicit_column.prm", checks / "explicit_blocks.prm"
@@ -101,9 +101,7 @@ for ranks in 2, 3:
 resumed = folder / "blocks-resumed"
 shutil.rmtree(resumed, ignore_errors=True)
 shutil.copytree(folder / "blocks", resumed)
-newest = sorted(p for p in resumed.glob("checkpoint_[0-9]*") if p.suffix != ".part")[-1]
-shutil.rmtree(newest)
-(resumed / "summary.json").unlink()
+lose_last_checkpoint(resumed)
 again = start("blocks-resumed", resume=True)
 again.says("goes on from checkpoint_")
 check(bits(again) == bits(serial), "other bits after a restart")

@@ -4,10 +4,9 @@ bars, a rod on a wall, friction, a cradle, the patch test, and scenes of implici
 another scheme."""
 
 import math
-import shutil
 
-from touchstone_test import (STEPS, Run, below, check, checks, contact_gives, finish, folder, launch,
-                             prm, relative, run, settings_options, tests)
+from touchstone_test import (STEPS, below, check, checks, contact_gives, finish, folder, prm, relative, run,
+                             stopped_and_resumed, tests)
 
 bars, ball = checks / "explicit_bars.prm", checks / "explicit_ball.prm"
 EXPLICIT = {"Time integration/Scheme": "central_differences"}
@@ -176,18 +175,8 @@ for name, scene, several, settings in (
               (more.folder / "statistics").read_text(encoding="utf-8"),
               f"{name}: other results on {ranks} ranks")
     # Stopped after the step before the last checkpoint, and resumed.
-    kept = folder / f"{name}_kept"
-    shutil.rmtree(kept, ignore_errors=True)
-    options = settings_options({**settings, "Output/VTU interval": 0,
-                                "Checkpoints/Steps between": 2})
-    whole = launch("--results-only", "--output", kept, *options, scene)
-    check(whole.returncode == 0, f"{name}_kept: {whole.stdout}")
-    shutil.rmtree(sorted(p for p in kept.glob("checkpoint_[0-9]*") if p.suffix != ".part")[-1])
-    (kept / "summary.json").unlink()
-    again = launch("--results-only", "--output", kept, "--resume", *options, scene)
-    check(again.returncode == 0, f"{name}, resumed: {again.stdout}")
-    Run(f"{name}, resumed", kept, again.stdout).says("goes on from checkpoint_")
-    check((kept / "statistics").read_text(encoding="utf-8") ==
+    again = stopped_and_resumed(name, scene, settings, every=2)
+    check((again.folder / "statistics").read_text(encoding="utf-8") ==
           (one.folder / "statistics").read_text(encoding="utf-8"),
           f"{name}: other results after a restart")
 

@@ -4,8 +4,8 @@
 
 import math
 
-from touchstone_test import (ENFORCEMENT, STEPS, Run, below, check, checks, finish, folder,
-                             launch, run, settings_options)
+from touchstone_test import (ENFORCEMENT, STEPS, Run, below, check, checks, finish, folder, launch,
+                             lose_last_checkpoint, resume, run, settings_options)
 
 bars = checks / "explicit_bars.prm"
 COURANT, FACTOR = "Time integration/Courant factor", "Contact/Penalty factor"
@@ -88,15 +88,8 @@ def resumes(name, scene, settings):
     """The run of the first of two checkpoints goes on to the same results."""
     first = run(name, scene, settings)
     statistics = (first.folder / "statistics").read_text(encoding="utf-8")
-    # The last checkpoint is lost.
-    newest = sorted(first.folder.glob("checkpoint_[0-9]*"))[-1]
-    for piece in newest.iterdir():
-        piece.unlink()
-    newest.rmdir()
-    again = launch("--results-only", "--output", first.folder, "--resume",
-                   *settings_options({**settings, "Output/VTU interval": 0}), scene)
-    check(again.returncode == 0, f"{first}, resumed: {again.stdout}")
-    Run(str(first), first.folder, again.stdout).says("goes on from checkpoint_")
+    lose_last_checkpoint(first.folder)
+    resume(name, first.folder, scene, settings)
     check((first.folder / "statistics").read_text(encoding="utf-8") == statistics,
           f"{first}: other results after a restart")
     return first, statistics

@@ -2,10 +2,9 @@
 """The local searches beside the projection, against it on the same meshes: soft balls and bars that
 collide, plates that slide, a press fit (doc/theory.md 3.4, 3.5; table of doc/which_method.md)."""
 
-import shutil
 
-from touchstone_test import (STEPS, Run, below, check, checks, contact_gives, finish, folder, launch, prm,
-                             relative, run, same, settings_options)
+from touchstone_test import (STEPS, below, check, checks, contact_gives, finish, folder, launch, prm, relative, run,
+                             same, settings_options, stopped_and_resumed)
 
 BALLS = "pinball", "splitting pinball"
 OTHERS = ("inside-outside", *BALLS)
@@ -25,17 +24,8 @@ def same_bits(name, one, scene, settings):
     """On two ranks, and after a restart from the checkpoint before the last."""
     two = run(f"{one}_2", scene, settings, ranks=2)
     check(text_of(two.folder) == text_of(one.folder), f"{name}: other results on 2 ranks")
-    kept = folder / f"{one}_kept"
-    shutil.rmtree(kept, ignore_errors=True)
-    options = settings_options({**settings, "Checkpoints/Steps between": 2})
-    whole = launch("--results-only", "--output", kept, *options, scene)
-    check(whole.returncode == 0, f"{kept}: {whole.stdout}")
-    shutil.rmtree(sorted(p for p in kept.glob("checkpoint_[0-9]*") if p.suffix != ".part")[-1])
-    (kept / "summary.json").unlink()
-    again = launch("--results-only", "--output", kept, "--resume", *options, scene)
-    check(again.returncode == 0, f"{kept}, resumed: {again.stdout}")
-    Run(f"{name}, resumed", kept, again.stdout).says("goes on from checkpoint_")
-    check(text_of(kept) == text_of(one.folder), f"{name}: other results after a restart")
+    again = stopped_and_resumed(str(one), scene, settings, every=2)
+    check(text_of(again.folder) == text_of(one.folder), f"{name}: other results after a restart")
 
 
 # Two soft balls up to the largest force: 3 % and 10 % from the projection. A coarse mesh will do for

@@ -3,10 +3,8 @@
 images, ranks, enforcements, a restart, and finer steps."""
 # ctest: label = quick
 
-import shutil
-
-from touchstone_test import (AUGMENTED, MULTIPLIERS, Run, STEPS, below, check, finish, folder,
-                             launch, relative, run, settings_options)
+from touchstone_test import (AUGMENTED, MULTIPLIERS, STEPS, below, check, finish, folder, relative, run,
+                             stopped_and_resumed)
 
 # The lowest of the faces of half a tube, which is the slave, is wider than its contact: its point, in
 # the middle, has equal weights of nodes on both sides.
@@ -111,18 +109,7 @@ for name, settings in (("elastic", {}), ("plastic", PLASTIC), ("regularised", RE
         result = run(f"{name}_{other}", scene, {**settings, **more}, ranks=ranks)
         below(f"{name}, {other}", difference(forces(one), forces(result)), bound)
     # Stopped before the last step, and resumed.
-    kept = folder / f"{name}_kept"
-    shutil.rmtree(kept, ignore_errors=True)
-    options = settings_options({**settings, "Output/VTU interval": 0,
-                                "Checkpoints/Steps between": 1})
-    whole = launch("--results-only", "--output", kept, *options, scene)
-    check(whole.returncode == 0, f"{name}_kept: {whole.stdout}")
-    shutil.rmtree(sorted(p for p in kept.glob("checkpoint_[0-9]*") if p.suffix != ".part")[-1])
-    (kept / "summary.json").unlink()
-    again = launch("--results-only", "--output", kept, "--resume", *options, scene, ranks=2)
-    check(again.returncode == 0, f"{name}, resumed: {again.stdout}")
-    resumed = Run(f"{name}, resumed", kept, again.stdout)
-    resumed.says("goes on from checkpoint_")
+    resumed = stopped_and_resumed(name, scene, settings, every=1, ranks=2)
     below(f"{name}: resumed", difference(forces(one), forces(resumed)), 1e-7)
 
 # Where the contact slides from one face to the next, a point that has pressed is not given up for one that

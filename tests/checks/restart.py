@@ -11,8 +11,8 @@ import signal
 import subprocess
 import time
 
-from touchstone_test import (AUGMENTED, GAP, GMRES, MULTIPLIERS, RESIDUAL, STEPS, Run, check, checks,
-                             fail, finish, folder, launch, processors, program, same,
+from touchstone_test import (AUGMENTED, GAP, GMRES, MULTIPLIERS, RESIDUAL, STEPS, Run, check, checkpoints, checks,
+                             fail, finish, folder, launch, lose_last_checkpoint, processors, program, same,
                              settings_options, tests)
 
 scene, plate = checks / "restart.prm", checks / "thin_plate.prm"
@@ -34,12 +34,6 @@ def said(name):
     return (folder / f"{name}.txt").read_text(encoding="utf-8")
 
 
-def checkpoints(name):
-    """Complete checkpoints, the newest first."""
-    return sorted((p for p in (folder / name).glob("checkpoint_[0-9]*") if p.suffix != ".part"),
-                  reverse=True)
-
-
 def fresh(name):
     shutil.rmtree(folder / name, ignore_errors=True)
     return name
@@ -49,8 +43,7 @@ def died(name, copy):
     """A copy of a run as if it had died: without the newest checkpoint, with a row and a
     VTU file too many."""
     shutil.copytree(folder / name, folder / fresh(copy))
-    shutil.rmtree(checkpoints(copy)[0])
-    (folder / copy / "summary.json").unlink()
+    lose_last_checkpoint(folder / copy)
 
 
 def lasting(name):

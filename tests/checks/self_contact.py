@@ -4,8 +4,8 @@ between two planes until its inner walls meet and are pressed on (doc/theory.md,
 
 import shutil
 
-from touchstone_test import (AUGMENTED, CG, MULTIPLIERS, PENALTY, below, check, fail, finish, folder, launch, run,
-                             same)
+from touchstone_test import (AUGMENTED, CG, MULTIPLIERS, PENALTY, below, check, checkpoints, fail, finish, folder,
+                             lose_last_checkpoint, resume, run, same)
 from self_contact_scenes import BOTTOM, TOP, write  # of tests/, which touchstone_test finds
 
 ITSELF = ("  set Slave boundaries = all\n  set Master body = ring\n  set Master boundaries = all\n"
@@ -73,14 +73,10 @@ check("touches itself" in refused.text, f"{refused}: {refused.text}")
 # Resumed while the walls are pressed on each other: the same to the last digit.
 kept = run("kept", whole, {"Checkpoints/Steps between": 39})
 shutil.copytree("kept", "resumed", dirs_exist_ok=True)
-checkpoints = sorted(folder.glob("resumed/checkpoint_[0-9]*"))
-check(len(checkpoints) == 2, f"resumed: {len(checkpoints)} checkpoints instead of 2")
-for path in checkpoints[1:]:
-    shutil.rmtree(path)
-(folder / "resumed/summary.json").unlink()
-done = launch("--results-only", "--output", "resumed", "--resume", "--set", "Checkpoints/Steps between=39", "--set",
-              "Output/VTU interval=0", whole)
-check(done.returncode == 0, f"resumed: {done.stdout}")
+n_checkpoints = len(checkpoints("resumed"))
+check(n_checkpoints == 2, f"resumed: {n_checkpoints} checkpoints instead of 2")
+lose_last_checkpoint("resumed")
+resume("walls", "resumed", whole, {"Checkpoints/Steps between": 39})
 if (folder / "resumed/statistics").read_text() != (folder / "kept/statistics").read_text():
     fail("resumed: other figures than without a restart")
 

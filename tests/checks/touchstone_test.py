@@ -263,6 +263,37 @@ def contact_gives(result, allowed):
 _NOT_COMPARED = {"max_penetration", "contact", "damped", "linear_total", "linear_mean"}
 
 
+def checkpoints(path):
+    """Complete checkpoints of a run, the newest first."""
+    return sorted((p for p in pathlib.Path(path).glob("checkpoint_[0-9]*") if p.suffix != ".part"),
+                  reverse=True)
+
+
+def lose_last_checkpoint(path):
+    """As if the run had died before it wrote its last checkpoint."""
+    shutil.rmtree(checkpoints(path)[0])
+    (pathlib.Path(path) / "summary.json").unlink()
+
+
+def resume(name, path, scene, settings, ranks=1):
+    """Go on from the newest checkpoint in a folder, without VTU files."""
+    done = launch("--results-only", "--output", path, "--resume",
+                  *settings_options({**settings, "Output/VTU interval": 0}), scene, ranks=ranks)
+    check(done.returncode == 0, f"{name}, resumed: {done.stdout}")
+    result = Run(f"{name}, resumed", path, done.stdout)
+    result.says("goes on from checkpoint_")
+    return result
+
+
+def stopped_and_resumed(name, scene, settings, every, ranks=1):
+    """A run into the folder NAME_kept with checkpoints every so many steps, that has lost the last one and
+    goes on from the one before, on @p ranks."""
+    settings = {**settings, "Checkpoints/Steps between": every}
+    path = run(f"{name}_kept", scene, settings).folder
+    lose_last_checkpoint(path)
+    return resume(name, path, scene, settings, ranks)
+
+
 def same(a, b, tolerance, newton=False, **factors):
     """The figures of @p a times the factors of their kinds are those of @p b. Forces and moments
     are compared to the largest of their kind, errors, which are relative, to one. Newton

@@ -211,6 +211,14 @@ namespace Touchstone
         int    needed = 0;
         Slaves mine, referred;
         for (const ContactRow &row : contact.rows())
+          if (row_states[row].active() && kept.count(row.index) == 0)
+            {
+              mine.insert({row.pair, row.slave});
+              needed |= (row.derivative != nullptr);
+            }
+        if (Utilities::MPI::max(needed, communicator) == 0)
+          return {};
+        for (const ContactRow &row : contact.rows())
           if (row_states[row].active())
             {
               const auto refer = [&](const Index node) { referred.insert({row.pair, node}); };
@@ -222,14 +230,7 @@ namespace Touchstone
               if (row.friction)
                 for (const auto &slip : row.friction->kinematics.slip_gradient)
                   refer(slip.first);
-              if (kept.count(row.index) == 0)
-                {
-                  mine.insert({row.pair, row.slave});
-                  needed |= (row.derivative != nullptr);
-                }
             }
-        if (Utilities::MPI::max(needed, communicator) == 0)
-          return {};
         const std::vector<SlaveNode> known = known_to_owners(
           std::vector<SlaveNode>(referred.begin(), referred.end()),
           contact.solid_model().owned,

@@ -111,10 +111,7 @@ namespace Touchstone
         const double stiffness = RefusedConditions::stiffness(*row);
         const double present   = row->tied ? state.force * condition.direction : state.lambda;
         const double force     = present + stiffness * condition.value;
-        terms.add_load(*row, force * condition.force());
-        terms.add_stiffness(*row, stiffness * condition.force(), condition.motion_form());
-        if (!condition.symmetric())
-          system.symmetric = false;
+        terms.add_spring(*row, condition, force, stiffness);
         graph.add_spring(condition);
         accepted.push_back(
           {row, condition, 0, ConstraintGraph::Treatment::spring, row->normal, force});

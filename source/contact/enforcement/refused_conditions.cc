@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
+#include <touchstone/base/orthogonal.h>
 #include <touchstone/contact/enforcement/refused_conditions.h>
 
 #include <deal.II/base/mpi.h>
@@ -54,9 +55,8 @@ namespace Touchstone
       for (std::size_t k = 0; k < n_supports; ++k)
         if (const auto found = held.find(conditions[k].node); found != held.end())
           {
-            Tensor<1, dim> direction = conditions[k].direction;
-            for (const Tensor<1, dim> &other : found->second)
-              direction -= (direction * other) * other;
+            const Tensor<1, dim> direction =
+              orthogonal_part(conditions[k].direction, found->second);
             // The graph has accepted it, so that a part is left.
             found->second.push_back(direction / direction.norm());
           }
@@ -94,12 +94,9 @@ namespace Touchstone
       for (const Query &query : queries[rank])
         if (const auto found = held.find(query.node); found != held.end())
           {
-            Tensor<1, dim> free = query.coefficients;
-            for (const Tensor<1, dim> &direction : found->second)
-              free -= (free * direction) * direction;
             double *const sum = &sums[n * (begin[rank] + query.entry) + (query.slave ? 0 : 2)];
             sum[0] += query.coefficients.norm();
-            sum[1] += free.norm();
+            sum[1] += orthogonal_part(query.coefficients, found->second).norm();
           }
     Utilities::MPI::sum(sums, communicator, sums);
 

@@ -259,6 +259,21 @@ namespace Touchstone
 
 
   void
+  RowTerms::add_spring(const ContactRow &row,
+                       const Condition  &condition,
+                       const double      force,
+                       const double      stiffness)
+  {
+    const Tensor<1, dim> direction = condition.force();
+    add_load(row, force * direction);
+    add_stiffness(row, stiffness * direction, condition.motion_form());
+    if (!condition.symmetric())
+      system.symmetric = false;
+  }
+
+
+
+  void
   RowTerms::add_friction(const ContactRow &row, const RowState &state)
   {
     const SlipKinematics &k        = row.friction->kinematics;

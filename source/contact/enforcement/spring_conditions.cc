@@ -44,7 +44,7 @@ namespace Touchstone
       if (is_accepted)
         {
           row_states[row].record(condition, true);
-          add_spring(row, condition, system, terms);
+          add_spring(row, condition, terms);
         }
       return is_accepted;
     };
@@ -69,7 +69,7 @@ namespace Touchstone
           row_states[*row].record(condition, can_be_met[k]))
         {
           graph.add_spring(condition);
-          add_spring(*row, condition, system, terms);
+          add_spring(*row, condition, terms);
         }
     for (const auto &[row, condition] : stick)
       if (!offer(*row, condition))
@@ -93,23 +93,16 @@ namespace Touchstone
 
 
   void
-  SpringEnforcement::add_spring(const ContactRow &row,
-                                const Condition  &condition,
-                                LinearSystem     &system,
-                                RowTerms         &terms)
+  SpringEnforcement::add_spring(const ContactRow &row, const Condition &condition, RowTerms &terms)
   {
-    if (!condition.symmetric())
-      system.symmetric = false;
     // The force after the iteration is lambda_k - epsilon (g + dg),
     // and the condition's value is -g.
-    const double         stiffness = epsilon(row);
-    const Tensor<1, dim> direction = condition.force();
-    Tensor<1, dim>       augmented = augmentation[row].rest;
+    const double   stiffness = epsilon(row);
+    Tensor<1, dim> augmented = augmentation[row].rest;
     if (!row.tied)
       augmented += (augmentation[row].lambda - augmented * row.normal) * row.normal;
     const double force = augmented * condition.direction + stiffness * condition.value;
-    terms.add_load(row, force * direction);
-    terms.add_stiffness(row, stiffness * direction, condition.motion_form());
+    terms.add_spring(row, condition, force, stiffness);
     if (!by_gap(row))
       springs.push_back({&row, condition, force, stiffness, row.normal});
   }

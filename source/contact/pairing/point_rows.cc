@@ -36,9 +36,8 @@ namespace Touchstone
                    other.nodes[other.slave] == p.nodes[p.slave];
           }))
         released.push_back(point.row);
-    const std::vector<MaterialPoint> given = points;
     own.clear();
-    all = given;
+    all = points;
     if (input.master && !search && !all.empty())
       search.emplace(*input.master,
                      input.search_distance > 0.

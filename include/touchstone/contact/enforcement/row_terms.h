@@ -71,6 +71,11 @@ namespace Touchstone
                   const dealii::Tensor<1, dim> &force,
                   const NodalForm              &form);
 
+    /** @brief Add a spring along a condition of a row. @param force Its force where the increment
+     * is zero. @param stiffness Force per length. */
+    void
+    add_spring(const ContactRow &row, const Condition &condition, double force, double stiffness);
+
     /** @brief Add what friction and the change of normal and stencil contribute to
      * the system, whatever the enforcement, doc/theory.md 5 and 6.3. */
     void

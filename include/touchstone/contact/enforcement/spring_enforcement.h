@@ -182,10 +182,7 @@ namespace Touchstone
 
     /** Meet a condition of a row by a spring. */
     void
-    add_spring(const ContactRow &row,
-               const Condition  &condition,
-               LinearSystem     &system,
-               RowTerms         &terms);
+    add_spring(const ContactRow &row, const Condition &condition, RowTerms &terms);
   };
 } // namespace Touchstone
 
