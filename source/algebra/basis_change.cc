@@ -41,8 +41,8 @@ namespace Touchstone
     AffineConstraints<double> known(needed);
     for (const bool with_entries : {false, true})
       {
-        AffineConstraints<double> result(needed);
-        const auto                plain = [&](const Index i) {
+        std::vector<AffineConstraints<double>::ConstraintLine> lines;
+        const auto                                             plain = [&](const Index i) {
           return !known.is_constrained(i) && !constraints.is_constrained(i);
         };
         for (const auto &[node, reduced] : nodes)
@@ -51,7 +51,7 @@ namespace Touchstone
               const Index index = dim * node + condition.pivot;
               if (condition.treatment != Treatment::spring || constraints.is_constrained(index))
                 continue;
-              result.add_line(index);
+              lines.emplace_back(index);
               if (!with_entries)
                 continue;
               std::map<Index, double> entries;
@@ -75,13 +75,9 @@ namespace Touchstone
               for (const auto &[dof, coefficient] : side.others)
                 if (coefficient != 0.)
                   add(dof, -coefficient);
-              result.add_entries(index, {entries.begin(), entries.end()});
+              lines.back().entries.assign(entries.begin(), entries.end());
             }
-        if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-          add_lines_of_others(result, owned, needed, communicator);
-        known.clear();
-        known.reinit(needed);
-        known.copy_from(result);
+        known = gather_lines(std::move(lines), owned, needed, communicator);
       }
     known.close();
     return known;

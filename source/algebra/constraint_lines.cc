@@ -4,9 +4,8 @@
 #include <touchstone/algebra/cyclic_lines.h>
 #include <touchstone/algebra/shared_lines.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <cmath>
+#include <utility>
 
 // Eliminated conditions as lines of deal.II's AffineConstraints, each solved for its pivot
 // (doc/theory.md, section 7).
@@ -32,7 +31,7 @@ namespace Touchstone
   {
     // Lines of owned dofs: hanging nodes first, then each eliminated condition solved for its
     // pivot.
-    std::vector<typename AffineConstraints<double>::ConstraintLine> lines;
+    std::vector<AffineConstraints<double>::ConstraintLine> lines;
     for (const auto &line : hanging.get_lines())
       if (owned.is_element(line.index))
         lines.push_back(line);
@@ -56,38 +55,17 @@ namespace Touchstone
           lines.back().inhomogeneity = known.value;
         }
 
-    // A rank needs the lines of the dofs in its matrix rows, of those that
-    // these lines refer to, of those that the latter refer to, and so on: until
-    // no rank meets a dof that it has not asked for.
+    // A rank needs the lines of the dofs in its matrix rows and of those that its conditions refer
+    // to.
     std::vector<Index> far;
     for (const auto &[node, reduced] : nodes)
       for (const ReducedCondition &condition : reduced)
         for (const auto &[dof, coefficient] : (condition.*side).others)
           far.push_back(dof);
-    IndexSet needed = add_indices(relevant, far);
-    while (true)
-      {
-        AffineConstraints<double> result(needed);
-        for (const auto &line : lines)
-          {
-            result.add_line(line.index);
-            result.add_entries(line.index, line.entries);
-            result.set_inhomogeneity(line.index, line.inhomogeneity);
-          }
-        if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-          add_lines_of_others(result, owned, needed, communicator);
-        far.clear();
-        for (const auto &line : result.get_lines())
-          for (const auto &entry : line.entries)
-            if (!needed.is_element(entry.first))
-              far.push_back(entry.first);
-        if (Utilities::MPI::max(static_cast<int>(!far.empty()), communicator) == 0)
-          {
-            resolve_cycles(result);
-            result.close();
-            return result;
-          }
-        needed = add_indices(needed, far);
-      }
+    AffineConstraints<double> result =
+      gather_lines(std::move(lines), owned, add_indices(relevant, std::move(far)), communicator);
+    resolve_cycles(result);
+    result.close();
+    return result;
   }
 } // namespace Touchstone

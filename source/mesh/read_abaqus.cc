@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/mesh/abaqus_elements.h>
+#include <touchstone/mesh/abaqus_lines.h>
+#include <touchstone/mesh/abaqus_node_sets.h>
 #include <touchstone/mesh/mesh_file.h>
 #include <touchstone/mesh/mesh_text.h>
 
 #include <algorithm>
 #include <istream>
 #include <map>
-#include <optional>
 #include <set>
-#include <sstream>
 
 // Meshes from Abaqus input files (.inp): *NODE, *ELEMENT with C3D8, C3D20, C3D27 and
 // quadrilaterals, *ELSET and *SURFACE; other keywords are skipped. Sets of elements become volumes
@@ -19,45 +20,6 @@ namespace Touchstone
 
   namespace
   {
-    std::string
-    upper(std::string text)
-    {
-      std::transform(text.begin(), text.end(), text.begin(), ::toupper);
-      return text;
-    }
-
-    /** The parts of a line between commas, without blanks around them. */
-    std::vector<std::string>
-    split(const std::string &line)
-    {
-      std::vector<std::string> words;
-      std::istringstream       in(line);
-      for (std::string word; std::getline(in, word, ',');)
-        {
-          const auto first = word.find_first_not_of(" \t\r"), last = word.find_last_not_of(" \t\r");
-          words.push_back(first == std::string::npos ? "" : word.substr(first, last - first + 1));
-        }
-      while (!words.empty() && words.back().empty())
-        words.pop_back();
-      return words;
-    }
-
-    /** Nodes of an element of this type, by the beginning of its name: variants with reduced
-     * integration, mixed fields and the like have the same nodes. A digit may not follow, so that
-     * C3D8 is not C3D80. Zero for others. */
-    unsigned int
-    nodes_of(const std::string &type, const std::map<std::string, unsigned int> &known)
-    {
-      for (const auto &[name, n] : known)
-        if (type.compare(0, name.size(), name) == 0 &&
-            (type.size() == name.size() ||
-             !std::isdigit(static_cast<unsigned char>(type[name.size()]))))
-          return n;
-      return 0;
-    }
-
-
-
     /** Reads line by line and remembers the keyword line that rules. */
     class AbaqusReader
     {
@@ -66,11 +28,9 @@ namespace Touchstone
       read(std::istream &in);
 
     private:
-      MeshFile     mesh;
-      unsigned int line_number = 0;
-      /** The keyword and its parameters, in capitals; values as written. */
-      std::string                        keyword;
-      std::map<std::string, std::string> parameters;
+      MeshFile      mesh;
+      unsigned int  line_number = 0;
+      AbaqusKeyword keyword;
       /** Numbers of an element whose line goes on. */
       std::vector<unsigned long> pending;
       unsigned int               line_of_pending = 0;
@@ -84,11 +44,10 @@ namespace Touchstone
       std::map<std::string, std::vector<unsigned long>> sets;
       /** In the order of the file, for the sets' numbers. */
       std::vector<std::string> set_names;
+      AbaqusNodeSets           node_sets;
 
       void
       read_line(const std::string &line);
-      void
-      read_keyword(const std::string &line);
       void
       read_node(const std::vector<std::string> &words);
       void
@@ -101,14 +60,6 @@ namespace Touchstone
       read_set(const std::vector<std::string> &words);
       void
       read_surface(const std::vector<std::string> &words);
-
-      /** Numbers of the nodes of each NSET; of those that cannot be read, as they name nodes of
-       * instances for example, nothing. */
-      std::map<std::string, std::optional<std::set<unsigned long>>> node_sets;
-      void
-      read_node_set(const std::vector<std::string> &words);
-      void
-      make_node_sets();
     };
 
 
@@ -148,7 +99,7 @@ namespace Touchstone
             if (!group.members.empty())
               groups->push_back(group);
           }
-      make_node_sets();
+      node_sets.put_into(mesh, node);
       mesh.join_copies(false);
       return std::move(mesh);
     }
@@ -158,20 +109,24 @@ namespace Touchstone
     void
     AbaqusReader::read_line(const std::string &line)
     {
-      const std::vector<std::string> words = split(line);
+      const std::vector<std::string> words = split_abaqus(line);
       if (words.empty() || line.compare(0, 2, "**") == 0)
         return;
       if (line[0] == '*')
-        read_keyword(line);
-      else if (keyword == "*NODE")
+        {
+          if (!pending.empty())
+            throw MeshFileError("The file is damaged in *ELEMENT.");
+          keyword = AbaqusKeyword(line);
+        }
+      else if (keyword.name == "*NODE")
         read_node(words);
-      else if (keyword == "*ELEMENT")
+      else if (keyword.name == "*ELEMENT")
         read_element(words);
-      else if (keyword == "*ELSET")
+      else if (keyword.name == "*ELSET")
         read_set(words);
-      else if (keyword == "*NSET")
-        read_node_set(words);
-      else if (keyword == "*SURFACE")
+      else if (keyword.name == "*NSET")
+        node_sets.add(keyword.value("NSET"), words, keyword.has("GENERATE"));
+      else if (keyword.name == "*SURFACE")
         read_surface(words);
     }
 
@@ -192,82 +147,8 @@ namespace Touchstone
       mesh.vertices.emplace_back(finite_number(words[1]),
                                  finite_number(words[2]),
                                  finite_number(words[3]));
-      if (parameters.count("NSET") > 0)
-        read_node_set({words[0]});
-    }
-
-
-
-    // As an ELSET; sets may name nodes that come later.
-    void
-    AbaqusReader::read_node_set(const std::vector<std::string> &words)
-    {
-      auto &set = node_sets.insert({parameters["NSET"], std::set<unsigned long>()}).first->second;
-      const auto is_number = [](const std::string &word) {
-        return !word.empty() && word.size() < 18 &&
-               word.find_first_not_of("0123456789") == std::string::npos;
-      };
-      if (!set)
-        return;
-      if (parameters.count("GENERATE") > 0)
-        {
-          const bool          numbers = std::all_of(words.begin(), words.end(), is_number);
-          const unsigned long step    = numbers && words.size() > 2 ? std::stoul(words[2]) : 1;
-          if (!numbers || words.size() < 2 || step == 0 ||
-              std::stoul(words[1]) / step > 100000000ul)
-            set.reset();
-          else
-            for (unsigned long n = std::stoul(words[0]); n <= std::stoul(words[1]); n += step)
-              set->insert(n);
-          return;
-        }
-      for (const std::string &word : words)
-        if (is_number(word))
-          set->insert(std::stoul(word));
-        else if (const auto other = node_sets.find(word); other != node_sets.end() && other->second)
-          set->insert(other->second->begin(), other->second->end());
-        else
-          {
-            set.reset();
-            return;
-          }
-    }
-
-
-
-    void
-    AbaqusReader::make_node_sets()
-    {
-      for (const auto &[name, numbers] : node_sets)
-        if (numbers && std::all_of(numbers->begin(), numbers->end(), [this](const auto n) {
-              return node.count(n) > 0;
-            }))
-          for (const unsigned long n : *numbers)
-            mesh.node_sets[name].insert(node.at(n));
-    }
-
-
-
-    /** A keyword line rules the data lines up to the next one. Keywords and names of parameters
-     * are compared in capitals, as Abaqus does; blanks around commas and equal signs do not
-     * count. */
-    void
-    AbaqusReader::read_keyword(const std::string &line)
-    {
-      if (!pending.empty())
-        throw MeshFileError("The file is damaged in *ELEMENT.");
-      const std::vector<std::string> words = split(line);
-      keyword                              = upper(words[0]);
-      parameters.clear();
-      for (unsigned int i = 1; i < words.size(); ++i)
-        {
-          const auto equals = words[i].find('=');
-          const bool has    = equals != std::string::npos;
-          const auto name   = split(words[i].substr(0, equals));
-          const auto value  = split(has ? words[i].substr(equals + 1) : "");
-          if (!name.empty())
-            parameters[upper(name[0])] = value.empty() ? "" : value[0];
-        }
+      if (keyword.has("NSET"))
+        node_sets.add(keyword.value("NSET"), {words[0]}, false);
     }
 
 
@@ -275,44 +156,14 @@ namespace Touchstone
     void
     AbaqusReader::read_element(const std::vector<std::string> &words)
     {
-      // Solid elements of another shape are an error, since the body would have holes without
-      // them; elements that carry no volume are skipped.
-      const std::string  type      = upper(parameters["TYPE"]);
-      const unsigned int n_of_cell = nodes_of(type, {{"C3D8", 8}, {"C3D20", 20}, {"C3D27", 27}}),
-                         n_of_face = nodes_of(type,
-                                              {{"S4", 4},
-                                               {"S8", 8},
-                                               {"CPS4", 4},
-                                               {"CPS8", 8},
-                                               {"CPE4", 4},
-                                               {"CPE8", 8},
-                                               {"M3D4", 4},
-                                               {"M3D8", 8},
-                                               {"M3D9", 9},
-                                               {"SFM3D4", 4},
-                                               {"SFM3D8", 8}});
-      const bool is_cell = n_of_cell > 0, is_face = n_of_face > 0;
-      if (!is_cell && !is_face)
+      const std::string   type = in_capitals(keyword.value("TYPE"));
+      const AbaqusElement element(type);
+      const unsigned int  n = element.of_cell + element.of_face;
+      if (n == 0)
         {
-          // Solids of any kind and shape, and elements without a type.
-          for (const char *solid : {"C3D",
-                                    "DC3D",
-                                    "DCC3D",
-                                    "AC3D",
-                                    "EC3D",
-                                    "Q3D",
-                                    "GK3D",
-                                    "COH3D",
-                                    "SC6",
-                                    "SC8",
-                                    "CSS8"})
-            if (type.compare(0, std::string(solid).size(), solid) == 0)
-              throw MeshFileError("It has elements of type " + type + ".");
-          if (type.empty())
-            throw MeshFileError("It has elements without a TYPE.");
-          if (parameters.count("ELSET") > 0)
-            sets.insert({parameters["ELSET"], {}});
-          return; // beams, springs and the like
+          if (keyword.has("ELSET"))
+            sets.insert({keyword.value("ELSET"), {}});
+          return;
         }
 
       // An element may go on over several lines: its numbers are collected until there are
@@ -321,7 +172,6 @@ namespace Touchstone
         line_of_pending = line_number;
       for (const std::string &word : words)
         pending.push_back(whole_number(word));
-      const unsigned int n = n_of_cell + n_of_face;
       if (pending.size() < n + 1)
         return;
       if (pending.size() > n + 1)
@@ -344,7 +194,7 @@ namespace Touchstone
                                 std::to_string(pending[i]) + ", which the file does not have.");
           v.push_back(found->second);
         }
-      if (is_cell)
+      if (element.of_cell > 0)
         {
           cell[pending[0]] = mesh.cells.size();
           mesh.add_cell(v, line_of_pending);
@@ -354,8 +204,8 @@ namespace Touchstone
           face[pending[0]] = mesh.faces.size();
           mesh.faces.push_back({{v[0], v[1], v[2], v[3]}});
         }
-      if (parameters.count("ELSET") > 0)
-        add_to_set(parameters["ELSET"], pending[0]);
+      if (keyword.has("ELSET"))
+        add_to_set(keyword.value("ELSET"), pending[0]);
       pending.clear();
     }
 
@@ -391,8 +241,8 @@ namespace Touchstone
     {
       // GENERATE gives first, last and step; otherwise a line lists numbers of elements and names
       // of other sets.
-      const std::string name = parameters["ELSET"];
-      if (parameters.count("GENERATE") > 0)
+      const std::string name = keyword.value("ELSET");
+      if (keyword.has("GENERATE"))
         {
           if (words.size() < 2)
             throw MeshFileError("The file ends, or is damaged, in *ELSET.");
@@ -421,7 +271,7 @@ namespace Touchstone
       // Vertices of the faces S1 to S6, in the order of mesh.cells.
       static const unsigned int face_vertices[6][4] = {
         {0, 1, 3, 2}, {4, 5, 7, 6}, {0, 4, 5, 1}, {1, 5, 7, 3}, {3, 7, 6, 2}, {2, 6, 4, 0}};
-      const std::string face_name = words.size() > 1 ? upper(words[1]) : "";
+      const std::string face_name = words.size() > 1 ? in_capitals(words[1]) : "";
       if (face_name.size() != 2 || face_name[0] != 'S' || face_name[1] < '1' || face_name[1] > '6')
         return; // node-based surfaces and shell sides
 
@@ -433,7 +283,7 @@ namespace Touchstone
 
       // A surface is defined by lines that can each name a set and a face of its elements; all
       // lines of one name add to the same group.
-      const std::string name = parameters["NAME"];
+      const std::string name = keyword.value("NAME");
       auto group = std::find_if(mesh.surfaces.begin(), mesh.surfaces.end(), [&](auto &g) {
         return g.name == name;
       });

@@ -19,14 +19,22 @@ namespace Touchstone
   dealii::IndexSet
   add_indices(const dealii::IndexSet &known, std::vector<Index> more);
 
-  /** @brief Add the lines that the owners of @p needed dofs have. (deal.II's
-   * make_consistent_in_parallel() looks for each one among all that there are, which takes
-   * the square of their number.) Collective. */
-  void
-  add_lines_of_others(dealii::AffineConstraints<double> &constraints,
-                      const dealii::IndexSet            &owned,
-                      const dealii::IndexSet            &needed,
-                      MPI_Comm                           communicator);
+  /**
+   * @brief Constraints, not closed, of the lines of the @p needed dofs, of all dofs that these
+   * lines refer to, of all that the latter refer to, and so on; owners send those that others
+   * need.
+   *
+   * deal.II's make_consistent_in_parallel() looks for each line among all that there are, which
+   * takes the square of their number, and takes the set of dofs for complete. Collective.
+   *
+   * @param own_lines Lines of @p owned dofs.
+   * @param needed    Contains @p owned.
+   */
+  dealii::AffineConstraints<double>
+  gather_lines(std::vector<dealii::AffineConstraints<double>::ConstraintLine> own_lines,
+               const dealii::IndexSet                                        &owned,
+               const dealii::IndexSet                                        &needed,
+               MPI_Comm                                                       communicator);
 } // namespace Touchstone
 
 #endif

@@ -66,7 +66,7 @@ namespace Touchstone
     std::string
     advice() const override;
     /** @throws dealii::ExcInternalError: scenes with refinement are refused
-     * (scene/combinations.cc), and nothing else changes the mesh. */
+     * (check_combinations()), and nothing else changes the mesh. */
     StepTransfer
     transfer() const override;
     void

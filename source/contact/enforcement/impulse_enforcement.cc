@@ -11,7 +11,7 @@ namespace Touchstone
 {
   using namespace dealii;
 
-  // Reached only if an implicit step was made with impulses, which scene/combinations.cc refuses.
+  // Reached only if an implicit step was made with impulses, which check_combinations() refuses.
   void
   ImpulseEnforcement::evaluate(const Contact &, const Vector &, const ConstraintGraph &)
   {
