@@ -69,11 +69,16 @@ namespace Touchstone
           cell->set_refine_flag();
         // Coarsening is a decision on all children of a parent. The owner knows all of them, while
         // here some may be artificial: the mark is therefore set for the whole family that is
-        // active here.
+        // active here. Those that are to be refined hear of it from their own owners.
         else if (mark == coarsen)
           for (unsigned int child = 0; child < cell->parent()->n_children(); ++child)
-            if (cell->parent()->child(child)->is_active())
-              cell->parent()->child(child)->set_coarsen_flag();
+            if (const auto sibling = cell->parent()->child(child); sibling->is_active())
+              {
+                if (sibling->is_artificial())
+                  sibling->clear_refine_flag();
+                if (!sibling->refine_flag_set())
+                  sibling->set_coarsen_flag();
+              }
       });
     return Utilities::MPI::max(changes, solid.communicator) == 1;
   }

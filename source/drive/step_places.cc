@@ -8,6 +8,7 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <tuple>
@@ -139,5 +140,30 @@ namespace Touchstone
     return "; friction that does not vanish with the pressure may leave a row no solution: it opens "
            "with its friction and closes without ('Friction/Largest coefficient' of 'tresca' bounds it "
            "by the pressure)";
+  }
+
+
+
+  std::string
+  StepProblem::stick_of_held_nodes() const
+  {
+    // Springs make the master follow (doc/theory.md 6, "Stick where the slave node is not free"), a
+    // hundredth of the slip being left by each iteration unless it has fewer nodes than the slave.
+    std::vector<int> found(contact.n_pairs(), 0);
+    for (const ContactRow &row : contact.rows())
+      if (row.friction && contact.state(row).status == ContactStatus::stick)
+        for (const Tensor<1, dim> &tangent : contact.state(row).friction.unconstrained)
+          if (std::abs(row.friction->kinematics.slip * tangent) >
+              scene.newton.gap_tolerance * row.size)
+            found[row.pair] = 1;
+    Utilities::MPI::max(found, solid.communicator, found);
+    std::string names;
+    for (unsigned int p = 0; p < found.size(); ++p)
+      if (found[p] == 1)
+        names += (names.empty() ? "'" : ", '") + contact.pair(p).parameters().name + "'";
+    return names.empty() ? names
+                         : "; supports hold slave nodes of " + names +
+                             " that stick, and the master may have too few nodes to follow all "
+                             "of them: exchange slave and master, or refine the master surface";
   }
 } // namespace Touchstone

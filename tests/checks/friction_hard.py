@@ -5,7 +5,7 @@ and both pairings converge to one answer."""
 import math
 
 from touchstone_test import (AUGMENTED, DEGREE, ENFORCEMENT, EXACT_ENFORCEMENTS, GAP, MULTIPLIERS,
-                             below, checks, finish, relative, run, same)
+                             below, check, checks, finish, relative, run, same)
 
 # Stick beside a plane of symmetry, on meshes that do not match.
 for pairing in "averaged", "pointwise":
@@ -25,6 +25,27 @@ for enforcement in EXACT_ENFORCEMENTS:
     below(f"driven, {enforcement}, force {force} differs from -9.6", relative(force, -9.6), 1e-6)
     below(f"driven, {enforcement}, force {force} differs from {answer}", relative(force, answer),
           1e-8)
+
+# Supports move slave and master nodes past each other: they slide with all of their friction, however
+# little they slide, and the rest follows the motion.
+motion = "Body upper/Boundary left/Displacement x"
+answer = None
+for enforcement in EXACT_ENFORCEMENTS:
+    for size in 1e-6, 1e-5:
+        force = run(f"forced_{enforcement}_{size}", checks / "friction_forced_slip.prm",
+                    {ENFORCEMENT: enforcement, motion: f"{size}*t"}).force("contact")[0]
+        answer = force if answer is None else answer
+        below(f"forced slip {size}, {enforcement}, force {force} differs from {answer}",
+              relative(force, answer), 5e-3 if size > 2e-6 else 1e-6)
+
+# Supports hold 13 slave nodes of a ring that stick, on 7 master nodes: no solution, and the log says
+# why.
+ring = run("ring", checks / "friction_ring.prm", fails=True)
+check(ring.code == 2, f"ring: exit code {ring.code}")
+ring.says("exchange slave and master, or refine the master surface")
+run("ring_exchanged", checks / "friction_ring.prm",
+    {"Contact pair fit/Slave body": "outer", "Contact pair fit/Slave boundaries": "inner",
+     "Contact pair fit/Master body": "inner", "Contact pair fit/Master boundaries": "outer"})
 
 # A slave edge in the corner of two obstacles: what part of the force there is friction does not
 # depend on the enforcement. (The default tolerance of gaps is 5e-6 of the pressure there.)

@@ -85,15 +85,15 @@ namespace Touchstone
     }
 
     /** @brief Record whether a condition was accepted, that along the normal first; returns that.
-     */
+     * @param can_be_met Whether nodes of the row are free to meet it if not. */
     bool
-    record(const Condition &condition, const bool was_accepted)
+    record(const Condition &condition, const bool was_accepted, const bool can_be_met = true)
     {
       unsigned int bit = (accepted | refused) + 1;
       if (bit == 1)
         normal_accepted = was_accepted;
       else if (!was_accepted && status == ContactStatus::stick && friction.constrained)
-        friction.unconstrained.push_back(condition.direction);
+        (can_be_met ? friction.unconstrained : friction.held).push_back(condition.direction);
       if (status == ContactStatus::tied)
         for (unsigned int d = 0; d < dim; ++d)
           if (condition.direction[d] != 0.)

@@ -185,6 +185,10 @@ namespace Touchstone
      * pressure; in words, empty if not. Collective. */
     std::string
     friction_without_pressure() const;
+    /** Pairs in which slave nodes that supports hold stick, while the master does not follow them
+     * all; in words, empty if there are none. Collective. */
+    std::string
+    stick_of_held_nodes() const;
     /** See worst_place(); empty if no row changed. */
     std::string
     changing_place() const;

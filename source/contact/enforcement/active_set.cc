@@ -55,6 +55,19 @@ namespace Touchstone
 
 
 
+    /** Slip along tangents in which supports hold both sides of the row: nothing can take it back.
+     */
+    Tensor<1, dim>
+    forced_slip(const ContactRow &row, const RowState &state)
+    {
+      Tensor<1, dim> forced;
+      for (const Tensor<1, dim> &tangent : state.friction.held)
+        forced += (row.friction->kinematics.slip * tangent) * tangent;
+      return forced;
+    }
+
+
+
     /** Slip that violates the friction law (length): all of it while sticking. While slipping, its
      * part across the force, but no more than the displacement L / (E A / h) that a force of the
      * size of the limit causes: where the limit is small, its direction matters little. */
@@ -65,7 +78,7 @@ namespace Touchstone
       const Tensor<1, dim> &slip = row.friction->kinematics.slip;
       const double          size = slip.norm();
       if (state.status == ContactStatus::stick)
-        return size;
+        return (slip - forced_slip(row, state)).norm();
       if (state.status != ContactStatus::slip || size == 0.)
         return 0.;
       const double across = (slip - (slip * f.direction) * f.direction).norm();
@@ -100,7 +113,13 @@ namespace Touchstone
       // The second part is what round-off makes of a slip.
       const double tolerance = on_the_cone * f.limit + 1e-4 * gap_tolerance * scale;
       if (state.status == ContactStatus::stick)
-        return {f.excess > tolerance ? f.excess / scale : 0., ContactStatus::slip};
+        {
+          const bool forced = forced_slip(row, state).norm() > gap_tolerance * row.size;
+          return {forced                 ? f.limit / scale
+                  : f.excess > tolerance ? f.excess / scale
+                                         : 0.,
+                  ContactStatus::slip};
+        }
       // A slip whose direction reverses within an iteration has come to rest in between: if the row
       // kept slipping, its direction would alternate for ever (doc/theory.md 6.4).
       const bool turned = f.direction * f.last_direction < 0.;
@@ -270,6 +289,11 @@ namespace Touchstone
         const StatusViolation next = status_violation(row, state, gap_tolerance, after_solve);
         if (next.size > 0. && next.size >= threshold && (only.empty() || only == order(row)))
           {
+            // What is forced to slip begins with its force on the cone, or that of stick, which is
+            // none, would lead back to stick.
+            if (state.status == ContactStatus::stick && row.friction)
+              if (const Tensor<1, dim> forced = forced_slip(row, state); forced.norm() > 0.)
+                state.friction.last_direction = -forced / forced.norm();
             change_status(row, next.status);
             ++result.changes;
             result.changed.push_back(&row);

@@ -3,6 +3,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/cyclic_constraints.h>
 #include <touchstone/contact/enforcement/enforcement.h>
+#include <touchstone/contact/enforcement/refused_conditions.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/contact/tolerances.h>
 
@@ -219,6 +220,22 @@ namespace Touchstone
               state.friction.last_direction = tangential / tangential.norm();
           }
         adopted(row);
+      }
+  }
+
+
+
+  void
+  Enforcement::record_refused_stick(const RefusedConditions &refused,
+                                    const Contact           &contact,
+                                    const ConstraintGraph   &graph)
+  {
+    const std::vector<bool> can_be_met =
+      refused.can_be_met(graph, contact.solid_model().owned, contact.communicator());
+    for (std::size_t k = 0; k < refused.all().size(); ++k)
+      {
+        const auto &[row, condition] = refused.all()[k];
+        row_states[*row].record(condition, false, can_be_met[k]);
       }
   }
 

@@ -46,7 +46,7 @@ namespace Touchstone
   {
     accepted.clear();
     prepare(contact, system);
-    RefusedConditions refused(graph);
+    RefusedConditions refused(graph), refused_stick(graph);
     const auto        offer = [&](const ContactRow &row, Condition condition) {
       const ConstraintGraph::Treatment way = treatment(row);
       adjust(row, condition);
@@ -82,7 +82,8 @@ namespace Touchstone
     for (const auto &[row, conditions] : stick)
       for (const Condition &condition : conditions)
         if (!offer(*row, condition))
-          row_states[*row].record(condition, false);
+          refused_stick.add(*row, condition);
+    record_refused_stick(refused_stick, contact, graph);
     if (system.takes_multipliers)
       add_multipliers(accepted, system);
   }

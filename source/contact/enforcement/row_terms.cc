@@ -121,6 +121,7 @@ namespace Touchstone
     state.accepted = state.refused = 0;
     state.normal_accepted          = true;
     state.friction.unconstrained.clear();
+    state.friction.held.clear();
     if (state.active() && state.redundant)
       {
         state.refused         = 1;
@@ -281,14 +282,18 @@ namespace Touchstone
     Tensor<1, dim>        constant = f.constant;
     Tensor<2, dim>        tangent  = f.tangent;
     if (state.fully_constrained())
-      for (const Tensor<1, dim> &direction : f.unconstrained)
-        {
-          // Refused conditions of stick are replaced by springs of 100 c along their tangents, with
-          // the augmented force as load; see augment_unconstrained().
-          const double spring = FrictionForce::unconstrained_stiffness(row.stiffness);
-          constant += (f.base * direction - spring * (k.slip * direction)) * direction;
-          tangent += spring * outer_product(direction, direction);
-        }
+      {
+        // Refused conditions of stick are replaced by springs of 100 c along their tangents, with
+        // the augmented force as load; see augment_unconstrained().
+        const double spring = FrictionForce::unconstrained_stiffness(row.stiffness);
+        for (const Tensor<1, dim> &direction : f.unconstrained)
+          {
+            constant += (f.base * direction - spring * (k.slip * direction)) * direction;
+            tangent += spring * outer_product(direction, direction);
+          }
+        for (const Tensor<1, dim> &direction : f.held)
+          constant += (f.base * direction) * direction;
+      }
     add_load(row, constant);
     // A limit that falls with the slip is no spring: symmetric systems lag it.
     if (f.d_slip.norm_square() > 0. && !system.keep_symmetric)

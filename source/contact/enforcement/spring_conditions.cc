@@ -38,7 +38,7 @@ namespace Touchstone
 
     springs.clear();
     RowTerms          terms(system);
-    RefusedConditions refused(graph);
+    RefusedConditions refused(graph), refused_stick(graph);
     const auto        offer = [&](const ContactRow &row, const Condition &condition) {
       const bool is_accepted = graph.accept(condition, ConstraintGraph::Treatment::spring);
       if (is_accepted)
@@ -73,7 +73,8 @@ namespace Touchstone
         }
     for (const auto &[row, condition] : stick)
       if (!offer(*row, condition))
-        row_states[*row].record(condition, false);
+        refused_stick.add(*row, condition);
+    record_refused_stick(refused_stick, contact, graph);
     terms.finish();
   }
 

@@ -113,13 +113,17 @@ namespace Touchstone
 
 
   // Uzawa's update t_k <- t_k - 100 c s_T, only along those tangents for which the graph refused a
-  // condition (doc/theory.md 6, "Stick where the slave node is not free").
+  // condition (doc/theory.md 6, "Stick where the slave node is not free"). Where nothing can move,
+  // updates would go on for ever: there the force stays as it was when the step began.
   void
   augment_unconstrained(const ContactRow &row, RowState &state)
   {
+    const SlipKinematics &k    = row.friction->kinematics;
+    Tensor<1, dim>       &base = state.friction.base;
     for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
-      state.friction.base -= FrictionForce::unconstrained_stiffness(row.stiffness) *
-                             (row.friction->kinematics.slip * tangent) * tangent;
+      base -= FrictionForce::unconstrained_stiffness(row.stiffness) * (k.slip * tangent) * tangent;
+    for (const Tensor<1, dim> &tangent : state.friction.held)
+      base += ((k.start - base) * tangent) * tangent;
   }
 
 
@@ -129,8 +133,9 @@ namespace Touchstone
   void
   set_stick(RowState &state, const Tensor<1, dim> &normal)
   {
-    for (const Tensor<1, dim> &tangent : state.friction.unconstrained)
-      state.force += (state.friction.base * tangent) * tangent;
+    for (const auto &tangents : {state.friction.unconstrained, state.friction.held})
+      for (const Tensor<1, dim> &tangent : tangents)
+        state.force += (state.friction.base * tangent) * tangent;
     state.friction.base = state.force - state.lambda * normal;
   }
 

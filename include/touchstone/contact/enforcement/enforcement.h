@@ -19,6 +19,7 @@
 namespace Touchstone
 {
   class Contact;
+  class RefusedConditions;
 
   /** @brief Solution of a linear system, and the system that it belongs to. */
   struct LinearSolution
@@ -253,6 +254,13 @@ namespace Touchstone
     {
       return 0.3;
     }
+
+    /** @brief Record conditions of stick that the graph has refused, and whether springs can meet
+     * them. Collective. */
+    void
+    record_refused_stick(const RefusedConditions &refused,
+                         const Contact           &contact,
+                         const ConstraintGraph   &graph);
 
     /** @brief No contact force of any kind in this row. */
     void

@@ -40,6 +40,9 @@ namespace Touchstone
     /** Tangents along which its condition was refused, because a support or another pair
      * determines its displacement: there springs with an augmented force enforce stick. */
     std::vector<Vec> unconstrained;
+    /** Tangents along which supports determine the displacement of both sides: nothing can take
+     * back a slip, so that any slip is sliding. */
+    std::vector<Vec> held;
     double           c = 1.;
     Vec              base;
     /** The base is the force that is carried along with the slave surface. */
@@ -70,6 +73,7 @@ namespace Touchstone
       base = direction = last_direction = constant = d_lambda = d_area = d_spin = Vec();
       d_slip = slip_direction = Vec();
       unconstrained.clear();
+      held.clear();
       tangent = last_tangent = Mat();
       limit = excess = 0.;
     }
