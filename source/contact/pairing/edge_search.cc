@@ -92,14 +92,6 @@ namespace Touchstone
         find_edges(found);
         find_vertices(found);
       }
-    // Mostly nothing touches between nodes, and nobody refers to the faces while the system is
-    // solved.
-    if (found.empty())
-      {
-        slave_exchange.release();
-        exchange.release();
-        around = {};
-      }
     return found;
   }
 

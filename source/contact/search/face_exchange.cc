@@ -173,15 +173,6 @@ namespace Touchstone
 
 
   void
-  FaceExchange::release()
-  {
-    known = {};
-    by_key.clear();
-  }
-
-
-
-  void
   FaceExchange::measure_motion()
   {
     least_moved = most_moved = Tensor<1, dim>();

@@ -45,10 +45,6 @@ namespace Touchstone
     void
     update(const std::vector<dealii::Point<dim>> &positions);
 
-    /** @brief Free the faces() until the next update: they are large. */
-    void
-    release();
-
     /** @brief Faces of the last update: of this rank, and near its slave nodes. */
     const std::vector<Face> &
     faces() const
