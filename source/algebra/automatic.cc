@@ -164,6 +164,8 @@ namespace Touchstone
         try
           {
             delegate(iterative, system, motions, solution);
+            for (const std::string &text : iterative.take_remarks())
+              remark(text);
             strikes.succeeded();
             return true;
           }

@@ -33,6 +33,37 @@ namespace Touchstone
      */
     constexpr int factorisable = 200000;
 
+    /**
+     * Restarted GMRES, preconditioned from the right, so that the residual that
+     * it minimises is the true one, and flexible: multigrid in single precision is a linear
+     * operator only up to its round-off, below which the residual could not fall otherwise.
+     * Saad (1993), SIAM J. Sci. Comput. 14.
+     */
+    std::unique_ptr<Manager>
+    flexible_gmres(const LinearSolverParameters               &parameters,
+                   const Teuchos::RCP<Problem>                &problem,
+                   const Teuchos::RCP<Teuchos::ParameterList> &list,
+                   const Epetra_Operator                      &preconditioner,
+                   ConvergenceWatch                           &watch)
+    {
+      problem->setRightPrec(Teuchos::rcp(new Belos::EpetraPrecOp(
+        Teuchos::rcpFromRef(const_cast<Epetra_Operator &>(preconditioner)))));
+      problem->setProblem();
+      // Belos limits the restarts, too: as many as the maximum of iterations allows.
+      const int basis = std::min(parameters.restart, parameters.maximum_iterations);
+      list->set("Num Blocks", basis);
+      list->set("Maximum Restarts", static_cast<int>(parameters.maximum_iterations) / basis);
+      list->set("Flexible Gmres", true);
+      auto result =
+        std::make_unique<Belos::BlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(
+          problem, list);
+      // A debug status test is called in each iteration, whatever the output is.
+      result->setDebugStatusTest(Teuchos::rcp(new WatchingTest(watch)));
+      return result;
+    }
+
+
+
     /** A Krylov method from Belos with a preconditioner of the registry. */
     class BelosSolver : public LinearSolver
     {
@@ -74,7 +105,7 @@ namespace Touchstone
       {
         preconditioner.reset();
         strikes.succeeded();
-        slow = false;
+        slow = indefinite = false;
       }
 
     private:
@@ -82,9 +113,10 @@ namespace Touchstone
       std::unique_ptr<Epetra_Operator>            preconditioner;
       /**
        * slow: factors are the preconditioner, for multigrid would take too many iterations; told:
-       * the log says so.
+       * the log says so. indefinite: conjugate gradients have broken down with the present
+       * preconditioner, and GMRES takes it.
        */
-      bool    slow = false, told = false;
+      bool    slow = false, told = false, indefinite = false;
       Strikes strikes;
       /** Constrained dofs of its matrix, and those of changed basis. */
       std::vector<char> constrained, changed;
@@ -165,12 +197,7 @@ namespace Touchstone
       }
     };
 
-    /**
-     * Restarted GMRES, preconditioned from the right, so that the residual that
-     * it minimises is the true one, and flexible: multigrid in single precision is a linear
-     * operator only up to its round-off, below which the residual could not fall otherwise.
-     * Saad (1993), SIAM J. Sci. Comput. 14.
-     */
+    /** Flexible GMRES. */
     class BelosGmres : public BelosSolver
     {
     public:
@@ -183,20 +210,7 @@ namespace Touchstone
              const Epetra_Operator                      &preconditioner,
              ConvergenceWatch                           &watch) const override
       {
-        problem->setRightPrec(Teuchos::rcp(new Belos::EpetraPrecOp(
-          Teuchos::rcpFromRef(const_cast<Epetra_Operator &>(preconditioner)))));
-        problem->setProblem();
-        // Belos limits the restarts, too: as many as the maximum of iterations allows.
-        const int basis = std::min(parameters.restart, parameters.maximum_iterations);
-        list->set("Num Blocks", basis);
-        list->set("Maximum Restarts", static_cast<int>(parameters.maximum_iterations) / basis);
-        list->set("Flexible Gmres", true);
-        auto result =
-          std::make_unique<Belos::BlockGmresSolMgr<double, Epetra_MultiVector, Epetra_Operator>>(
-            problem, list);
-        // A debug status test is called in each iteration, whatever the output is.
-        result->setDebugStatusTest(Teuchos::rcp(new WatchingTest(watch)));
-        return result;
+        return flexible_gmres(parameters, problem, list, preconditioner, watch);
       }
     };
 
@@ -237,6 +251,7 @@ namespace Touchstone
       // First free the old one: two hierarchies, or two sets of factors, may not fit into the
       // memory.
       preconditioner.reset();
+      indefinite  = false;
       constrained = system.constrained;
       changed     = system.changed;
       if (slow)
@@ -294,8 +309,10 @@ namespace Touchstone
       // It prints exceptions before it throws them.
       list->set("Output Stream", Teuchos::RCP<std::ostream>(new Teuchos::oblackholestream()));
       ConvergenceWatch               watch(system.tolerance, patience(system));
-      const std::unique_ptr<Manager> solver    = method(problem, list, *preconditioner, watch);
-      bool                           converged = false;
+      const std::unique_ptr<Manager> solver =
+        indefinite ? flexible_gmres(parameters, problem, list, *preconditioner, watch)
+                   : method(problem, list, *preconditioner, watch);
+      bool converged = false;
       try
         {
           converged = solver->solve() == Belos::Converged;
@@ -310,9 +327,18 @@ namespace Touchstone
       // a 1 x 1 block; Belos derives its exceptions from logic_error.
       catch (const std::logic_error &)
         {
-          throw LinearSolverFailure(
-            parameters.type + " broke down: the matrix or its preconditioner is " +
-            (symmetric_only() ? "not positive definite" : "singular, or not finite"));
+          count.iterations += watch.iterations();
+          if (!symmetric_only() || indefinite || !preconditioner_maker->multilevel())
+            throw LinearSolverFailure(
+              parameters.type + " broke down: the matrix or its preconditioner is " +
+              (symmetric_only() ? "not positive definite" : "singular, or not finite"));
+          // Multigrid in single precision may lose its definiteness on very slender cells, where it
+          // is still a good preconditioner: GMRES does not ask for it.
+          remark(parameters.type + ": multigrid is not positive definite; flexible GMRES takes the "
+                                   "place of conjugate gradients where it is not");
+          indefinite = true;
+          solution.PutScalar(0.);
+          return iterate(system, solution);
         }
       count.iterations += solver->getNumIters();
       return converged ? solver->getNumIters() : -1;

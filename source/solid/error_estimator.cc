@@ -3,10 +3,7 @@
 #include <touchstone/solid/error_estimator.h>
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
-#include <deal.II/lac/la_parallel_vector.h>
 #include <deal.II/numerics/error_estimator.h>
 
 // Error indicators per cell for adaptive meshes (doc/theory.md, section 11, "Estimators"), as
@@ -41,172 +38,102 @@ namespace Touchstone
 
   namespace
   {
-    constexpr unsigned int n_components = SymmetricTensor<2, dim>::n_independent_components;
-
-    /** Stresses and volumes of quadrature points, cell by cell. Loops over the owned cells visit
-     * points in the same order as for_each_stress(), so that a running index suffices. */
-    struct PointStresses
+    /** sigma : C^-1 : tau with the isotropic compliance, ((1 + nu) sigma : tau - nu tr sigma tr
+     * tau) / E. It is that of the elastic law at small strain for all materials, as an indicator
+     * needs no more. */
+    double
+    complementary_work(const MaterialParameters      &material,
+                       const SymmetricTensor<2, dim> &sigma,
+                       const SymmetricTensor<2, dim> &tau)
     {
-      std::vector<SymmetricTensor<2, dim>> stress;
-      std::vector<double>                  volume;
-    };
-
-    using StressField = std::array<LinearAlgebra::distributed::Vector<double>, n_components>;
-
-    /** Averages of the stresses at the nodes, weighted with the volumes: int N sigma over int N, a
-     * projection with lumped mass. What belongs to hanging nodes goes to those that they follow.
-     * Collective. */
-    StressField
-    recover(const PointStresses &points, const DoFHandler<dim> &nodes, FEValues<dim> &values)
-    {
-      IndexSet relevant;
-      DoFTools::extract_locally_relevant_dofs(nodes, relevant);
-      AffineConstraints<double> hanging(relevant);
-      DoFTools::make_hanging_node_constraints(nodes, hanging);
-      hanging.close();
-
-      LinearAlgebra::distributed::Vector<double> volume(nodes.locally_owned_dofs(),
-                                                        relevant,
-                                                        nodes.get_communicator());
-      StressField                                stress;
-      for (auto &field : stress)
-        field.reinit(volume);
-      std::vector<Index>     dofs(nodes.get_fe().n_dofs_per_cell());
-      dealii::Vector<double> local(dofs.size());
-      std::size_t            at = 0;
-      for (const auto &cell : nodes.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            values.reinit(cell);
-            cell->get_dof_indices(dofs);
-            for (unsigned int c = 0; c <= n_components; ++c)
-              {
-                local = 0.;
-                for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-                  for (unsigned int i = 0; i < dofs.size(); ++i)
-                    local(i) += values.shape_value(i, q) * points.volume[at + q] *
-                                (c < n_components ? points.stress[at + q].access_raw_entry(c) : 1.);
-                hanging.distribute_local_to_global(local,
-                                                   dofs,
-                                                   c < n_components ? stress[c] : volume);
-              }
-            at += values.n_quadrature_points;
-          }
-      volume.compress(VectorOperation::add);
-      for (auto &field : stress)
-        {
-          field.compress(VectorOperation::add);
-          for (unsigned int i = 0; i < field.locally_owned_size(); ++i)
-            if (volume.local_element(i) != 0.)
-              field.local_element(i) /= volume.local_element(i);
-          hanging.distribute(field);
-          field.update_ghost_values();
-        }
-      return stress;
-    }
-
-    /** Recovered stress less that of the elements at all quadrature points, in the order of the
-     * points. The averages at the nodes of a boundary are one-sided; each correction by the
-     * averages of what is left brings them closer to the projection with full mass. Collective. */
-    PointStresses
-    stress_errors(const Solid           &solid,
-                  const Vector          &u,
-                  const DoFHandler<dim> &nodes,
-                  FEValues<dim>         &values,
-                  const unsigned int     corrections)
-    {
-      PointStresses points;
-      solid.for_each_stress(u,
-                            [&](const unsigned int,
-                                const Point<dim> &,
-                                const SymmetricTensor<2, dim> &sigma,
-                                const double                   v) {
-                              points.stress.push_back(sigma);
-                              points.volume.push_back(v);
-                            });
-      std::vector<double> recovered(values.n_quadrature_points);
-      for (unsigned int k = 0; k <= corrections; ++k)
-        {
-          const StressField stress = recover(points, nodes, values);
-          std::size_t       at     = 0;
-          for (const auto &cell : nodes.active_cell_iterators())
-            if (cell->is_locally_owned())
-              {
-                values.reinit(cell);
-                for (unsigned int c = 0; c < n_components; ++c)
-                  {
-                    values.get_function_values(stress[c], recovered);
-                    for (unsigned int q = 0; q < recovered.size(); ++q)
-                      points.stress[at + q].access_raw_entry(c) -= recovered[q];
-                  }
-                at += recovered.size();
-              }
-        }
-      for (SymmetricTensor<2, dim> &left : points.stress)
-        left *= -1.;
-      return points;
+      const double nu = material.poisson_ratio;
+      return ((1. + nu) * (sigma * tau) - nu * trace(sigma) * trace(tau)) / material.young_modulus;
     }
   } // namespace
 
 
 
-  namespace
-  {
-    /** The products of two differences between a continuous stress field sigma* that is recovered
-     * from the discontinuous one of the elements [31] and the latter. Bodies share no nodes, so
-     * sigma* is continuous within each body only. Null for z is u itself. Collective. */
-    dealii::Vector<double>
-    products(const Solid &solid, const Vector &u, const Vector *z, const unsigned int corrections)
-    {
-      const FE_Q<dim> node_fe(solid.fe.degree);
-      DoFHandler<dim> nodes(solid.dof_handler.get_triangulation());
-      nodes.distribute_dofs(node_fe);
-      FEValues<dim>       values(solid.mapping,
-                           node_fe,
-                           QGauss<dim>(solid.fe.degree + 1),
-                           update_values | update_JxW_values);
-      const PointStresses first = stress_errors(solid, u, nodes, values, corrections);
-      PointStresses       other;
-      if (z != nullptr)
-        other = stress_errors(solid, *z, nodes, values, corrections);
-      const PointStresses &second = z != nullptr ? other : first;
-
-      // (sigma* - sigma) : C^-1 : (sigma* - sigma) with the isotropic compliance, e : C^-1 : f =
-      // ((1 + nu) e : f - nu tr e tr f) / E. It is that of the elastic law at small strain for all
-      // materials, as an indicator needs no more.
-      dealii::Vector<double> result(solid.dof_handler.get_triangulation().n_active_cells());
-      std::size_t            at = 0;
-      for (const auto &cell : nodes.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            const MaterialParameters &material = solid.bodies[cell->material_id()].material;
-            const double              E = material.young_modulus, nu = material.poisson_ratio;
-            for (unsigned int q = 0; q < values.n_quadrature_points; ++q, ++at)
-              {
-                const SymmetricTensor<2, dim> &e = first.stress[at], &f = second.stress[at];
-                result(cell->active_cell_index()) +=
-                  ((1. + nu) * (e * f) - nu * trace(e) * trace(f)) / E * first.volume[at];
-              }
-          }
-      return result;
-    }
-  } // namespace
-
-
-
+  // (sigma* - sigma) : C^-1 : (sigma* - sigma) with averages sigma* [31].
   dealii::Vector<double>
   recovery_errors(const Solid &solid, const Vector &u)
   {
-    return products(solid, u, nullptr, 0);
+    StressRecovery recovery(solid);
+    PointStresses  points = recovery.of_cells(u);
+    recovery.subtract(recovery.averages(points), points);
+    dealii::Vector<double> result(solid.dof_handler.get_triangulation().n_active_cells());
+    const std::size_t      n_points = Utilities::pow(solid.fe.degree + 1, dim);
+    std::size_t            at       = 0;
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        for (std::size_t q = 0; q < n_points; ++q, ++at)
+          result(cell->active_cell_index()) +=
+            complementary_work(solid.bodies[cell->material_id()].material,
+                               points.stress[at],
+                               points.stress[at]) *
+            points.volume[at];
+    return result;
+  }
+
+
+
+  RecoveredStress::RecoveredStress(StressRecovery &recovery, const Vector &u)
+    : u(u)
+    , points(recovery.of_cells(u))
+    , field(recovery.corrected(points))
+  {
   }
 
 
 
   dealii::Vector<double>
-  recovery_products(const Solid &solid, const Vector &u, const Vector &z)
+  form_errors(const Solid           &solid,
+              const StressRecovery  &recovery,
+              const RecoveredStress &u,
+              const RecoveredStress &z)
   {
-    // With plain averages the estimated errors of thin bodies were three times the true ones.
-    constexpr unsigned int corrections = 3;
-    return products(solid, u, &z, corrections);
+    // With the shapes that manifolds give the cells, to two orders more than those of the elements.
+    const MappingQ<dim> exact(2 * solid.fe.degree);
+    const QGauss<dim>   quadrature(solid.fe.degree + 2);
+    FEValues<dim>       values(exact, solid.fe, quadrature, update_gradients | update_JxW_values);
+    FEValues<dim>       nodes(exact, recovery.nodes().get_fe(), quadrature, update_values);
+    const std::size_t   n_of_cells = Utilities::pow(solid.fe.degree + 1, dim);
+    const unsigned int  n          = quadrature.size();
+    std::vector<SymmetricTensor<2, dim>> strain_u(n), strain_z(n), stress_u(n), stress_z(n);
+    std::vector<double>                  component(n);
+    const FEValuesExtractors::Vector     displacement(0);
+    const auto evaluate = [&](const StressField &field, std::vector<SymmetricTensor<2, dim>> &at) {
+      for (unsigned int c = 0; c < field.size(); ++c)
+        {
+          nodes.get_function_values(field[c], component);
+          for (unsigned int q = 0; q < n; ++q)
+            at[q].access_raw_entry(c) = component[q];
+        }
+    };
+    dealii::Vector<double> result(solid.dof_handler.get_triangulation().n_active_cells());
+    std::size_t            at   = 0;
+    auto                   node = recovery.nodes().begin_active();
+    for (const auto &cell : solid.dof_handler.active_cell_iterators())
+      {
+        if (cell->is_locally_owned())
+          {
+            const MaterialParameters &material = solid.bodies[cell->material_id()].material;
+            double                   &sum      = result(cell->active_cell_index());
+            for (std::size_t q = 0; q < n_of_cells; ++q, ++at)
+              sum += complementary_work(material, u.points.stress[at], z.points.stress[at]) *
+                     u.points.volume[at];
+            values.reinit(cell);
+            nodes.reinit(node);
+            values[displacement].get_function_symmetric_gradients(u.u, strain_u);
+            values[displacement].get_function_symmetric_gradients(z.u, strain_z);
+            evaluate(u.field, stress_u);
+            evaluate(z.field, stress_z);
+            for (unsigned int q = 0; q < n; ++q)
+              sum -= (stress_u[q] * strain_z[q] + strain_u[q] * stress_z[q] -
+                      complementary_work(material, stress_u[q], stress_z[q])) *
+                     values.JxW(q);
+          }
+        ++node;
+      }
+    return result;
   }
 } // namespace Touchstone

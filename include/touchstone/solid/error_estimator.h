@@ -3,7 +3,7 @@
 #ifndef touchstone_solid_error_estimator_h
 #define touchstone_solid_error_estimator_h
 
-#include <touchstone/solid/solid.h>
+#include <touchstone/solid/stress_recovery.h>
 
 #include <deal.II/lac/vector.h>
 
@@ -31,14 +31,32 @@ namespace Touchstone
   dealii::Vector<double>
   recovery_errors(const Solid &solid, const Vector &u);
 
+  /** @brief A displacement with the stress of its cells, and the continuous one recovered from it.
+   */
+  struct RecoveredStress
+  {
+    /** With ghosts. */
+    Vector        u;
+    PointStresses points;
+    StressField   field;
+
+    /** @brief Collective. @param u With ghosts. */
+    RecoveredStress(StressRecovery &recovery, const Vector &u);
+  };
+
   /**
-   * @brief Estimate of the products of the errors of two displacements in the bilinear form of
-   * elasticity, a(e_u, e_z), by cells: the same distances of stress multiplied with each other.
-   * Force times length, or force if @p z has no unit.
-   * @param u, z With ghosts.
+   * @brief By how much the bilinear form of elasticity of two solutions, a_h(u, z), differs from
+   * that of the exact ones in the exact shape of the bodies, a(u, z), by cells: but for the contact
+   * conditions (contact_residuals()). Force times length, or force if @p z has no unit.
+   *
+   * Both errors of the displacements and the shape of the cells enter, doc/theory.md 11, equation
+   * (32); the shape is that of the manifolds.
    */
   dealii::Vector<double>
-  recovery_products(const Solid &solid, const Vector &u, const Vector &z);
+  form_errors(const Solid           &solid,
+              const StressRecovery  &recovery,
+              const RecoveredStress &u,
+              const RecoveredStress &z);
 } // namespace Touchstone
 
 #endif
