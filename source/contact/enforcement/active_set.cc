@@ -248,9 +248,8 @@ namespace Touchstone
         solve_first = !in_balance || Utilities::MPI::max(gap, communicator) > gap_tolerance;
       }
     const auto violation = [&](const ContactRow &row) {
-      return solve_first ?
-               0. :
-               status_violation(row, row_states[row], gap_tolerance, after_solve).size;
+      return solve_first ? 0.
+                         : status_violation(row, row_states[row], gap_tolerance, after_solve).size;
     };
 
     // Damping level 1: only rows change whose violation is at least half of the largest one.
