@@ -27,18 +27,24 @@ namespace
   {
     double node, neighbour[2];
 
+    /** The smallest gap on the face to one neighbour. */
+    double
+    least(const double other) const
+    {
+      double result = node;
+      for (unsigned int i = 0; i <= 32; ++i)
+        {
+          const double x = i / 32.;
+          result = std::min(result, (1. - x) * node + x * other - x * (1. - x) / (2. * radius));
+        }
+      return result;
+    }
+
     /** The smallest gap. */
     double
     least() const
     {
-      double result = node;
-      for (const double other : neighbour)
-        for (unsigned int i = 0; i <= 32; ++i)
-          {
-            const double x = i / 32.;
-            result = std::min(result, (1. - x) * node + x * other - x * (1. - x) / (2. * radius));
-          }
-      return result;
+      return std::min(least(neighbour[0]), least(neighbour[1]));
     }
 
     double
@@ -65,6 +71,7 @@ namespace
           face.shape_gap              = 0.5 * (2. / 3. * node + 1. / 3. * other - below) * normal;
           face.own                    = node;
           face.beside                 = 0.;
+          face.least                  = least(other);
           result.faces.push_back(face);
         }
       return result;
@@ -88,7 +95,7 @@ namespace
   bool
   derivatives(CoverSums sums, double mean, const int deciding)
   {
-    constexpr double    step = 1e-6;
+    constexpr double    step = 1e-7;
     const GapCorrection correction(sums, normal, mean, size);
     double              error = 0.;
     const auto          check = [&](double &x, const double derivative) {
@@ -114,6 +121,7 @@ namespace
     check(face.shape_gap[2], correction.by_face_positive / face.shape_area);
     check(face.own, correction.by_face_own);
     check(face.beside, correction.by_face_beside);
+    check(face.least, correction.by_face_least);
     // The mean of the face changes with its area as well.
     check(face.area,
           correction.by_face_area -
@@ -186,5 +194,18 @@ main()
   sums.least = 0.004;
   sums.given = 0.3;
   print("derivatives, apart and area given away", derivatives(sums, half.mean(), 1));
+
+  sums              = hardly.sums();
+  const double mean = hardly.mean();
+  // The mean of a node that is not covered is extrapolated.
+  sums.beside = 0.3;
+  sums.own += 0.3;
+  sums.faces[0].least = 0.04;
+  print("no overlap where the mean is extrapolated",
+        mean + GapCorrection(sums, normal, mean, size).value > 0.04);
+  print("derivatives where the mean is extrapolated", derivatives(sums, mean, 0));
+  sums.beside = 0.04;
+  sums.own -= 0.26;
+  print("derivatives where it hardly is", derivatives(sums, mean, 0));
   return 0;
 }

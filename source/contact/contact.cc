@@ -128,6 +128,22 @@ namespace Touchstone
 
 
   void
+  Contact::begin_again()
+  {
+    std::vector<std::vector<MaterialPoint>> points(pairs.size());
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (pairs[p]->takes_points())
+        points[p] = pairs[p]->points();
+    rollback();
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      if (pairs[p]->takes_points())
+        set_points(p, points[p]);
+    method->begin_step();
+  }
+
+
+
+  void
   Contact::update(const Vector &u, const double time)
   {
     present_time = time;

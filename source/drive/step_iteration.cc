@@ -121,8 +121,8 @@ namespace Touchstone
   void
   StepProblem::update_active_set(const unsigned int damping, NewtonState &state)
   {
-    const ActiveSetUpdate set =
-      contact.enforcement().update_active_set(contact, scene.newton.gap_tolerance, damping);
+    const ActiveSetUpdate set = contact.enforcement().update_active_set(
+      contact, scene.newton.gap_tolerance, damping, balanced(state, scene.newton));
     changed_rows.clear();
     for (const ContactRow *row : set.changed)
       changed_rows.push_back(

@@ -159,6 +159,7 @@ namespace Touchstone
   {
     begin_step(t);
     const Newton newton(parameters);
+    const Vector first_guess(u);
     unsigned int n_iterations = 0;
     // Each round adds points inside slave faces where the one before has missed contact; what is
     // missed after the last is told of by findings().
@@ -172,6 +173,10 @@ namespace Touchstone
           n_iterations += newton.solve(*this, observer, /*least=*/1);
         if (round == most_rounds || !place_points(contact))
           break;
+        // The state without these points tells where they are and no more: bodies have sprung back
+        // in it, or overlap deeply, and what a point carried when the step began is far away.
+        u = first_guess;
+        contact.begin_again();
       }
     return n_iterations;
   }

@@ -140,6 +140,11 @@ namespace Touchstone
     void
     set_points(unsigned int p, const std::vector<MaterialPoint> &points);
 
+    /** @brief Return to the committed state, but with the material points that have rows now: the
+     * step is solved again. */
+    void
+    begin_again();
+
     /** @brief Update the geometry of the rows, and the slip, to the displacement @p u (owned dofs)
      * at time @p time. Collective. */
     void

@@ -167,9 +167,23 @@ namespace Touchstone
      * square of a strain makes such. */
     constexpr double flat_arch = 4e-4;
 
-    /** One less the shape function of a node at the closest covered point, from which on the node
-     * does not count as covered. */
-    constexpr double beside_node = 0.5;
+    /** The same at a node that is not covered: there a difference of gaps is made by the tilt
+     * between the surfaces as well, times the strain. Times hardly_curved it is the square of a
+     * strain of 1.4 %. */
+    constexpr double flat_arch_beside = 0.04;
+
+    /** One less the shape function of a node at the closest covered point, from the first to the
+     * second of which the gap there ceases to count for that of its row. A node beyond an edge has
+     * a row where at least a third of its face is covered. */
+    constexpr double near_node = 2. / 3., far_of_node = 0.8;
+
+    /** The same from which on the node is clearly not covered, so that means are extrapolated. */
+    constexpr double clearly_beside = 0.1;
+
+    /** Part of the difference between the gap at a node and the smallest one on its face by which
+     * its row remains above the latter: rows of neighbours over the same lowest point must not be
+     * the same condition. */
+    constexpr double above_least = 0.1;
 
     /** By the size of a face: from the first to the second the smallest gap comes to bound the gap
      * of a row. */

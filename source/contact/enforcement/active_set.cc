@@ -251,18 +251,31 @@ namespace Touchstone
   ActiveSetUpdate
   Enforcement::update_active_set(const Contact     &contact,
                                  const double       gap_tolerance,
-                                 const unsigned int damping)
+                                 const unsigned int damping,
+                                 const bool         in_balance)
   {
     const MPI_Comm     communicator = contact.communicator();
     const ContactRows &rows         = contact.rows();
-    const auto         violation    = [&](const ContactRow &row) {
-      return status_violation(row, row_states[row], gap_tolerance, after_solve).size;
+    // Damping level 3 and more: no row changes before the conditions of the present set are met.
+    bool solve_first = false;
+    if (damping > 2)
+      {
+        double gap = 0.;
+        for (const ContactRow &row : rows)
+          if (row_states[row].active())
+            gap = std::max(gap, violated_gap(row, row_states[row]));
+        solve_first = !in_balance || Utilities::MPI::max(gap, communicator) > gap_tolerance;
+      }
+    const auto violation = [&](const ContactRow &row) {
+      return solve_first ? 0.
+                         : status_violation(row, row_states[row], gap_tolerance, after_solve).size;
     };
 
     // Damping level 1: only rows change whose violation is at least half of the largest one.
     // Level 2 and more: only the first violated row, in an order that is fixed by geometry. That
     // rule (Murty 1974, Math. Programming 7) ends for every linear problem with a unique solution;
-    // see doc/theory.md 5, "Cycles".
+    // see doc/theory.md 5, "Cycles". It takes each set to be solved before it is judged, which one
+    // linear solve does where the problem is linear.
     double              threshold = 0.;
     std::vector<double> only;
     if (damping == 1)
@@ -287,7 +300,8 @@ namespace Touchstone
           }
         result.gap                 = std::max(result.gap, violated_gap(row, state));
         const StatusViolation next = status_violation(row, state, gap_tolerance, after_solve);
-        if (next.size > 0. && next.size >= threshold && (only.empty() || only == order(row)))
+        if (!solve_first && next.size > 0. && next.size >= threshold &&
+            (only.empty() || only == order(row)))
           {
             // What is forced to slip begins with its force on the cone, or that of stick, which is
             // none, would lead back to stick.

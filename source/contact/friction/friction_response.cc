@@ -185,11 +185,15 @@ namespace Touchstone
       // no equilibrium is near; it is bounded from below.
       const double by_slip = row.friction->slip_derivative(limit);
       const double part    = f.carried ? 1. / std::max(0.1, 1. + by_slip / f.c) : 1.;
-      f.d_lambda           = part * limit.slope * direction;
-      f.d_area             = part * limit.area_slope * direction;
+      // In tension the cone is a point, see FrictionRow::cone(). Rows in tension open, but not
+      // before the others are in balance where a set is solved before it is judged (doc/theory.md
+      // 5).
+      const double slope = lambda < 0. ? 0. : limit.slope;
+      f.d_lambda         = part * slope * direction;
+      f.d_area           = part * limit.area_slope * direction;
       // The constant t_0 is such that t_0 + d_lambda lambda is the present force at the present
       // lambda; the part with lambda follows lambda within the linear solve.
-      f.constant = (limit.force - part * limit.slope * std::max(lambda, 0.)) * direction;
+      f.constant = (limit.force - part * slope * std::max(lambda, 0.)) * direction;
       // Stiffness across the slip direction: kappa = L c / (|t_tr| - L), equation (17), for exact
       // and augmented friction; L alpha_t / |t_tr|, the tangent of radial return, for springs. The
       // comparison is written as a product, so that a vanishing denominator gives the bound.

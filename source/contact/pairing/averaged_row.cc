@@ -26,7 +26,7 @@ namespace Touchstone
   namespace
   {
     /** What the correction depends on, with derivatives. */
-    using Number = Sacado::Fad::SFad<double, 14>;
+    using Number = Sacado::Fad::SFad<double, 15>;
     enum class Of
     {
       mean_gap,
@@ -42,13 +42,14 @@ namespace Touchstone
       face_positive,
       face_own,
       face_beside,
+      face_least,
       face_area
     };
 
     Number
     variable(const Of which, const double value)
     {
-      return Number(14, static_cast<int>(which), value);
+      return Number(15, static_cast<int>(which), value);
     }
 
     /** Displacement at the node less the mean, and mean distance of the slave surface from its
@@ -67,13 +68,16 @@ namespace Touchstone
 
 
 
-    /** 1 - phi of equation (7) for one face.
-     * @param above g_s less the mean gap, of the row. @param whole Area of the row. */
+    /** What one face takes from g_s, equation (7); length.
+     * @param at_node g_s. @param above The same less the mean gap, of the row. @param beside 0
+     * where the node is covered, 1 where it clearly is not. @param whole Area of the row. */
     Number
     flattened(const FaceShare      &face,
               const Tensor<1, dim> &normal,
               const double          length,
+              const Number         &at_node,
               const Number         &above,
+              const Number         &beside,
               const Number         &whole)
     {
       if (face.own == std::numeric_limits<double>::max() || face.shape_area <= 0. ||
@@ -95,11 +99,20 @@ namespace Touchstone
       if (left >= 1.)
         return 0.;
       // 3/2 (1 - kappa)^2 up to the slope 3/2, and from there on straight to one.
+      Number part = 1.;
       if (left >= 0.5)
-        return weight * 1.5 * (1. - left) * (1. - left);
-      if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
-        return weight * straight;
-      return weight;
+        part = 1.5 * (1. - left) * (1. - left);
+      else if (const Number straight = 1.125 - 1.5 * left; straight < 1.)
+        part = straight;
+      const Number taken = weight * part * above;
+      // Beside the node the mean is extrapolated: no more than the surfaces come closer on this
+      // face than at the point next to the node.
+      if (beside.val() == 0.)
+        return taken;
+      const Number most =
+        (1. - Tolerances::above_least) * (at_node - variable(Of::face_least, face.least)) +
+        above * (1. - beside);
+      return taken < most ? taken : most;
     }
   } // namespace
 
@@ -115,31 +128,35 @@ namespace Touchstone
                  at_kept  = variable(Of::kept, sums.kept),
                  at_given = variable(Of::given, sums.given);
     Number result         = 0.;
-    // chi of equation (7): whether the node itself is covered.
+    // chi of section 3.1: whether anything near the node is covered.
     const Number from_node = variable(Of::beside, sums.beside);
-    const Number at_node   = 1. - smooth_step(from_node, 0., Tolerances::beside_node);
+    const Number near = 1. - smooth_step(from_node, Tolerances::near_node, Tolerances::far_of_node);
+    const Number beside  = smooth_step(from_node, 0., Tolerances::clearly_beside);
+    const Number at_node = variable(Of::own, sums.own) - sums.length * from_node;
     // On plane faces all gaps are the mean up to round-off, and the quotients below would be noise.
     const double noise = Tolerances::equal_gaps * size;
-    if (const Number above = variable(Of::own, sums.own) - sums.length * from_node - at_mean;
-        at_node > 0. && above > noise)
+    if (const Number above = at_node - at_mean; near > 0. && above > noise)
       {
         Number most = 0.;
         for (const FaceShare &share : sums.faces)
-          if (const Number flat =
-                flattened(share, normal, sums.length, above, variable(Of::area, sums.area));
-              flat > most)
+          if (const Number taken = flattened(
+                share, normal, sums.length, at_node, above, beside, variable(Of::area, sums.area));
+              taken > most)
             {
-              most = flat;
+              most = taken;
               face = &share;
             }
         // How much of the difference is due to the shape of the surfaces: displacements, which
         // meshes that do not match interpolate differently, make such differences all over a
         // contact, and rows that followed them would depend on their neighbours there.
         const Number shape = above - variable(Of::moved, normal * relative_motion(sums)),
-                     arch  = variable(Of::arch, mean_arch(sums)) + Tolerances::flat_arch * size;
+                     arch  = variable(Of::arch, mean_arch(sums)) +
+                            (Tolerances::flat_arch * (1. - beside) +
+                             Tolerances::flat_arch_beside * beside) *
+                              size;
         const Number curved =
           smooth_step(Number(shape / arch), Tolerances::hardly_curved, Tolerances::well_curved);
-        result += at_node * curved * (1. - most) * above;
+        result += near * curved * (above - most);
       }
     if (const Number above = at_least - at_mean - result; above > noise)
       result +=
@@ -166,6 +183,7 @@ namespace Touchstone
     by_face_positive = by(Of::face_positive);
     by_face_own      = by(Of::face_own);
     by_face_beside   = by(Of::face_beside);
+    by_face_least    = by(Of::face_least);
     by_face_area     = by(Of::face_area);
   }
 
@@ -229,7 +247,7 @@ namespace Touchstone
                       face->shape_area +
                     positive * d_normal);
         d_value += correction.by_face_own * d.face.own + correction.by_face_beside * d.face.beside +
-                   correction.by_face_area * d.face.area;
+                   correction.by_face_least * d.face.least + correction.by_face_area * d.face.area;
       }
     const Tensor<1, dim> d_share = (d.area - share * d.kept) / kept;
     d_gap_vector                 = outer_product(mean + correction.value * normal, d_share) +

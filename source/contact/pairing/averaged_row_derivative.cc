@@ -95,6 +95,7 @@ namespace Touchstone
             }
         offer<n>(face_own, part.own[k], part.own_by_normals[k], face, *part.master);
         offer<n>(face_beside, part.beside[k], {}, face, *part.master);
+        offer<n>(face_least, part.least, part.least_by_normals, face, *part.master);
       }
   }
 
@@ -284,6 +285,12 @@ namespace Touchstone
   AveragedRowDerivative::finish_deciding(const OfMaster &of_master, const OfSlave &of_slave)
   {
     using Sums = CoverSumsDerivative;
+    if (face_least)
+      continue_closest(
+        *face_least,
+        [](Sums &of_node) -> Tensor<1, dim> & { return of_node.face.least; },
+        of_master,
+        of_slave);
     if (face_own)
       continue_closest(
         *face_own,

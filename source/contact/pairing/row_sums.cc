@@ -72,6 +72,7 @@ namespace Touchstone
     // The same of this face alone; and integrals of 1 and gap with the shape function itself.
     face->own    = std::min(face->own, part.own[k]);
     face->beside = std::min(face->beside, part.beside[k]);
+    face->least  = std::min(face->least, part.least);
     face->area += r[OverlapColumns::area];
     for (unsigned int d = 0; d < dim; ++d)
       face->gap[d] += r[OverlapColumns::gap + d];

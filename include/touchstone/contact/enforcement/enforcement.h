@@ -141,11 +141,15 @@ namespace Touchstone
      * @brief Decide which rows are active: lambda - c g > 0.
      *
      * @param damping Damping level of the active set: 0 changes every row whose status is
-     *                violated, 1 only those where it is violated most, more only one: this
-     *                breaks cycles.
+     *                violated, 1 only those where it is violated most, 2 only one, more only one
+     *                and not before the set is solved: this breaks cycles.
+     * @param in_balance The forces are in balance.
      */
     ActiveSetUpdate
-    update_active_set(const Contact &contact, double gap_tolerance, unsigned int damping);
+    update_active_set(const Contact &contact,
+                      double         gap_tolerance,
+                      unsigned int   damping,
+                      bool           in_balance);
 
     /** @brief Add the conditions of active rows to the graph, and terms and multipliers to the
      * system, whose right-hand side holds no contact forces. Rows that are part of a cyclic

@@ -22,14 +22,15 @@ namespace Touchstone
      * area times length. */
     double                 area = 0., shape_area = 0.;
     dealii::Tensor<1, dim> gap, shape_gap;
-    /** As in CoverSums, of this face; length, no unit. */
-    double own = std::numeric_limits<double>::max(), beside = 1.;
+    /** As in CoverSums, of this face; length, no unit, length. */
+    double own = std::numeric_limits<double>::max(), beside = 1.,
+           least = std::numeric_limits<double>::max();
   };
 
   /** @brief Derivatives of a FaceShare with respect to the position of one node. */
   struct FaceShareDerivative
   {
-    dealii::Tensor<1, dim> area, shape_area, own, beside;
+    dealii::Tensor<1, dim> area, shape_area, own, beside, least;
     /** [i][e]: of component i with respect to component e of the position. */
     dealii::Tensor<2, dim> gap, shape_gap;
   };
@@ -95,9 +96,10 @@ namespace Touchstone
      * mean distance of the slave surface from its facets. */
     double by_moved, by_arch;
     /** The face that decides, or null if none does, and derivatives by what it contributes: its
-     * mean gaps along the normal with both weights, and own, beside and area of its FaceShare. */
+     * mean gaps along the normal with both weights, and own, beside, least and area of its
+     * FaceShare. */
     const FaceShare *face = nullptr;
-    double           by_face_mean, by_face_positive, by_face_own, by_face_beside, by_face_area;
+    double by_face_mean, by_face_positive, by_face_own, by_face_beside, by_face_least, by_face_area;
 
     /** @param sums   Must live as long.
      * @param normal Mean normal.

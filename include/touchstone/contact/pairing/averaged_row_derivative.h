@@ -80,7 +80,7 @@ namespace Touchstone
     std::vector<CoverSumsDerivative> sums;
     std::optional<ClosestPoint>      least, own, beside;
     /** Of GapCorrection::face. */
-    std::optional<ClosestPoint> face_own, face_beside;
+    std::optional<ClosestPoint> face_own, face_beside, face_least;
     /** The integral of the arch by normals of slave faces. */
     std::unordered_map<std::uint64_t, std::array<dealii::Tensor<1, dim>, Face::max_nodes>>
       arch_by_slave_normals;
