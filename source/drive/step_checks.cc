@@ -2,6 +2,7 @@
 
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
+#include <touchstone/contact/pulling_obstacle.h>
 #include <touchstone/drive/step_problem.h>
 #include <touchstone/solid/bodies.h>
 
@@ -148,6 +149,8 @@ namespace Touchstone
   {
     if (const std::string text = unresolved_contact(contact); !text.empty())
       throw UnresolvedContactFailure(text);
+    if (const std::string text = pulling_obstacle(contact); !text.empty())
+      throw PullingObstacle(text);
   }
 
 
