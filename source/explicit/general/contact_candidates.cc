@@ -269,6 +269,21 @@ namespace Touchstone
 
 
   std::size_t
+  ContactCandidates::find_node(const std::uint64_t of) const
+  {
+    const auto found = std::lower_bound(node_faces.begin(),
+                                        node_faces.end(),
+                                        of,
+                                        [&](const NodeFace &pair, const std::uint64_t wanted) {
+                                          return key(pair.node) < wanted;
+                                        });
+    return found != node_faces.end() && key(found->node) == of ? found - node_faces.begin()
+                                                               : node_faces.size();
+  }
+
+
+
+  std::size_t
   ContactCandidates::find_edges(const std::array<std::uint64_t, 4> &keys) const
   {
     const auto keys_of = [&](const EdgePair &pair) {
