@@ -126,6 +126,38 @@ namespace Touchstone
 
 
 
+  GeneralContact::Range
+  GeneralContact::range(const NodeField &v, const double step) const
+  {
+    std::array<double, 2 * dim> most, all;
+    most.fill(-std::numeric_limits<double>::max());
+    double none = 0.; // or not a number, which comparisons do not see
+    for (const unsigned int node : surface.owned_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double motion = step * v[node][d];
+          most[d]             = std::max(most[d], motion);
+          most[dim + d]       = std::max(most[dim + d], -motion);
+          none += 0. * motion;
+        }
+    if (!(none == 0.))
+      most[0] = std::numeric_limits<double>::infinity();
+    Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
+                        nodes.communicator(),
+                        ArrayView<double>(all.data(), all.size()));
+    Range          result{0., 0., 0., 0.};
+    Tensor<1, dim> in_cycle;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        in_cycle[d]     = all[d] + all[dim + d];
+        result.in_cycle = std::max(result.in_cycle, in_cycle[d]);
+      }
+    result.far_in_cycle = above_round_off * in_cycle.norm();
+    return result;
+  }
+
+
+
   void
   GeneralContact::renew_candidates(const NodeField &u,
                                    const NodeField &v,
@@ -355,7 +387,7 @@ namespace Touchstone
                                  const double       step,
                                  const unsigned int round)
   {
-    const Range moves = range(u, v, step);
+    const Range moves = range(v, step);
     if (!candidates.any() || !std::isfinite(moves.in_cycle))
       return Crossings::none;
     if (moves.in_cycle > most_in_cycle)

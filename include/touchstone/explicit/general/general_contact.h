@@ -365,6 +365,9 @@ namespace Touchstone
     };
     Range
     range(const NodeField &u, const NodeField &v, double step) const;
+    /** The same in the cycle alone. */
+    Range
+    range(const NodeField &v, double step) const;
     void
     renew_candidates(const NodeField &u, const NodeField &v, double step, double in_cycle);
     /** Nothing is known of new candidates. */
