@@ -37,8 +37,8 @@ namespace Touchstone
    * In each cycle there are rows for nodes that touch a face and for edges that pressed in the
    * cycle before, and those that the crossing check asks for: straight motion of all nodes through
    * the cycle, nodes against faces and edges against edges. Nothing is kept from one interval to
-   * the next; within an interval only what starts the sweeps, which edges pressed, and which nodes did so
-   * lately.
+   * the next; within an interval only what starts the sweeps, which edges pressed, and which nodes
+   * did so lately.
    */
   class GeneralContact
   {
