@@ -34,6 +34,10 @@ main(int argc, char **argv)
   const bool                               root = (folder.rank == 0);
   const bool                               last = (folder.rank + 1 == folder.n_ranks);
 
+  // The nodes are those of the first rank.
+  dealii::IndexSet owned(3 * 100);
+  if (root)
+    owned.add_range(0, owned.size());
   std::vector<ContactPoint> points;
   if (root)
     for (unsigned int pair = 0; pair < 2; ++pair)
@@ -65,12 +69,13 @@ main(int argc, char **argv)
     }
 
   ContactOutput nothing(folder);
-  nothing.write({}, {}, 0, 0.);
+  nothing.write({}, {}, owned, 0, 0.);
   if (root)
     print_lines(folder.path("contact.pvd"), "DataSet");
 
   const ContactFieldList fields;
-  for (const auto &[key, node] : collect_contact_nodes(fields, biquadratic, points, communicator))
+  for (const auto &[key, node] :
+       collect_contact_nodes(fields, biquadratic, points, owned, communicator))
     if (last && !root)
       if (node.values[fields.position("pressure")] != 10. * key.first + key.second ||
           node.reference_position[2] != double(key.first) ||
@@ -79,12 +84,12 @@ main(int argc, char **argv)
         std::cout << "wrong point" << std::endl;
 
   ContactOutput output(folder);
-  output.write(bilinear, points, 0, 0.);
-  output.write(biquadratic, points, 1, 0.5);
+  output.write(bilinear, points, owned, 0, 0.);
+  output.write(biquadratic, points, owned, 1, 0.5);
   // Nothing is in contact any more.
   for (ContactPoint &point : points)
     point.status = ContactStatus::no_partner;
-  output.write(bilinear, points, 2, 1.);
+  output.write(bilinear, points, owned, 2, 1.);
 
   if (root)
     {

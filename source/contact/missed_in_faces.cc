@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
+#include <touchstone/base/near_ranks.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/face_area.h>
@@ -33,30 +34,23 @@ namespace Touchstone
   std::vector<Face>
   MissedContact::master_faces(const std::vector<Face> &slaves) const
   {
-    Box own;
-    for (std::size_t k = 0; k < slaves.size(); ++k)
-      if (const Box box =
-            MeasuredFace::box_around(slaves[k], MeasuredFace(slaves[k], nullptr).size());
-          k == 0)
-        own = box;
-      else
-        own.merge_with(box);
-    const MPI_Comm         communicator = contact.communicator();
-    const std::vector<Box> boxes        = Utilities::MPI::all_gather(communicator, own);
-    const std::vector<int> any =
-      Utilities::MPI::all_gather(communicator, static_cast<int>(!slaves.empty()));
-    std::map<unsigned int, std::vector<Face>> messages;
+    const MPI_Comm    communicator = contact.communicator();
+    std::vector<Box>  around_slaves, boxes;
+    std::vector<Face> masters;
+    for (const Face &slave : slaves)
+      around_slaves.push_back(MeasuredFace::box_around(slave, MeasuredFace(slave, nullptr).size()));
     for (const Face &face : pair.master()->owned_faces())
-      {
-        // Of one body a face that carries may be slave and master: its rows resist as well.
-        if (pair.parameters().of_one_body() && !carries_nothing(face))
-          continue;
-        const Face now = present(face);
-        const Box  box = MeasuredFace::box_around(now, 0.);
-        for (unsigned int rank = 0; rank < boxes.size(); ++rank)
-          if (any[rank] && boxes[rank].get_neighbor_type(box) != NeighborType::not_neighbors)
-            messages[rank].push_back(now);
-      }
+      // Of one body a face that carries may be slave and master: its rows resist as well.
+      if (!pair.parameters().of_one_body() || carries_nothing(face))
+        {
+          masters.push_back(present(face));
+          boxes.push_back(MeasuredFace::box_around(masters.back(), 0.));
+        }
+    std::map<unsigned int, std::vector<Face>> messages;
+    const auto ranks = near_ranks(around_slaves, boxes, communicator);
+    for (std::size_t f = 0; f < masters.size(); ++f)
+      for (const unsigned int rank : ranks[f])
+        messages[rank].push_back(masters[f]);
     std::vector<Face> result;
     for (const auto &[rank, faces] : exchange_records(messages, communicator))
       result.insert(result.end(), faces.begin(), faces.end());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
+#include <touchstone/base/near_ranks.h>
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/overlap_order.h>
@@ -84,22 +85,18 @@ namespace Touchstone
 
 
 
-    /** What this rank's cells have of the surfaces, and the box around all of them. */
-    std::pair<std::vector<SurfacePoint>, Box>
+    /** What this rank's cells have of the surfaces; and, of several ranks, the boxes around them.
+     */
+    std::pair<std::vector<SurfacePoint>, std::vector<Box>>
     own_surfaces(const Solid &solid, const Vector &u, const std::set<unsigned int> &bodies)
     {
       std::vector<SurfacePoint> points;
       std::vector<bool>         done(solid.relevant.n_elements());
-      std::vector<Point<dim>>   extremes;
+      std::vector<Box>          boxes;
+      const bool                alone = Utilities::MPI::n_mpi_processes(solid.communicator) == 1;
       for_each_cell(solid, u, bodies, [&](const BodyCell &cell) {
-        const Box box = box_of(cell);
-        if (extremes.empty())
-          extremes = {box.get_boundary_points().first, box.get_boundary_points().second};
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            extremes[0][d] = std::min(extremes[0][d], box.get_boundary_points().first[d]);
-            extremes[1][d] = std::max(extremes[1][d], box.get_boundary_points().second[d]);
-          }
+        if (!alone)
+          boxes.push_back(box_of(cell));
         for (unsigned int f = 0; f < n_faces; ++f)
           if (cell.outer[f])
             {
@@ -116,8 +113,7 @@ namespace Touchstone
               points.push_back({cell.body, invalid_index, centre});
             }
       });
-      // Of a rank without cells: a box without extent.
-      return {points, extremes.empty() ? Box() : Box(extremes)};
+      return {points, boxes};
     }
 
 
@@ -154,16 +150,20 @@ namespace Touchstone
 
     /** The points of all ranks that may lie in cells of this rank. */
     std::vector<SurfacePoint>
-    points_around(std::vector<SurfacePoint> own, const Box &box, const MPI_Comm communicator)
+    points_around(std::vector<SurfacePoint> own,
+                  const std::vector<Box>   &boxes,
+                  const MPI_Comm            communicator)
     {
       if (Utilities::MPI::n_mpi_processes(communicator) == 1)
         return own;
-      const std::vector<Box> boxes = Utilities::MPI::all_gather(communicator, box);
+      std::vector<Box> at_points;
+      for (const SurfacePoint &point : own)
+        at_points.push_back(Box({point.x, point.x}));
       std::map<unsigned int, std::vector<SurfacePoint>> messages;
-      for (unsigned int rank = 0; rank < boxes.size(); ++rank)
-        for (const SurfacePoint &point : own)
-          if (boxes[rank].point_inside(point.x))
-            messages[rank].push_back(point);
+      const auto ranks = near_ranks(boxes, at_points, communicator);
+      for (std::size_t k = 0; k < own.size(); ++k)
+        for (const unsigned int rank : ranks[k])
+          messages[rank].push_back(own[k]);
       std::vector<SurfacePoint> result;
       for (const auto &[rank, points] : exchange_records(messages, communicator))
         result.insert(result.end(), points.begin(), points.end());

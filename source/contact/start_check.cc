@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/exchange.h>
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/near_ranks.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/start_check.h>
 #include <touchstone/contact/tolerances.h>
@@ -10,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
 // Checks of a contact pair before the first step, for mistakes of the input that would let bodies
@@ -68,28 +71,54 @@ namespace Touchstone
       return {{centre[0], centre[1], centre[2], n[0], n[1], n[2]}};
     }
 
-    /** The positions and normals of all ranks, one rank after the other. */
     std::vector<Place>
-    gather(const std::vector<Place> &mine, const MPI_Comm communicator)
-    {
-      std::vector<Place> result;
-      for (const auto &part : Utilities::MPI::all_gather(communicator, mine))
-        result.insert(result.end(), part.begin(), part.end());
-      return result;
-    }
-
-    std::vector<Place>
-    all_places(const Surface &surface, const Vector &u, const MPI_Comm communicator)
+    own_places(const Surface &surface, const Vector &u)
     {
       std::vector<Place> mine;
       for (const SurfaceNode &node : surface.owned_nodes())
         mine.push_back(place(surface, node, u));
-      return gather(mine, communicator);
+      return mine;
     }
 
-    /** Of the positions in @p places (the same on all ranks) that lie within a body the largest
-     * distance to the closest of the @p others whose normal opposes theirs; length. Zero if no
-     * position lies within the body. Collective. */
+    /** Those of this rank's places that lie within a body, whatever ranks have its cells there.
+     * Collective. */
+    std::vector<Place>
+    within(const std::vector<Place> &places,
+           const Solid              &solid,
+           const unsigned int        body,
+           const Vector             &u)
+    {
+      struct Numbered
+      {
+        std::size_t number;
+        Place       place;
+      };
+      const DeformedCells           cells(solid, body, u);
+      std::vector<BoundingBox<dim>> at_places;
+      for (const Place &place : places)
+        at_places.push_back(BoundingBox<dim>({position(place), position(place)}));
+      std::map<unsigned int, std::vector<Numbered>>    questions;
+      std::map<unsigned int, std::vector<std::size_t>> answers;
+      const auto ranks = near_ranks(cells.boxes(), at_places, solid.communicator);
+      for (std::size_t k = 0; k < places.size(); ++k)
+        for (const unsigned int rank : ranks[k])
+          questions[rank].push_back({k, places[k]});
+      for (const auto &[rank, asked] : exchange_records(questions, solid.communicator))
+        for (const Numbered &one : asked)
+          if (cells.contain(position(one.place)))
+            answers[rank].push_back(one.number);
+      std::set<std::size_t> inside;
+      for (const auto &[rank, numbers] : exchange_records(answers, solid.communicator))
+        inside.insert(numbers.begin(), numbers.end());
+      std::vector<Place> result;
+      for (const std::size_t k : inside)
+        result.push_back(places[k]);
+      return result;
+    }
+
+    /** Of the positions in @p places that lie within a body the largest distance to the closest of
+     * the @p others whose normal opposes theirs, both of all ranks; length. Zero if no position
+     * lies within the body. Collective. */
     double
     deepest(const std::vector<Place> &places,
             const std::vector<Place> &others,
@@ -97,28 +126,23 @@ namespace Touchstone
             const unsigned int        body,
             const Vector             &u)
     {
-      if (places.empty())
+      // Where bodies are as they should be these are none, or few.
+      const std::vector<Place> inside =
+        gather_all(within(places, solid, body, u), solid.communicator);
+      if (inside.empty())
         return 0.;
-      // Each rank tests against its own cells; a place lies within the body if any rank says so.
-      const DeformedCells cells(solid, body, u);
-      std::vector<int>    inside(places.size(), 0);
-      for (std::size_t k = 0; k < places.size(); ++k)
-        inside[k] = cells.contain(position(places[k]));
-      // Element by element over the ranks.
-      Utilities::MPI::max(inside, solid.communicator, inside);
+      std::vector<double> closest(inside.size(), std::numeric_limits<double>::max());
+      for (std::size_t k = 0; k < inside.size(); ++k)
+        for (const Place &other : others)
+          // Only surfaces that oppose each other: the other side of a thin body may be closer.
+          if (normal(inside[k]) * normal(other) < -Tolerances::perpendicular_cosine)
+            closest[k] = std::min(closest[k], position(inside[k]).distance(position(other)));
+      Utilities::MPI::min(closest, solid.communicator, closest);
       double result = 0.;
-      for (std::size_t k = 0; k < places.size(); ++k)
-        if (inside[k] == 1)
-          {
-            double closest = std::numeric_limits<double>::max();
-            for (const Place &other : others)
-              // Only surfaces that oppose each other: the other side of a thin body may be closer.
-              if (normal(places[k]) * normal(other) < -Tolerances::perpendicular_cosine)
-                closest = std::min(closest, position(places[k]).distance(position(other)));
-            // Without any opposed surface the depth cannot be measured.
-            if (closest < std::numeric_limits<double>::max())
-              result = std::max(result, closest);
-          }
+      for (const double distance : closest)
+        // Without any opposed surface the depth cannot be measured.
+        if (distance < std::numeric_limits<double>::max())
+          result = std::max(result, distance);
       return result;
     }
   } // namespace
@@ -177,22 +201,16 @@ namespace Touchstone
                       face.nodes.begin() + face.n_nodes(),
                       [&](const Index node) { return nodes.count(node) > 0; }))
         alone.push_back(place_below(slave, face, u));
-    alone = gather(alone, solid.communicator);
-    if (alone.empty())
+    if (Utilities::MPI::max(static_cast<int>(!alone.empty()), solid.communicator) == 0)
       return 0.;
-    double depth =
-      deepest(alone, all_places(*master, u, solid.communicator), solid, master_body, u);
+    double depth = deepest(alone, own_places(*master, u), solid, master_body, u);
     // No centre of a slave face needs to lie within the master body, for instance if slave faces
     // are much larger than the master: then test master faces within the slave body.
     if (depth == 0. && nothing_found())
       {
         for (const Face &face : master->owned_faces())
           masters.push_back(place_below(*master, face, u));
-        depth = deepest(gather(masters, solid.communicator),
-                        all_places(slave, u, solid.communicator),
-                        solid,
-                        slave_body,
-                        u);
+        depth = deepest(masters, own_places(slave, u), solid, slave_body, u);
       }
     return depth;
   }
@@ -263,7 +281,7 @@ namespace Touchstone
                        "they may be tied");
     // No node is within reach, as with bodies that are brought together later. At least one slave
     // node must face the master node closest to it.
-    const std::vector<Place> masters = all_places(*master, u, solid.communicator);
+    const std::vector<Place> masters = gather_all(own_places(*master, u), solid.communicator);
     for (const SurfaceNode &node : slave.owned_nodes())
       {
         const Place mine = place(slave, node, u);

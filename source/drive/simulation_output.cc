@@ -42,8 +42,8 @@ namespace Touchstone
     auto           faces   = contact_faces(contact);
     auto           points  = contact_points(contact, u);
     problem->add_contact_results(faces, points);
-    contact_output.write(faces, points, step, time);
-    master_output.write(master_faces(contact), master_points(contact, u), step, time);
+    contact_output.write(faces, points, solid.owned, step, time);
+    master_output.write(master_faces(contact), master_points(contact, u), solid.owned, step, time);
   }
 
 

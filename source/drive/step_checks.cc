@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/first_of_ranks.h>
 #include <touchstone/base/non_convergence.h>
 #include <touchstone/contact/contact_checks.h>
 #include <touchstone/contact/pulling_obstacle.h>
@@ -166,9 +167,7 @@ namespace Touchstone
       if (first.empty() ||
           std::lexicographical_compare(row.begin(), row.end(), first.begin(), first.end()))
         first.assign(row.begin(), row.end());
-    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, first))
-      if (!other.empty() && (first.empty() || other < first))
-        first = other;
+    first = first_of_ranks(first, dim + 1, solid.communicator);
     if (first.empty())
       return "";
     const auto &pair = scene.pairs[static_cast<unsigned int>(first[dim])];
@@ -190,8 +189,9 @@ namespace Touchstone
     VectorTools::get_position_vector(solid.mapping, solid.dof_handler, positions);
     const std::vector<unsigned int> body = bodies_of_unknowns(solid);
 
-    // The worst node as a plain vector for all_gather: magnitude of the force, position, number of
-    // the body and of the node. Of equal forces the first by position.
+    // The worst node as numbers of which the first list is wanted: magnitude of the force with the
+    // other sign, position, number of the body and of the node. Of equal forces the first by
+    // position.
     std::vector<double> worst;
     for (std::size_t k = 0; k < body.size() / dim; ++k)
       {
@@ -199,18 +199,15 @@ namespace Touchstone
         for (unsigned int d = 0; d < dim; ++d)
           force[d] = free.begin()[dim * k + d];
         const double *x = positions.begin() + dim * k;
-        if (force.norm() > 0. && (worst.empty() || force.norm() > worst[0]))
-          worst = {force.norm(),
+        if (force.norm() > 0. && (worst.empty() || -force.norm() < worst[0]))
+          worst = {-force.norm(),
                    x[0],
                    x[1],
                    x[2],
                    static_cast<double>(body[dim * k]),
                    static_cast<double>(solid.owned.nth_index_in_set(dim * k) / dim)};
       }
-    for (const auto &other : Utilities::MPI::all_gather(solid.communicator, worst))
-      if (!other.empty() &&
-          (worst.empty() || other[0] > worst[0] || (other[0] == worst[0] && other < worst)))
-        worst = other;
+    worst = first_of_ranks(worst, 6, solid.communicator);
     if (worst.empty())
       return "";
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/ask_owners.h>
 #include <touchstone/output/contact_output.h>
 
-#include <boost/serialization/utility.hpp>
-#include <boost/serialization/vector.hpp>
+#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -62,20 +62,75 @@ namespace Touchstone
 
 
 
+  namespace
+  {
+    using Key = ContactNodeMap::key_type;
+
+    /** A node of a pair that its owner is asked about. */
+    struct NodeOfPair
+    {
+      unsigned int pair;
+      Index        node;
+    };
+
+    /** The nodes among @p missing that have results, from their owners. Collective. */
+    void
+    add_from_owners(const std::set<Key>    &missing,
+                    const std::size_t       n_values,
+                    const dealii::IndexSet &owned,
+                    const MPI_Comm          communicator,
+                    ContactNodeMap         &map)
+    {
+      std::vector<NodeOfPair> asked;
+      for (const auto &[pair, node] : missing)
+        asked.push_back({pair, node});
+      const auto questions = records_by_owner(asked, owned, communicator, [](const NodeOfPair &of) {
+        return dim * of.node;
+      });
+      // Of each node that is asked for whether it has results, its position and values.
+      const std::size_t                           n = 1 + dim + n_values;
+      std::map<unsigned int, std::vector<double>> answers;
+      for (const auto &[rank, list] : exchange_records(questions, communicator))
+        for (const NodeOfPair &of : list)
+          {
+            std::vector<double> &answer = answers[rank];
+            const auto           found  = map.find({of.pair, of.node});
+            answer.resize(answer.size() + n);
+            if (found == map.end())
+              continue;
+            double *const begin = &answer[answer.size() - n];
+            begin[0]            = 1.;
+            std::copy(found->second.reference_position.begin_raw(),
+                      found->second.reference_position.end_raw(),
+                      begin + 1);
+            std::copy(found->second.values.begin(), found->second.values.end(), begin + 1 + dim);
+          }
+      for (const auto &[rank, answer] : exchange_records(answers, communicator))
+        for (std::size_t k = 0; k < answer.size() / n; ++k)
+          if (const double *const begin = &answer[k * n]; begin[0] == 1.)
+            {
+              const NodeOfPair &of    = questions.at(rank)[k];
+              map[{of.pair, of.node}] = {dealii::Point<dim>(begin[1], begin[2], begin[3]),
+                                         {begin + 1 + dim, begin + n}};
+            }
+    }
+  } // namespace
+
+
+
   ContactNodeMap
   collect_contact_nodes(const ContactFieldList          &fields,
                         const std::vector<ContactFace>  &faces,
                         const std::vector<ContactPoint> &points,
+                        const dealii::IndexSet          &owned,
                         const MPI_Comm                   communicator)
   {
     // Keyed by pair and node: a node can be slave of several pairs and has results in each.
-    using Key = ContactNodeMap::key_type;
     ContactNodeMap map;
     for (const ContactPoint &point : points)
       map[{point.pair, point.node}] = {point.reference_position, fields.values_at(point)};
 
-    // Only nodes at the borders of partitions are missing: few enough for an exchange of requests
-    // and answers between all ranks.
+    // Only nodes at the borders of partitions are missing.
     std::set<Key> missing;
     const auto    want = [&](const unsigned int pair, const Index node) {
       if (map.find({pair, node}) == map.end())
@@ -89,22 +144,7 @@ namespace Touchstone
           for (const StencilEntry &entry : hanging.follows)
             want(face.pair, entry.node);
       }
-    const auto requests =
-      dealii::Utilities::MPI::all_gather(communicator,
-                                         std::vector<Key>(missing.begin(), missing.end()));
-    std::set<Key> requested;
-    for (const auto &of_rank : requests)
-      requested.insert(of_rank.begin(), of_rank.end());
-
-    // Each owner answers all requests at once; answers to other ranks are ignored.
-    std::vector<std::pair<Key, ContactNode>> answer;
-    for (const ContactPoint &point : points)
-      if (const Key key = {point.pair, point.node}; requested.count(key) > 0)
-        answer.emplace_back(key, map.at(key));
-    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(communicator, answer))
-      for (const auto &[key, node] : of_rank)
-        if (missing.count(key) > 0)
-          map[key] = node;
+    add_from_owners(missing, fields.n_values(), owned, communicator, map);
 
     for (const ContactFace &face : faces)
       for (const ContactFace::HangingNode &hanging : face.hanging)
@@ -238,10 +278,12 @@ namespace Touchstone
   void
   ContactOutput::write(const std::vector<ContactFace>  &faces,
                        const std::vector<ContactPoint> &points,
+                       const dealii::IndexSet          &owned,
                        const unsigned int               step,
                        const double                     time)
   {
-    const ContactNodeMap nodes = collect_contact_nodes(fields, faces, points, folder.communicator);
+    const ContactNodeMap nodes =
+      collect_contact_nodes(fields, faces, points, owned, folder.communicator);
     const ContactSurfaceData data(fields, faces, nodes, files->has_doubles());
     // No file if no rank has a face, e.g. without contact pairs; the decision must be the same on
     // all ranks.

@@ -7,6 +7,8 @@
 #include <touchstone/output/contact_field.h>
 #include <touchstone/output/file_series.h>
 
+#include <deal.II/base/index_set.h>
+
 #include <map>
 #include <memory>
 #include <string>
@@ -21,13 +23,6 @@ namespace Touchstone
     dealii::Point<dim> reference_position;
     /** Of all fields, in the order of ContactFieldList. */
     std::vector<double> values;
-
-    template <class Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
-    {
-      archive &reference_position &values;
-    }
   };
 
   /** @brief Nodes by the number of the pair and of the node. */
@@ -38,11 +33,13 @@ namespace Touchstone
    * are owned. Collective.
    * @param faces  Slave or master faces of this rank.
    * @param points Results at the nodes of this side that this rank owns.
+   * @param owned  Dofs of this rank: whom others ask for the values of their nodes.
    */
   ContactNodeMap
   collect_contact_nodes(const ContactFieldList          &fields,
                         const std::vector<ContactFace>  &faces,
                         const std::vector<ContactPoint> &points,
+                        const dealii::IndexSet          &owned,
                         MPI_Comm                         communicator);
 
   /** @brief One set of faces in the form that deal.II's writers take. */
@@ -85,11 +82,12 @@ namespace Touchstone
                            ResultFormat        format = ResultFormat::vtu,
                            const std::string  &name   = "contact");
 
-    /** @brief Write the file of one step, unless no rank has any face.
-     * Collective. @throws OutputError on all ranks. */
+    /** @brief Write the file of one step, unless no rank has any face. Parameters as of
+     * collect_contact_nodes(). Collective. @throws OutputError on all ranks. */
     void
     write(const std::vector<ContactFace>  &faces,
           const std::vector<ContactPoint> &points,
+          const dealii::IndexSet          &owned,
           unsigned int                     step,
           double                           time);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/first_of_ranks.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/friction/friction_response.h>
@@ -195,10 +196,7 @@ namespace Touchstone
       for (const ContactRow &row : rows)
         if (violation(row) > 0. && (first.empty() || order(row) < first))
           first = order(row);
-      for (const auto &other : Utilities::MPI::all_gather(communicator, first))
-        if (!other.empty() && (first.empty() || other < first))
-          first = other;
-      return first;
+      return first_of_ranks(first, 5, communicator);
     }
 
 

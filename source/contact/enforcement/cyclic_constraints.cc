@@ -2,7 +2,7 @@
 
 #include <touchstone/algebra/constraint_graph.h>
 #include <touchstone/algebra/strong_components.h>
-#include <touchstone/base/exchange.h>
+#include <touchstone/base/ask_owners.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/cyclic_constraints.h>
 #include <touchstone/contact/enforcement/row_terms.h>
@@ -181,7 +181,95 @@ namespace Touchstone
 
   namespace
   {
-    /** What the active rows of a pair depend on, of all ranks. Collective. */
+    /** Leave out what lies on no cycle, as nothing that is determined leads on from it or to it,
+     * and what lies on none without that, and so on, in at most so many rounds: what all ranks get
+     * are rows on cycles and between them, and not all rows. Each rank asks the owners of the dofs
+     * that its rows depend on. Collective. */
+    void
+    leave_out_ends(std::vector<Dependence> &kept,
+                   std::vector<Dependence> &of_pair,
+                   const IndexSet          &owned,
+                   const MPI_Comm           communicator)
+    {
+      constexpr unsigned int most_rounds = 20;
+      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+        return; // nothing is sent
+      const auto keep = [](std::vector<Index> &dofs, const std::set<Index> &kept) {
+        const auto end  = std::remove_if(dofs.begin(), dofs.end(), [&](const Index dof) {
+          return kept.count(dof) == 0;
+        });
+        const bool some = end != dofs.end();
+        dofs.erase(end, dofs.end());
+        return some;
+      };
+      int removed = 1;
+      for (unsigned int round = 0; round < most_rounds && removed > 0; ++round)
+        {
+          std::set<Index> determined, asked, wanted;
+          for (const auto *const list : {&kept, &of_pair})
+            for (const Dependence &d : *list)
+              {
+                determined.insert(d.dofs.begin(), d.dofs.end());
+                asked.insert(d.on.begin(), d.on.end());
+              }
+          const std::vector<Index> leading = known_to_owners(
+            std::vector<Index>(asked.begin(), asked.end()),
+            owned,
+            communicator,
+            [](const Index dof) { return dof; },
+            [&](const Index dof) {
+              wanted.insert(dof);
+              return determined.count(dof) > 0;
+            });
+          const std::set<Index> leads_on(leading.begin(), leading.end());
+          removed = 0;
+          for (auto *const list : {&kept, &of_pair})
+            {
+              for (Dependence &d : *list)
+                {
+                  removed |= keep(d.on, leads_on);
+                  removed |= keep(d.dofs, wanted);
+                }
+              list->erase(std::remove_if(list->begin(),
+                                         list->end(),
+                                         [](const Dependence &d) {
+                                           return d.dofs.empty() || d.on.empty();
+                                         }),
+                          list->end());
+            }
+          removed = Utilities::MPI::max(removed, communicator);
+        }
+    }
+
+    /** Leave out what rows of a pair depend on at slave nodes of these rows, of any rank.
+     * Collective. */
+    void
+    leave_out_own_slaves(std::vector<Dependence> &mine,
+                         const IndexSet          &owned,
+                         const MPI_Comm           communicator)
+    {
+      std::set<Index> slaves, asked;
+      for (const Dependence &d : mine)
+        {
+          slaves.insert(d.slave);
+          for (const Index dof : d.on)
+            asked.insert(dof / dim);
+        }
+      const std::vector<Index> known = known_to_owners(
+        std::vector<Index>(asked.begin(), asked.end()),
+        owned,
+        communicator,
+        [](const Index node) { return dim * node; },
+        [&](const Index node) { return slaves.count(node) > 0; });
+      const std::set<Index> of_pair(known.begin(), known.end());
+      for (Dependence &d : mine)
+        d.on.erase(std::remove_if(d.on.begin(),
+                                  d.on.end(),
+                                  [&](const Index dof) { return of_pair.count(dof / dim) > 0; }),
+                   d.on.end());
+    }
+
+    /** What rows depend on, of all ranks. Collective. */
     std::vector<Dependence>
     gather(const std::vector<Dependence> &mine, const MPI_Comm communicator)
     {
@@ -251,6 +339,8 @@ namespace Touchstone
     // does not depend on the order of the nodes, which depends on the partition.
     std::vector<bool>       redundant(contact.rows().size(), false);
     std::vector<Dependence> kept;
+    const IndexSet         &owned        = contact.solid_model().owned;
+    const MPI_Comm          communicator = contact.communicator();
     for (const unsigned int p : cyclic)
       {
         std::vector<Dependence> mine;
@@ -264,22 +354,19 @@ namespace Touchstone
             if (state.active() && !(free.norm() < 1e-3))
               mine.push_back(dependence(row, state, free, threshold, own_body));
           }
-        std::vector<Dependence> of_pair = gather(mine, contact.communicator());
-        std::set<Index>         slaves;
-        for (const Dependence &d : of_pair)
-          slaves.insert(d.slave);
         // Dependencies between slave nodes of the same pair, which averaged normals and weights
         // make, are handled by the enforcement, see Elimination::adjust().
-        for (Dependence &d : of_pair)
-          if (!own_body)
-            d.on.erase(std::remove_if(d.on.begin(),
-                                      d.on.end(),
-                                      [&](const Index dof) { return slaves.count(dof / dim) > 0; }),
-                       d.on.end());
-        std::vector<Dependence> all(kept);
+        if (!own_body)
+          leave_out_own_slaves(mine, owned, communicator);
+        std::vector<Dependence> kept_ends(kept), of_pair(mine);
+        leave_out_ends(kept_ends, of_pair, owned, communicator);
+        kept_ends = gather(kept_ends, communicator);
+        of_pair   = gather(of_pair, communicator);
+        std::vector<Dependence> all(kept_ends);
         all.insert(all.end(), of_pair.begin(), of_pair.end());
-        const std::set<Index> cycle = own_body ? closing_cycles(kept, of_pair) : in_cycles(all);
-        for (const Dependence &d : of_pair)
+        const std::set<Index> cycle =
+          own_body ? closing_cycles(kept_ends, of_pair) : in_cycles(all);
+        for (const Dependence &d : mine)
           if (cycle.count(d.slave) == 0)
             kept.push_back(d);
         for (const ContactRow &row : contact.pair(p).rows())

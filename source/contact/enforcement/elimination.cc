@@ -135,30 +135,42 @@ namespace Touchstone
       void
       check_order(const Contact &contact, const MPI_Comm communicator) const
       {
-        using Slave = std::pair<unsigned int, Index>; // pair and node
-        std::vector<std::pair<Slave, Slave>> mine;
+        std::multimap<SlaveNode, SlaveNode> refers;
         for (const ContactRow &row : contact.rows())
           if (row_states[row].active())
             for (const StencilEntry &entry : row.stencil)
               if (entry.weight < 0.)
-                mine.emplace_back(Slave(row.pair, row.slave), Slave(row.pair, entry.node));
-        std::multimap<Slave, Slave> refers;
-        for (const auto &of_rank : Utilities::MPI::all_gather(communicator, mine))
-          refers.insert(of_rank.begin(), of_rank.end());
-        // Nodes that refer to none are last in the order; what is left refers in a circle.
-        for (bool removed = true; removed;)
+                refers.insert({{row.pair, row.slave}, {row.pair, entry.node}});
+        // Nodes that refer to none are last in the order, as their owners know; what is left refers
+        // in a circle.
+        int left = 1;
+        for (int removed = 1; removed > 0 && left > 0;)
           {
-            removed = false;
+            left = Utilities::MPI::max(static_cast<int>(!refers.empty()), communicator);
+            if (left == 0)
+              break;
+            Slaves referred;
+            for (const auto &[from, to] : refers)
+              referred.insert(to);
+            const std::vector<SlaveNode> known = known_to_owners(
+              std::vector<SlaveNode>(referred.begin(), referred.end()),
+              contact.solid_model().owned,
+              communicator,
+              [](const SlaveNode &slave) { return dim * slave.node; },
+              [&](const SlaveNode &slave) { return refers.count(slave) > 0; });
+            const Slaves refer(known.begin(), known.end());
+            removed = 0;
             for (auto entry = refers.begin(); entry != refers.end();)
-              if (refers.count(entry->second) == 0)
+              if (refer.count(entry->second) == 0)
                 {
                   entry   = refers.erase(entry);
-                  removed = true;
+                  removed = 1;
                 }
               else
                 ++entry;
+            removed = Utilities::MPI::max(removed, communicator);
           }
-        if (!refers.empty())
+        if (left > 0)
           throw UnresolvedContactFailure(
             "edges or vertices touch the same slave edge or face in several points, whose slave "
             "unknowns cannot all be eliminated by an iterative solver. Set 'Linear solver/Type = "

@@ -99,6 +99,17 @@ namespace Touchstone
 
 
 
+  std::vector<DeformedCells::Box>
+  DeformedCells::boxes() const
+  {
+    std::vector<Box> result;
+    for (const auto &entry : tree)
+      result.push_back(entry.first);
+    return result;
+  }
+
+
+
   bool
   DeformedCells::contain(const Point<dim> &x) const
   {

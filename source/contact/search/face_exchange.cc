@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
+#include <touchstone/base/near_ranks.h>
 #include <touchstone/contact/search/face_exchange.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <limits>
 
 // Sends each master face to the ranks whose slave nodes it may meet (doc/theory.md 4, "Search"),
 // once per update of the contact rows, and derivatives of averaged normals back on request. Both
@@ -102,27 +102,6 @@ namespace Touchstone
 
 
 
-  FaceExchange::Capture
-  FaceExchange::capture(const std::vector<Point<dim>> &positions) const
-  {
-    Capture result;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        // Without positions the box stays inverted and meets nothing.
-        result.lower[d] = std::numeric_limits<double>::max();
-        result.upper[d] = std::numeric_limits<double>::lowest();
-      }
-    for (const Point<dim> &x : positions)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          result.lower[d] = std::min(result.lower[d], x[d] - reach);
-          result.upper[d] = std::max(result.upper[d], x[d] + reach);
-        }
-    return result;
-  }
-
-
-
   Face
   FaceExchange::own_face(const std::size_t f) const
   {
@@ -197,37 +176,32 @@ namespace Touchstone
     by_key.clear();
     sent.clear();
     received.clear();
-    const std::size_t  n_own     = surface.owned_faces().size();
     const unsigned int this_rank = Utilities::MPI::this_mpi_process(communicator);
-    // All ranks get the boxes of all (six numbers each) and each decides which of its own faces to
-    // send: one collective and one sparse exchange.
-    std::vector<Capture> captures;
-    for (const auto &of_rank :
-         gather_records(std::vector<Capture>{capture(positions)}, communicator))
-      captures.push_back(of_rank.front());
-    std::map<unsigned int, std::vector<Face>> messages;
-    for (std::size_t f = 0; f < n_own; ++f)
+    std::vector<Face>  own;
+    std::vector<Box>   boxes, around_slaves;
+    for (std::size_t f = 0; f < surface.owned_faces().size(); ++f)
       {
         // The swept box: also faces that were near at the start of the step are of interest.
-        const Face face = own_face(f);
-        const Box  box  = swept_box(face);
-        for (unsigned int rank = 0; rank < captures.size(); ++rank)
-          {
-            bool meets = true;
-            for (unsigned int d = 0; d < dim; ++d)
-              meets = meets && captures[rank].lower[d] <= captures[rank].upper[d] &&
-                      box.lower_bound(d) <= captures[rank].upper[d] &&
-                      box.upper_bound(d) >= captures[rank].lower[d];
-            if (!meets)
-              continue;
-            // The order in which faces are sent to a rank identifies them in normal_derivatives().
-            sent[rank].push_back(f);
-            if (rank == this_rank)
-              known.push_back(face);
-            else
-              messages[rank].push_back(face);
-          }
+        own.push_back(own_face(f));
+        boxes.push_back(swept_box(own.back()));
       }
+    for (const Point<dim> &x : positions)
+      {
+        around_slaves.push_back(Box({x, x}));
+        around_slaves.back().extend(reach);
+      }
+    std::map<unsigned int, std::vector<Face>> messages;
+    const auto ranks = near_ranks(around_slaves, boxes, communicator);
+    for (std::size_t f = 0; f < own.size(); ++f)
+      for (const unsigned int rank : ranks[f])
+        {
+          // The order in which faces are sent to a rank identifies them in normal_derivatives().
+          sent[rank].push_back(f);
+          if (rank == this_rank)
+            known.push_back(own[f]);
+          else
+            messages[rank].push_back(own[f]);
+        }
     // Faces of one rank are contiguous in "known"; "received" has where they begin.
     if (!known.empty())
       received[this_rank] = 0;

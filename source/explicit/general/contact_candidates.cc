@@ -27,24 +27,38 @@ namespace Touchstone
 
 
 
-    bool
-    overlap(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
+    /** The corners of a box, which are read where they are. */
+    struct Corners
     {
+      Point<dim> lower, upper;
+
+      explicit Corners(const BoundingBox<dim> &box)
+        : lower(box.get_boundary_points().first)
+        , upper(box.get_boundary_points().second)
+      {
+      }
+    };
+
+
+
+    bool
+    overlap(const Corners &a, const Corners &b)
+    {
+      bool apart = false;
       for (unsigned int d = 0; d < dim; ++d)
-        if (a.upper_bound(d) < b.lower_bound(d) || b.upper_bound(d) < a.lower_bound(d))
-          return false;
-      return true;
+        apart |= (a.upper[d] < b.lower[d]) | (b.upper[d] < a.lower[d]);
+      return !apart;
     }
 
 
 
     /** The lower corner of what two boxes have in common. */
     Point<dim>
-    lower_corner(const BoundingBox<dim> &a, const BoundingBox<dim> &b)
+    lower_corner(const Corners &a, const Corners &b)
     {
       Point<dim> result;
       for (unsigned int d = 0; d < dim; ++d)
-        result[d] = std::max(a.lower_bound(d), b.lower_bound(d));
+        result[d] = std::max(a.lower[d], b.lower[d]);
       return result;
     }
   } // namespace
@@ -191,12 +205,17 @@ namespace Touchstone
     face_pairs.clear();
     const unsigned int            me    = Utilities::MPI::this_mpi_process(nodes.communicator());
     const double                  grown = 0.5 * margin;
-    std::vector<BoundingBox<dim>> boxes, edge_boxes;
+    std::vector<BoundingBox<dim>> of_faces;
+    std::vector<Corners>          boxes, node_boxes, edge_boxes;
     for (const MovingFace &moving : all)
       {
-        boxes.push_back(moving.box(grown));
+        of_faces.push_back(moving.box(grown));
+        boxes.emplace_back(of_faces.back());
         for (unsigned int a = 0; a < 4; ++a)
-          edge_boxes.push_back(moving.edge_box(a, grown));
+          {
+            node_boxes.emplace_back(moving.box(a, grown));
+            edge_boxes.emplace_back(moving.edge_box(a, grown));
+          }
       }
     const auto slot_key = [&](const std::size_t slot) {
       return all[slot / 4].face.nodes[slot % 4];
@@ -206,15 +225,14 @@ namespace Touchstone
     };
     const auto mine     = [&](const Point<dim> &corner) { return partition.owner(corner) == me; };
     const auto add_node = [&](const unsigned int of, const unsigned int a, const unsigned int f) {
-      const BoundingBox<dim> box = all[of].box(a, grown);
-      if (!all[f].face.of_cell(all[of].face.nodes[a]) && overlap(box, boxes[f]) &&
-          mine(box.get_boundary_points().first))
+      const Corners &box = node_boxes[4 * std::size_t(of) + a];
+      if (overlap(box, boxes[f]) && !all[f].face.of_cell(all[of].face.nodes[a]) && mine(box.lower))
         node_faces.push_back({4 * std::size_t(of) + a, f, unsigned(face_pairs.size())});
     };
     const auto of_one_cell = [&](const std::size_t edge, const ImpactFace &face) {
       return face.of_cell(slot_key(edge)) && face.of_cell(slot_key(next(edge)));
     };
-    for (const auto &[i, j] : broad_phase->find(boxes))
+    for (const auto &[i, j] : broad_phase->find(of_faces))
       {
         const ImpactFace &a = all[i].face, &b = all[j].face;
         if (!surface.may_meet(a.boundary, b.boundary))
@@ -228,8 +246,8 @@ namespace Touchstone
         for (unsigned int c = 0; c < 4; ++c)
           for (unsigned int d = 0; d < 4; ++d)
             {
-              const std::size_t       one = 4 * std::size_t(i) + c, other = 4 * std::size_t(j) + d;
-              const BoundingBox<dim> &p = edge_boxes[one], &q = edge_boxes[other];
+              const std::size_t one = 4 * std::size_t(i) + c, other = 4 * std::size_t(j) + d;
+              const Corners    &p = edge_boxes[one], &q = edge_boxes[other];
               if (!overlap(p, q))
                 continue;
               const auto k = edge_key(one), l = edge_key(other);
@@ -247,15 +265,17 @@ namespace Touchstone
         if (inner || node_faces.size() + edge_pairs.size() > before)
           face_pairs.push_back({i, j, share_node, inner});
       }
-    // Nodes and edges belong to several faces.
+    // Nodes and edges belong to several faces. Keys are sorted, not the faces that have them.
     const auto unify = [](auto &pairs, const auto &key) {
-      std::sort(pairs.begin(), pairs.end(), [&](const auto &p, const auto &q) {
-        return key(p) < key(q);
-      });
-      pairs.erase(std::unique(pairs.begin(),
-                              pairs.end(),
-                              [&](const auto &p, const auto &q) { return key(p) == key(q); }),
-                  pairs.end());
+      std::vector<std::pair<decltype(key(pairs[0])), std::size_t>> keyed;
+      for (const auto &pair : pairs)
+        keyed.emplace_back(key(pair), keyed.size());
+      std::sort(keyed.begin(), keyed.end());
+      std::decay_t<decltype(pairs)> unique;
+      for (std::size_t k = 0; k < keyed.size(); ++k)
+        if (k == 0 || keyed[k].first != keyed[k - 1].first)
+          unique.push_back(pairs[keyed[k].second]);
+      pairs.swap(unique);
     };
     unify(node_faces, [&](const NodeFace &p) {
       return std::make_pair(slot_key(p.node), all[p.face].face.key);
@@ -264,6 +284,21 @@ namespace Touchstone
       return std::make_pair(std::pair<std::uint64_t, std::uint64_t>(edge_key(p.one)),
                             std::pair<std::uint64_t, std::uint64_t>(edge_key(p.other)));
     });
+  }
+
+
+
+  std::size_t
+  ContactCandidates::find_node(const std::uint64_t of) const
+  {
+    const auto found = std::lower_bound(node_faces.begin(),
+                                        node_faces.end(),
+                                        of,
+                                        [&](const NodeFace &pair, const std::uint64_t wanted) {
+                                          return key(pair.node) < wanted;
+                                        });
+    return found != node_faces.end() && key(found->node) == of ? found - node_faces.begin()
+                                                               : node_faces.size();
   }
 
 

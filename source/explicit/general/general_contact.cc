@@ -25,6 +25,11 @@ namespace Touchstone
      * many rounds none waits for others. */
     constexpr unsigned int rounds_in_order = 3;
 
+    /** Nodes of the coarser side that pressed on a face in one of so many cycles are looked at with
+     * the free velocities: they are mostly over an edge of the face, where they do not count as
+     * touching, and would ask for a round of their own. */
+    constexpr std::uint64_t cycles_remembered = 16;
+
     /** For sums and products of lengths that have to be bounds. */
     constexpr double above_round_off = 1. + 1e-9;
   } // namespace
@@ -41,6 +46,9 @@ namespace Touchstone
     , candidates(surface, nodes, solid.owned, parameters.search.name)
     , made_at(nodes.n_local())
     , outcome(surface, nodes, solid.owned)
+    , normal_now(nodes.n_local())
+    , normal_before(nodes.n_local())
+    , normals_of(nodes.n_local(), 0)
   {
     double size = std::numeric_limits<double>::max();
     for (const unsigned int node : surface.owned_nodes())
@@ -61,11 +69,15 @@ namespace Touchstone
     renew = true;
     candidates.begin_interval();
     rows.clear();
+    last_impulses.clear();
     totals.clear();
     outcome.begin_interval();
     numbers.clear();
     forget();
-    normal_now.clear();
+    std::fill(last_pressed.begin(), last_pressed.end(), 0);
+    pressing.clear();
+    cycles   = 0;
+    begun    = false;
     energies = Energy();
   }
 
@@ -84,7 +96,7 @@ namespace Touchstone
       most[i]       = std::max(most[i], motion);
       most[i + dim] = std::max(most[i + dim], -motion);
     };
-    const NodeField &before = normal_now.empty() ? u : begun_at;
+    const NodeField &before = begun ? begun_at : u;
     for (const unsigned int node : surface.owned_nodes())
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -114,6 +126,38 @@ namespace Touchstone
 
 
 
+  GeneralContact::Range
+  GeneralContact::range(const NodeField &v, const double step) const
+  {
+    std::array<double, 2 * dim> most, all;
+    most.fill(-std::numeric_limits<double>::max());
+    double none = 0.; // or not a number, which comparisons do not see
+    for (const unsigned int node : surface.owned_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double motion = step * v[node][d];
+          most[d]             = std::max(most[d], motion);
+          most[dim + d]       = std::max(most[dim + d], -motion);
+          none += 0. * motion;
+        }
+    if (!(none == 0.))
+      most[0] = std::numeric_limits<double>::infinity();
+    Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
+                        nodes.communicator(),
+                        ArrayView<double>(all.data(), all.size()));
+    Range          result{0., 0., 0., 0.};
+    Tensor<1, dim> in_cycle;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        in_cycle[d]     = all[d] + all[dim + d];
+        result.in_cycle = std::max(result.in_cycle, in_cycle[d]);
+      }
+    result.far_in_cycle = above_round_off * in_cycle.norm();
+    return result;
+  }
+
+
+
   void
   GeneralContact::renew_candidates(const NodeField &u,
                                    const NodeField &v,
@@ -121,6 +165,8 @@ namespace Touchstone
                                    const double     in_cycle)
   {
     keep_totals();
+    const auto pressing = pressing_nodes();
+    const auto last     = pressed_rows();
     made_at             = u;
     const double wanted = parameters.margin_length();
     const double automatic =
@@ -129,11 +175,12 @@ namespace Touchstone
     candidates.find(u, v, step, margin);
     begin_candidates();
     rows.clear();
+    last_impulses.clear();
     totals.clear();
     numbers.clear();
     new_rows = true;
     renew    = false;
-    carry_over();
+    carry_over(last, pressing);
   }
 
 
@@ -142,6 +189,15 @@ namespace Touchstone
   GeneralContact::begin_candidates()
   {
     motion.resize(candidates.at_slots.n());
+    last_pressed.assign(motion.size(), 0);
+    pressed_nodes.assign(motion.size(), 0);
+    pressing.clear();
+    near_faces.clear();
+    near_nodes.clear();
+    face_is_near.assign(candidates.faces.size(), false);
+    node_is_near.assign(motion.size(), false);
+    slave_of_pair.assign(candidates.node_faces.size(), 0);
+    face_limits.assign(candidates.face_pairs.size());
     local.resize(candidates.at_slots.n_owned());
     for (unsigned int node = 0; node < local.size(); ++node)
       local[node] = nodes.local(candidates.at_slots.dof(node));
@@ -153,41 +209,82 @@ namespace Touchstone
 
 
 
-  void
-  GeneralContact::carry_over()
+  bool
+  GeneralContact::presses_often(const std::size_t slot) const
   {
-    std::map<unsigned int, std::vector<Pressed>> messages;
-    for (const auto &[key, what] : pressed)
-      {
-        std::pair<Point<dim>, Point<dim>> corners(what.lower, what.upper);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            corners.first[d] -= candidates.reach();
-            corners.second[d] += candidates.reach();
-          }
-        candidates.regions().for_each_owner(BoundingBox<dim>(corners),
-                                            [&, &what = what](const unsigned int rank) {
-                                              messages[rank].push_back(what);
-                                            });
-      }
-    forget();
-    for (const auto &[rank, list] : exchange_records(messages, nodes.communicator()))
-      for (const Pressed &what : list)
-        remember(what);
+    const std::uint64_t last = last_pressed[candidates.at_slots.node(slot)];
+    return last > 0 && last + cycles_remembered >= cycles;
   }
 
 
 
   void
-  GeneralContact::import(const NodeField &u, const NodeField &v)
+  GeneralContact::press(const std::size_t slot, const std::uint64_t in_cycle)
   {
-    for (unsigned int node = 0; node < local.size(); ++node)
-      motion[node] = {surface.position(local[node], u),
-                      v[local[node]],
-                      normal_now[local[node]],
-                      normal_before[local[node]],
-                      surface.size(local[node])};
-    candidates.at_slots.forward(motion);
+    std::uint64_t &last = last_pressed[candidates.at_slots.node(slot)];
+    if (last == 0)
+      pressing.push_back(slot);
+    last = in_cycle;
+  }
+
+
+
+  // Each node is remembered by the rank that has its candidates, which are on one. What has none is
+  // forgotten, whatever the ranks.
+  std::vector<GeneralContact::PressingNode>
+  GeneralContact::pressing_nodes() const
+  {
+    std::vector<PressingNode> result;
+    for (const std::size_t slot : pressing)
+      if (presses_often(slot))
+        {
+          const NodeMotion &of = at(slot);
+          PressingNode      node{candidates.key(slot),
+                            last_pressed[candidates.at_slots.node(slot)],
+                            {},
+                            {}};
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              node.lower[d] = std::min(of.x[d], of.x[d] + cycle * of.v[d]);
+              node.upper[d] = std::max(of.x[d], of.x[d] + cycle * of.v[d]);
+            }
+          result.push_back(node);
+        }
+    return result;
+  }
+
+
+
+  void
+  GeneralContact::carry_over(const std::vector<Pressed>      &last,
+                             const std::vector<PressingNode> &pressing)
+  {
+    const auto to_regions = [&](const auto &what, auto &messages) {
+      std::pair<Point<dim>, Point<dim>> corners(what.lower, what.upper);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          corners.first[d] -= candidates.reach();
+          corners.second[d] += candidates.reach();
+        }
+      candidates.regions().for_each_owner(BoundingBox<dim>(corners), [&](const unsigned int rank) {
+        messages[rank].push_back(what);
+      });
+    };
+    std::map<unsigned int, std::vector<Pressed>>      of_rows;
+    std::map<unsigned int, std::vector<PressingNode>> of_nodes;
+    for (const Pressed &what : last)
+      to_regions(what, of_rows);
+    for (const PressingNode &what : pressing)
+      to_regions(what, of_nodes);
+    forget();
+    for (const auto &[rank, list] : exchange_records(of_rows, nodes.communicator()))
+      for (const Pressed &what : list)
+        remember(what);
+    for (const auto &[rank, list] : exchange_records(of_nodes, nodes.communicator()))
+      for (const PressingNode &what : list)
+        if (const std::size_t pair = candidates.find_node(what.key);
+            pair < candidates.node_faces.size())
+          press(candidates.node_faces[pair].node, what.cycle);
   }
 
 
@@ -195,20 +292,56 @@ namespace Touchstone
   // The surfaces of the check go on from where the cycle before has left them, with its normals, so
   // that nothing passes through them as normals turn from one cycle to the next.
   void
-  GeneralContact::set_normals(const NodeField &u)
+  GeneralContact::import_node(const unsigned int node, const NodeField &u, const NodeField &v)
   {
-    bool same = !normal_now.empty();
+    const unsigned int of = local[node];
+    if (normals_of[of] != normals_now)
+      {
+        normal_before[of] =
+          normals_of[of] + 1 == normals_now ? normal_now[of] : surface.normal(of, begun_before);
+        normal_now[of] = surface.normal(of, begun_at);
+        normals_of[of] = normals_now;
+      }
+    motion[node] = {
+      surface.position(of, u), v[of], normal_now[of], normal_before[of], surface.size(of)};
+  }
+
+
+
+  // Of other ranks it is not known what they need.
+  void
+  GeneralContact::import(const NodeField &u, const NodeField &v)
+  {
+    if (candidates.at_slots.alone())
+      for (const unsigned int node : near_nodes)
+        import_node(node, u, v);
+    else
+      {
+        for (unsigned int node = 0; node < local.size(); ++node)
+          import_node(node, u, v);
+        candidates.at_slots.forward(motion);
+      }
+  }
+
+
+
+  void
+  GeneralContact::follow_normals(const NodeField &u)
+  {
+    bool same = begun;
     for (const unsigned int node : surface.owned_nodes())
       same = same && u[node] == begun_at[node];
     // A cycle that is halved begins where it has begun.
     if (Utilities::MPI::min(int(same), nodes.communicator()) == 1)
       return;
-    NodeField normal(nodes.n_local());
-    for (const unsigned int node : surface.owned_nodes())
-      normal[node] = surface.normal(node, u);
-    normal_before = normal_now.empty() ? normal : normal_now;
-    normal_now    = std::move(normal);
-    begun_at      = u;
+    // Normals of an earlier interval are not those of the cycle before.
+    normals_now += begun ? 1 : 2;
+    if (begun)
+      begun_before.swap(begun_at);
+    else
+      begun_before = u;
+    begun_at = u;
+    begun    = true;
   }
 
 
@@ -219,7 +352,6 @@ namespace Touchstone
                               const double     step,
                               const bool       only_touching)
   {
-    cycle = step;
     for (Row &row : rows)
       row.used = false;
     const Range moved = range(u, v, step);
@@ -231,11 +363,14 @@ namespace Touchstone
     most_in_cycle = std::max(of_impulses * moved.in_cycle, least_margin * smallest);
     if (renew || moved.before + most_in_cycle > margin)
       renew_candidates(u, v, step, moved.in_cycle);
-    set_normals(u);
+    cycle = step;
+    ++cycles;
+    follow_normals(u);
     if (!candidates.any())
       return;
+    begin_near();
+    find_near();
     import(u, v);
-    find_near(std::sqrt(double(dim)) * above_round_off * most_in_cycle);
     find_touching_nodes();
     find_touching_edges();
     if (!only_touching)
@@ -252,12 +387,13 @@ namespace Touchstone
                                  const double       step,
                                  const unsigned int round)
   {
-    const Range moves = range(u, v, step);
+    const Range moves = range(v, step);
     if (!candidates.any() || !std::isfinite(moves.in_cycle))
       return Crossings::none;
     if (moves.in_cycle > most_in_cycle)
       return Crossings::too_far;
     travels = moves.far_in_cycle;
+    find_near();
     import(u, v);
     return check_motion(/*ahead=*/false, round <= rounds_in_order) ? Crossings::rows
                                                                    : Crossings::none;
@@ -268,7 +404,8 @@ namespace Touchstone
   // Rows of nodes of the finer side alone mostly keep surfaces apart. Those of the other side, and
   // of edges, say nearly the same where surfaces are flat, which makes sweeps slow: they come only
   // if something still crosses. With free velocities all that is pressed together crosses, and
-  // touches already: only what is new there is worth a look.
+  // touches already: only what is new there is worth a look, and of the other side what has pressed
+  // lately.
   bool
   GeneralContact::check_motion(const bool ahead, const bool in_order)
   {
@@ -312,6 +449,7 @@ namespace Touchstone
     if (is_new)
       {
         rows.emplace_back();
+        last_impulses.emplace_back();
         totals.emplace_back();
         new_rows = true;
       }

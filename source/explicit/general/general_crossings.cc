@@ -103,11 +103,8 @@ namespace Touchstone
     std::array<Point<dim>, 8> from, to;
     for (const unsigned int number : near_pairs)
       {
-        const ContactCandidates::FacePair &pair  = candidates.face_pairs[number];
-        Separation                        &known = apart_faces[number];
-        if (known.until > travelled + travels)
-          continue;
-        double size = 0.;
+        const ContactCandidates::FacePair &pair = candidates.face_pairs[number];
+        double                             size = 0.;
         for (unsigned int i = 0; i < 8; ++i)
           {
             const SurfacePoint point = corner(i < 4 ? pair.one : pair.other, i % 4);
@@ -116,8 +113,11 @@ namespace Touchstone
             size                     = std::max(size, this->size(point));
           }
         const TurningFrame frame(from.data(), to.data());
-        if (pair.share_node || !stay_apart<4>(from, to, frame, size, some_patience, known))
+        if (pair.share_node ||
+            !stay_apart<4>(from, to, frame, size, some_patience, apart_faces[number]))
           open_faces.push_back({number, size, frame});
+        else
+          face_limits.set(number, apart_faces[number].until);
       }
   }
 
@@ -136,15 +136,15 @@ namespace Touchstone
     const ContactCandidates::FacePair &pair = candidates.face_pairs[faces.pair];
     if (kind == Kind::edges)
       each(candidates.edges_by_faces, apart_edges, [&](const unsigned int i, Separation &known) {
-        check_edges(ends_of(candidates.edge_pairs[i]), faces, known);
+        check_edges(ends_of(candidates.edge_pairs[i]), faces, known, i);
       });
     else if (kind == Kind::inner && pair.inner_edges)
       check_inner_edges(pair.one, pair.other, faces);
     else if (kind == Kind::slave_node || kind == Kind::node)
       each(candidates.nodes_by_faces, apart_nodes, [&](const unsigned int i, Separation &known) {
         const ContactCandidates::NodeFace &one = candidates.node_faces[i];
-        if (is_slave(one.node, one.face) == (kind == Kind::slave_node) &&
-            !(looks_ahead && touches[i]))
+        const bool first = is_slave(i) || (looks_ahead && presses_often(one.node));
+        if (first == (kind == Kind::slave_node) && !(looks_ahead && touches[i]))
           check_node({one.node, false}, one.face, faces, known);
       });
   }
@@ -165,7 +165,7 @@ namespace Touchstone
     };
     least(candidates.nodes_by_faces, apart_nodes);
     least(candidates.edges_by_faces, apart_edges);
-    apart_faces[faces.pair].until = until;
+    face_limits.set(faces.pair, until);
   }
 
 
@@ -295,7 +295,10 @@ namespace Touchstone
 
 
   void
-  GeneralContact::check_edges(const Points &ends, const OpenFaces &faces, Separation &known)
+  GeneralContact::check_edges(const Points     &ends,
+                              const OpenFaces  &faces,
+                              Separation       &known,
+                              const std::size_t pair)
   {
     FourPoints a, b;
     for (unsigned int side = 0; side < 4; side += 2)
@@ -324,6 +327,7 @@ namespace Touchstone
     for (double &at_edge : at_edges)
       at_edge += tie * (2. * at_edge - 1.);
     found.push_back(edge_row(ends, at_edges, normal));
+    found.back().edges = pair;
   }
 
 

@@ -2,47 +2,79 @@
 
 #include <touchstone/explicit/general/general_contact.h>
 
-// Which candidates have to be looked at in a cycle (doc/general_contact.md, section 3).
+// Which candidates have to be looked at in a cycle, and the faces and nodes that these refer to: of
+// others nothing is computed (doc/general_contact.md, section 2).
 namespace Touchstone
 {
   using namespace dealii;
 
   void
-  GeneralContact::find_near(const double distance)
+  GeneralContact::add_near_node(const std::size_t slot)
   {
-    near_pairs.clear();
-    near_nodes_and_faces.clear();
+    const unsigned int node = candidates.at_slots.node(slot);
+    if (node_is_near[node])
+      return;
+    node_is_near[node] = true;
+    near_nodes.push_back(node);
+  }
+
+
+
+  void
+  GeneralContact::add_near(const unsigned int face)
+  {
+    if (face_is_near[face])
+      return;
+    face_is_near[face] = true;
+    near_faces.push_back(face);
+    for (unsigned int a = 0; a < 4; ++a)
+      add_near_node(corner(face, a).slot);
+  }
+
+
+
+  void
+  GeneralContact::begin_near()
+  {
+    for (const unsigned int face : near_faces)
+      face_is_near[face] = false;
+    for (const unsigned int node : near_nodes)
+      node_is_near[node] = false;
     near_faces.clear();
     near_nodes.clear();
-    std::vector<char> face_is_near(candidates.faces.size()), node_is_near(motion.size()),
-      is_near(apart_nodes.size());
-    const double until = travelled + distance;
-    const auto   add   = [&](const unsigned int face) {
-      if (face_is_near[face])
-        return;
-      face_is_near[face] = true;
-      near_faces.push_back(face);
-      for (unsigned int a = 0; a < 4; ++a)
-        if (const unsigned int node = candidates.at_slots.node(corner(face, a).slot);
-            !node_is_near[node])
-          {
-            node_is_near[node] = true;
-            near_nodes.push_back(node);
-          }
-    };
-    const auto &[begin, numbers] = candidates.nodes_by_faces;
-    for (unsigned int k = 0; k < apart_faces.size(); ++k)
-      if (!(apart_faces[k].until > until))
+    // Where these are is told to other ranks when there are new candidates.
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (last_impulses[k].epoch == epoch)
+        for (const Side &side : rows[k].sides)
+          for (unsigned int i = 0; i < side.n; ++i)
+            add_near_node(side.slots[i]);
+    for (const std::size_t number : watched)
+      {
+        add_near(candidates.edge_pairs[number].one / 4);
+        add_near(candidates.edge_pairs[number].other / 4);
+      }
+    std::size_t kept = 0;
+    for (const std::size_t slot : pressing)
+      if (presses_often(slot))
         {
-          near_pairs.push_back(k);
-          add(candidates.face_pairs[k].one);
-          add(candidates.face_pairs[k].other);
-          // What touches at the start does so before anything has moved.
-          for (unsigned int i = begin[k]; i < begin[k + 1]; ++i)
-            is_near[numbers[i]] = !(apart_nodes[numbers[i]].until > travelled);
+          add_near_node(slot);
+          pressing[kept++] = slot;
         }
-    for (unsigned int i = 0; i < is_near.size(); ++i)
-      if (is_near[i])
-        near_nodes_and_faces.push_back(i);
+      else
+        last_pressed[candidates.at_slots.node(slot)] = 0;
+    pressing.resize(kept);
+  }
+
+
+
+  void
+  GeneralContact::find_near()
+  {
+    near_pairs.clear();
+    face_limits.for_each_reached(travelled + travels, [&](const std::size_t pair) {
+      near_pairs.push_back(pair);
+      add_near(candidates.face_pairs[pair].one);
+      add_near(candidates.face_pairs[pair].other);
+    });
   }
 } // namespace Touchstone

@@ -31,15 +31,20 @@ namespace Touchstone
   {
     const NodeField at_rest(nodes.n_local());
     keep_totals();
+    rows.clear();
+    last_impulses.clear();
+    totals.clear();
+    numbers.clear();
+    forget();
     made_at = u;
     margin  = reach;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
     begin_candidates();
-    normal_now.clear();
-    set_normals(u);
-    import(u, at_rest);
+    begun = false;
+    follow_normals(u);
     cycle = 0.;
-    find_near(0.);
+    find_near();
+    import(u, at_rest);
     set_inner_positions(inwards);
     renew = true;
   }

@@ -57,10 +57,9 @@ namespace Touchstone
           for (unsigned int side = 0; side < 2; ++side)
             for (unsigned int i = 0; i < from.sides[side].n; ++i)
               solver.weights[s++] = (side == 0 ? 1. : -1.) * from.sides[side].weights[i];
-          const auto last = pressed.find(row.key);
-          row.impulse     = last != pressed.end() ? last->second.impulse : Tensor<1, dim>();
-          row.sliding     = sliding.count(slave_of(row.key)) > 0;
-          row.normal      = from.normal;
+          row.impulse = last_impulse(k);
+          row.sliding = !sliding.empty() && sliding.count(slave_of(row.key)) > 0;
+          row.normal  = from.normal;
           if (row.friction)
             row.tangential = tangential_projector(row.normal);
           set_lever(solver, row, x, from.normal, from.size);
@@ -73,6 +72,17 @@ namespace Touchstone
 
 
 
+  Tensor<1, dim>
+  GeneralContact::last_impulse(const std::size_t k) const
+  {
+    if (last_impulses[k].epoch == epoch)
+      return last_impulses[k].impulse;
+    const auto carried = pressed.find(rows[k].key);
+    return carried != pressed.end() ? carried->second.impulse : Tensor<1, dim>();
+  }
+
+
+
   void
   GeneralContact::remember(const Pressed &what)
   {
@@ -80,7 +90,11 @@ namespace Touchstone
     if (what.sliding)
       sliding.insert(slave_of(what.key));
     if (what.key.pair == on_faces)
-      pressed_nodes.insert(what.key.slave);
+      {
+        if (const std::size_t pair = candidates.find_node(what.key.slave);
+            pair < candidates.node_faces.size())
+          pressed_nodes[candidates.at_slots.node(candidates.node_faces[pair].node)] = epoch;
+      }
     else
       {
         const std::size_t number = candidates.find_edges(
@@ -95,9 +109,9 @@ namespace Touchstone
   void
   GeneralContact::forget()
   {
+    ++epoch;
     pressed.clear();
     sliding.clear();
-    pressed_nodes.clear();
     watched.clear();
   }
 
@@ -135,22 +149,53 @@ namespace Touchstone
             for (unsigned int i = 0; i < rows[k].sides[side].n; ++i)
               total.impulses[node++] +=
                 (side == 0 ? 1. : -1.) * rows[k].sides[side].weights[i] * row.impulse;
-          Pressed what;
-          what.key         = row.key;
-          what.impulse     = row.impulse;
-          what.sliding     = row.friction && row.sliding;
-          const Side &side = rows[k].sides[0];
-          what.lower = what.upper = Point<dim>(at(side.slots[0]).x);
-          for (unsigned int i = 0; i < side.n; ++i)
-            for (const Tensor<1, dim> &x :
-                 {at(side.slots[i]).x, at(side.slots[i]).x + cycle * at(side.slots[i]).v})
-              for (unsigned int d = 0; d < dim; ++d)
-                {
-                  what.lower[d] = std::min(what.lower[d], x[d]);
-                  what.upper[d] = std::max(what.upper[d], x[d]);
-                }
-          remember(what);
+          last_impulses[k] = {row.impulse, row.friction && row.sliding, epoch};
+          if (last_impulses[k].sliding)
+            sliding.insert(slave_of(row.key));
+          const Side &slave = rows[k].sides[0];
+          if (row.key.pair == on_faces && slave.n == 1)
+            {
+              press(slave.slots[0], cycles);
+              pressed_nodes[candidates.at_slots.node(slave.slots[0])] = epoch;
+            }
+          else if (rows[k].edges < candidates.edge_pairs.size())
+            watched.push_back(rows[k].edges);
         }
+  }
+
+
+
+  // Where the cycle has taken them.
+  std::vector<GeneralContact::Pressed>
+  GeneralContact::pressed_rows() const
+  {
+    std::vector<Pressed> result;
+    for (const auto &carried : pressed)
+      result.push_back(carried.second);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (last_impulses[k].epoch == epoch)
+        {
+          const Row &row = rows[k];
+          Pressed    what;
+          what.key     = row.key;
+          what.impulse = last_impulses[k].impulse;
+          what.sliding = last_impulses[k].sliding;
+          what.lower = what.upper = Point<dim>(at(row.sides[0].slots[0]).x);
+          // Of inner edges the slave side alone does not say on which rank their candidates are.
+          for (unsigned int side = 0; side < (row.key.pair == on_edges ? 2U : 1U); ++side)
+            for (unsigned int i = 0; i < row.sides[side].n; ++i)
+              {
+                const NodeMotion &of = at(row.sides[side].slots[i]);
+                for (const Tensor<1, dim> &x : {of.x, of.x + cycle * of.v})
+                  for (unsigned int d = 0; d < dim; ++d)
+                    {
+                      what.lower[d] = std::min(what.lower[d], x[d]);
+                      what.upper[d] = std::max(what.upper[d], x[d]);
+                    }
+              }
+          result.push_back(what);
+        }
+    return result;
   }
 
 

@@ -116,6 +116,20 @@ namespace Touchstone
 
 
 
+  bool
+  GeneralContact::is_slave(const unsigned int pair) const
+  {
+    char &known = slave_of_pair[pair];
+    if (known == 0)
+      {
+        const auto &[node, face, of_faces] = candidates.node_faces[pair];
+        known                              = is_slave(node, face) ? 1 : 2;
+      }
+    return known == 1;
+  }
+
+
+
   std::optional<GeneralContact::Hit>
   GeneralContact::over_face(const unsigned int pair) const
   {
@@ -164,7 +178,7 @@ namespace Touchstone
     const auto &[node, face, of_faces] = candidates.node_faces[pair];
 
     // The nodes of the other side only where they had to press in the cycle before.
-    if (!is_slave(node, face) && pressed_nodes.count(candidates.key(node)) == 0)
+    if (!is_slave(pair) && pressed_nodes[candidates.at_slots.node(node)] != epoch)
       return;
     const auto hit = over_face(pair);
     if (!hit)
@@ -197,8 +211,16 @@ namespace Touchstone
   GeneralContact::find_touching_nodes()
   {
     touches.assign(candidates.node_faces.size(), false);
-    const std::vector<unsigned int> &near = near_nodes_and_faces;
-    std::vector<Hit>                 hits, kept;
+    // What touches at the start does so before anything has moved.
+    std::vector<unsigned int> near;
+    const auto &[first, of_pairs] = candidates.nodes_by_faces;
+    for (const unsigned int k : near_pairs)
+      if (face_limits[k] <= travelled)
+        for (unsigned int i = first[k]; i < first[k + 1]; ++i)
+          if (!(apart_nodes[of_pairs[i]].until > travelled))
+            near.push_back(of_pairs[i]);
+    std::sort(near.begin(), near.end());
+    std::vector<Hit> hits, kept;
     for (std::size_t begin = 0, end = 0; begin < near.size(); begin = end)
       {
         // The same node may be called by the slots of several faces.
@@ -307,8 +329,11 @@ namespace Touchstone
   GeneralContact::find_touching_edges()
   {
     for (const std::size_t number : watched)
-      if (const auto row = nearest_edges(ends_of(candidates.edge_pairs[number]));
+      if (auto row = nearest_edges(ends_of(candidates.edge_pairs[number]));
           row && row->gap <= touching * row->size && row->gap >= -overlapping * row->size)
-        use(*row);
+        {
+          row->edges = number;
+          use(*row);
+        }
   }
 } // namespace Touchstone

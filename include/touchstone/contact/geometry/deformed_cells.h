@@ -29,8 +29,12 @@ namespace Touchstone
     bool
     contain(const dealii::Point<dim> &x) const;
 
-  private:
     using Box = dealii::BoundingBox<dim>;
+    /** @brief The boxes around the cells. */
+    std::vector<Box>
+    boxes() const;
+
+  private:
     std::vector<std::array<dealii::Point<dim>, 8>> cells;
     dealii::RTree<std::pair<Box, std::size_t>>     tree;
   };

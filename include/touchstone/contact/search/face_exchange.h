@@ -20,8 +20,8 @@ namespace Touchstone
   /**
    * @brief Brings the master faces to the ranks whose slave nodes they are near.
    *
-   * Each rank receives the faces that meet the bounding box of its slave nodes, widened by the
-   * reach (doc/theory.md 4, "Search").
+   * Each rank receives the faces that are within the reach of its slave nodes, and some more
+   * around them (doc/theory.md 4, "Search"; near_ranks()).
    */
   class FaceExchange
   {
@@ -178,14 +178,6 @@ namespace Touchstone
 
     Box
     box(const Face &face, const Displacements &displacement) const;
-    /** The box in which a rank wants faces: around some positions, widened by the reach; without
-     * any, lower corners are above the upper ones. */
-    struct Capture
-    {
-      dealii::Point<dim> lower, upper;
-    };
-    Capture
-    capture(const std::vector<dealii::Point<dim>> &positions) const;
     /** A face of this rank with its displacement at the start of the step. */
     Face
     own_face(std::size_t f) const;

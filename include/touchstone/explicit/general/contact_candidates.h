@@ -126,6 +126,9 @@ namespace Touchstone
     {
       return farthest;
     }
+    /** @brief The first of #node_faces with the node of this key; or node_faces.size(). */
+    std::size_t
+    find_node(std::uint64_t of) const;
     /** @brief The number of a pair of edges by the keys of their ends, ascending in each; or
      * edge_pairs.size(). */
     std::size_t

@@ -9,6 +9,7 @@
 #include <touchstone/explicit/general/general_contact_parameters.h>
 #include <touchstone/explicit/general/general_results.h>
 #include <touchstone/explicit/general/moving_points.h>
+#include <touchstone/explicit/general/travel_limits.h>
 #include <touchstone/explicit/impulse_solver.h>
 
 #include <functional>
@@ -17,6 +18,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace Touchstone
@@ -35,7 +37,8 @@ namespace Touchstone
    * In each cycle there are rows for nodes that touch a face and for edges that pressed in the
    * cycle before, and those that the crossing check asks for: straight motion of all nodes through
    * the cycle, nodes against faces and edges against edges. Nothing is kept from one interval to
-   * the next; within an interval only what starts the sweeps, and which edges pressed.
+   * the next; within an interval only what starts the sweeps, which edges pressed, and which nodes
+   * did so lately.
    */
   class GeneralContact
   {
@@ -211,6 +214,8 @@ namespace Touchstone
       double size = 0., gap = 0.;
       /** Takes part in this cycle. */
       bool used = false;
+      /** The pair of edges that it is of, if any. */
+      std::size_t edges = std::numeric_limits<std::size_t>::max();
     };
     /** What is known of a slot's node in a cycle. The normals are those at its start and at the
      * start of the cycle before. */
@@ -268,33 +273,85 @@ namespace Touchstone
      * inner edges that have been looked at. */
     std::vector<Separation>              apart_faces, apart_nodes, apart_edges;
     std::vector<std::vector<Separation>> apart_inner;
+    /** By pair of faces: up to where all that belongs to it stays apart. */
+    TravelLimits face_limits;
     /** By pair of a node and a face: it has a row as it touches. */
     std::vector<bool> touches;
     /** Bounds of how far any two nodes have moved relative to each other in all cycles so far, and
      * of the motion to be checked; length. */
     double travelled = 0., travels = 0.;
-    /** Pairs of faces whose nodes may come together in the present cycle, and what they refer to:
-     * pairs of nodes and faces by their numbers, in ascending order, faces, and nodes. */
-    std::vector<unsigned int>     near_pairs, near_nodes_and_faces, near_faces, near_nodes;
-    std::vector<Row>              rows;
-    std::map<RowKey, std::size_t> numbers;
-    bool                          new_rows = false;
-    /** Of the cycle before, by row: impulses, and whether it slides; by slave: whether it slides;
-     * and nodes and pairs of edges that pressed. */
+    /** Pairs of faces whose nodes may come together in the present motion. */
+    std::vector<unsigned int> near_pairs;
+    /** Faces and nodes that the present cycle has to do with so far, and whether they are. */
+    std::vector<unsigned int> near_faces, near_nodes;
+    std::vector<char>         face_is_near, node_is_near;
+    std::vector<Row>          rows;
+    /** Rows by key. */
+    struct OfKey
+    {
+      std::size_t
+      operator()(const RowKey &key) const
+      {
+        std::uint64_t h = key.pair;
+        for (const std::uint64_t next : {key.slave, key.others[0], key.others[1], key.others[2]})
+          h = (h ^ (h >> 29)) * 0x9E3779B97F4A7C15ull + next;
+        return h ^ (h >> 32);
+      }
+      bool
+      operator()(const RowKey &a, const RowKey &b) const
+      {
+        return a.slave == b.slave && a.others == b.others && a.pair == b.pair;
+      }
+    };
+    std::unordered_map<RowKey, std::size_t, OfKey, OfKey> numbers;
+    bool                                                  new_rows = false;
+    /** By row its impulse in the cycle before, if that had this number; which goes up whenever
+     * impulses are forgotten. */
+    struct LastImpulse
+    {
+      dealii::Tensor<1, dim> impulse;
+      bool                   sliding = false;
+      std::uint64_t          epoch   = 0;
+    };
+    std::vector<LastImpulse> last_impulses;
+    std::uint64_t            epoch = 1;
+    /** The same of a row on its way to the rank that has its candidates now. */
     struct Pressed
     {
       RowKey                 key;
       dealii::Tensor<1, dim> impulse;
       bool                   sliding = false;
-      /** Around the slave side. */
+      /** Around the slave side, of edges around both. */
       dealii::Point<dim> lower, upper;
     };
+    /** Those that have come. */
     std::map<RowKey, Pressed> pressed;
-    std::set<RowKey>          sliding;
-    std::set<std::uint64_t>   pressed_nodes;
-    std::vector<std::size_t>  watched;
-    Energy                    energies;
-    GeneralResults            outcome;
+    /** Slaves that slide in the cycle before; by node of the candidates the #epoch in which it
+     * pressed on a face; and pairs of edges that pressed. */
+    std::set<RowKey>           sliding;
+    std::vector<std::uint64_t> pressed_nodes;
+    /** By node of the candidates: the cycle in which it pressed on a face last, counted from 1 in
+     * an interval; 0 if none. */
+    std::vector<std::uint64_t> last_pressed;
+    std::uint64_t              cycles = 0;
+    /** It has pressed on a face not long ago: what it did then it will probably do again. */
+    bool
+    presses_often(std::size_t slot) const;
+    /** A node that has, on its way to the rank that has its candidates now. */
+    struct PressingNode
+    {
+      std::uint64_t      key, cycle;
+      dealii::Point<dim> lower, upper;
+    };
+    std::vector<PressingNode>
+    pressing_nodes() const;
+    /** Slots of those that have. */
+    std::vector<std::size_t> pressing;
+    void
+                             press(std::size_t slot, std::uint64_t in_cycle);
+    std::vector<std::size_t> watched;
+    Energy                   energies;
+    GeneralResults           outcome;
     /** By row, since the candidates were made. */
     std::vector<GeneralResults::RowTotal> totals;
     void
@@ -309,6 +366,9 @@ namespace Touchstone
     };
     Range
     range(const NodeField &u, const NodeField &v, double step) const;
+    /** The same in the cycle alone. */
+    Range
+    range(const NodeField &v, double step) const;
     void
     renew_candidates(const NodeField &u, const NodeField &v, double step, double in_cycle);
     /** Nothing is known of new candidates. */
@@ -316,16 +376,30 @@ namespace Touchstone
     begin_candidates();
     void
     import(const NodeField &u, const NodeField &v);
-    /** Of owned nodes of surfaces: normals at the start of this cycle, of the one before, and where
-     * this one begins. Empty before the first cycle of an interval. */
-    NodeField normal_now, normal_before, begun_at;
+    /** A node that the cycle has to do with, as import() brings it. */
     void
-    set_normals(const NodeField &u);
+    import_node(unsigned int node, const NodeField &u, const NodeField &v);
+    /** Displacements at the start of this cycle and of the one before; none in an interval that has
+     * not #begun. */
+    NodeField begun_at, begun_before;
+    bool      begun = false;
+    void
+    follow_normals(const NodeField &u);
+    /** By local node normals at the start of this cycle and of the one before, and the number of
+     * the cycle that they are of. */
+    NodeField                  normal_now, normal_before;
+    std::vector<std::uint64_t> normals_of;
+    std::uint64_t              normals_now = 2;
     /** Take what is known of the cycle before to the ranks that have the rows now. */
     void
-    carry_over();
+    carry_over(const std::vector<Pressed> &rows, const std::vector<PressingNode> &pressing);
     void
     remember(const Pressed &what);
+    std::vector<Pressed>
+    pressed_rows() const;
+    /** Of a row in the cycle before. */
+    dealii::Tensor<1, dim>
+    last_impulse(std::size_t row) const;
     /** The key of what slides: for nodes without the face. */
     static RowKey
     slave_of(const RowKey &key);
@@ -347,10 +421,17 @@ namespace Touchstone
     inner_edge(const std::array<SurfacePoint, 2> &ends, bool at_end) const;
     void
     set_inner_positions(double part = inset);
-    /** Which pairs of faces have nodes that may come together before they have moved by
-     * @p distance: sets #near_pairs and what goes with it. */
+    /** Which pairs of faces have nodes that may come together before they have moved by #travels:
+     * sets #near_pairs, and adds their faces and nodes to those of the cycle. */
     void
-    find_near(double distance);
+    find_near();
+    void
+    add_near(unsigned int face);
+    void
+    add_near_node(std::size_t slot);
+    /** A cycle begins: of nodes with those of rows that pressed not long ago. */
+    void
+    begin_near();
     dealii::Tensor<1, dim>
     mean(const SurfacePoint &point, dealii::Tensor<1, dim> NodeMotion::*quantity) const;
     std::uint64_t
@@ -432,6 +513,10 @@ namespace Touchstone
     find_touching_edges();
     bool
     is_slave(std::size_t node, unsigned int face) const;
+    /** The same of a pair of a node and a face: it does not change. */
+    bool
+                              is_slave(unsigned int pair) const;
+    mutable std::vector<char> slave_of_pair;
     /** Where the node of a pair is over the face, or under it, whatever the gap. */
     std::optional<Hit>
     over_face(unsigned int pair) const;
@@ -494,7 +579,10 @@ namespace Touchstone
              unsigned int        triangle,
              const Crossing     &crossing);
     void
-    check_edges(const Points &ends, const OpenFaces &faces, Separation &known);
+    check_edges(const Points    &ends,
+                const OpenFaces &faces,
+                Separation      &known,
+                std::size_t      pair = std::numeric_limits<std::size_t>::max());
     void
     check_inner_edges(unsigned int one, unsigned int other, const OpenFaces &faces);
     bool
