@@ -25,6 +25,10 @@ namespace Touchstone
      * many rounds none waits for others. */
     constexpr unsigned int rounds_in_order = 3;
 
+    /** Of what surfaces are moved inwards: by so much more a gap opens that was kept open in vain.
+     */
+    constexpr double least_opening = 0.25;
+
     /** For sums and products of lengths that have to be bounds. */
     constexpr double above_round_off = 1. + 1e-9;
   } // namespace
@@ -65,7 +69,8 @@ namespace Touchstone
     outcome.begin_interval();
     numbers.clear();
     forget();
-    normal_now.clear();
+    inset_now.clear();
+    inset_before.clear();
     energies = Energy();
   }
 
@@ -84,7 +89,7 @@ namespace Touchstone
       most[i]       = std::max(most[i], motion);
       most[i + dim] = std::max(most[i + dim], -motion);
     };
-    const NodeField &before = normal_now.empty() ? u : begun_at;
+    const NodeField &before = inset_now.empty() ? u : begun_at;
     for (const unsigned int node : surface.owned_nodes())
       for (unsigned int d = 0; d < dim; ++d)
         {
@@ -184,37 +189,62 @@ namespace Touchstone
     for (unsigned int node = 0; node < local.size(); ++node)
       motion[node] = {surface.position(local[node], u),
                       v[local[node]],
-                      normal_now[local[node]],
-                      normal_before[local[node]],
-                      surface.size(local[node])};
+                      inset_now[local[node]].normal,
+                      inset_before[local[node]].normal,
+                      surface.size(local[node]),
+                      inset_now[local[node]].depth,
+                      inset_before[local[node]].depth};
     candidates.at_slots.forward(motion);
   }
 
 
 
-  // The surfaces of the check go on from where the cycle before has left them, with its normals, so
-  // that nothing passes through them as normals turn from one cycle to the next.
-  void
-  GeneralContact::set_normals(const NodeField &u)
+  std::vector<ImpactSurface::Inset>
+  GeneralContact::insets(const NodeField &u) const
   {
-    bool same = !normal_now.empty();
+    std::vector<ImpactSurface::Inset> result(nodes.n_local());
+    for (const unsigned int node : surface.owned_nodes())
+      result[node] = surface.inset(node, u);
+    return result;
+  }
+
+
+
+  // The surfaces of the check go on from where the cycle before has left them, with its normals, so
+  // that nothing passes through them as normals turn from one cycle to the next. An interval knows
+  // of the cycle before it what a checkpoint knows: where it began.
+  void
+  GeneralContact::set_insets(const NodeField &u,
+                             const NodeField &v_before,
+                             const double     step_before)
+  {
+    bool same = !inset_now.empty();
     for (const unsigned int node : surface.owned_nodes())
       same = same && u[node] == begun_at[node];
     // A cycle that is halved begins where it has begun.
     if (Utilities::MPI::min(int(same), nodes.communicator()) == 1)
       return;
-    NodeField normal(nodes.n_local());
-    for (const unsigned int node : surface.owned_nodes())
-      normal[node] = surface.normal(node, u);
-    normal_before = normal_now.empty() ? normal : normal_now;
-    normal_now    = std::move(normal);
-    begun_at      = u;
+    if (!inset_now.empty())
+      inset_before = std::move(inset_now);
+    else if (step_before > 0.)
+      {
+        NodeField before = u;
+        for (unsigned int node = 0; node < nodes.n_local(); ++node)
+          before[node] -= step_before * v_before[node];
+        inset_before = insets(before);
+      }
+    inset_now = insets(u);
+    if (inset_before.empty())
+      inset_before = inset_now;
+    begun_at = u;
   }
 
 
 
   void
   GeneralContact::begin_cycle(const NodeField &u,
+                              const NodeField &v_before,
+                              const double     step_before,
                               const NodeField &v,
                               const double     step,
                               const bool       only_touching)
@@ -231,7 +261,7 @@ namespace Touchstone
     most_in_cycle = std::max(of_impulses * moved.in_cycle, least_margin * smallest);
     if (renew || moved.before + most_in_cycle > margin)
       renew_candidates(u, v, step, moved.in_cycle);
-    set_normals(u);
+    set_insets(u, v_before, step_before);
     if (!candidates.any())
       return;
     import(u, v);
@@ -295,12 +325,30 @@ namespace Touchstone
     if (goes_on && !ahead)
       for (const OpenFaces &faces : open_faces)
         keep_until(faces);
+    // First of all of them: one place can be found more than once.
+    if (!ahead)
+      for (Row &row : found)
+        row.more = opens_more(row);
     for (const Row &row : found)
       use(row);
     int last[2] = {new_rows, !found.empty()};
     Utilities::MPI::max(last, nodes.communicator(), last);
     new_rows = last[0] > 0;
     return last[1] > 0;
+  }
+
+
+
+  // As faces turn and nodes slide, a row that takes part can leave open what crosses; of an overlap
+  // that is close to what surfaces are moved inwards by it can do so in the shortest of cycles.
+  double
+  GeneralContact::opens_more(const Row &row) const
+  {
+    const auto there = numbers.find(row.key);
+    if (there == numbers.end() || !rows[there->second].used)
+      return 0.;
+    return rows[there->second].more +
+           std::max(least_opening * inset * row.size, -inner_gap_at_end(row));
   }
 
 

@@ -35,8 +35,9 @@ namespace Touchstone
     margin  = reach;
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
     begin_candidates();
-    normal_now.clear();
-    set_normals(u);
+    inset_now.clear();
+    inset_before.clear();
+    set_insets(u, at_rest, 0.);
     import(u, at_rest);
     cycle = 0.;
     find_near(0.);
