@@ -117,8 +117,9 @@ namespace Touchstone
       }
     untouched = false;
     fastest   = std::max(fastest, speeds_before.apart);
+    // Forces act from the middle of the cycle before; the first cycle has none before it.
     if (general)
-      general->begin_cycle(u, v, step);
+      general->begin_cycle(u, before, time > 0. ? 2. * acting - step : 0., v, step);
     const bool imported = bring_rows(u, before, v, time, step);
     if (general && general->must_lay_out())
       lay_out(u);

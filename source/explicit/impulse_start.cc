@@ -65,7 +65,7 @@ namespace Touchstone
     if (general)
       {
         general->begin_interval();
-        general->begin_cycle(u, v, step, /*only_touching=*/true);
+        general->begin_cycle(u, start, 0., v, step, /*only_touching=*/true);
       }
     ++counted.renewals;
     update_contact(u, time);

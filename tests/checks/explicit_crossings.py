@@ -22,12 +22,13 @@ for name, *arguments in ("explicit_crumpled", 60, 25, 150), ("explicit_resting",
     cycles = [line.split(":")[1] for line in text.stdout.splitlines() if "cycles between results:" in line]
     below(f"{name}, cycles between results", float(cycles[0]) if cycles else 1e9, MOST_CYCLES)
 
-# Coarser than the scene; later than 0.94e-3 such a mesh may end in surfaces that cannot be kept apart.
+# Coarser than the scene. With these output intervals edges in the plane of symmetry of a fold met, which have
+# no normal within it: their motion across it is round-off, which no row and no shorter cycle takes away.
 tube = run("tube", Path(PROJECT) / "prm/benchmarks/crushed_tube.prm",
-           {"Body tube/Geometry/Cells": "2, 8, 30", STEPS: 130, "Load stepping/End time": 9e-4}, vtu=1)
+           {"Body tube/Geometry/Cells": "2, 8, 30", STEPS: 115, "Load stepping/End time": 1e-3}, vtu=1)
 below("tube, cycles between results", max(tube.column("cycles")), MOST_CYCLES)
 files = sorted(tube.folder.glob("solution_*.vtu"))
-check(len(files) >= 130, f"tube: {len(files)} results written")
+check(len(files) >= 115, f"tube: {len(files)} results written")
 for path in files:
     # Faces of the two cuts are no surface.
     places = crossings.find(path, without=lambda x: min(abs(x[0]), abs(x[1])) < 1e-6)

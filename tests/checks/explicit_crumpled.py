@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """A strip that a piston crumples in a box: general contact with itself and with the walls, and the energy
 balance. `crossings` looks for surfaces that cross, and contacts are counted
-(doc/general_contact.md, section 7). With more arguments: cells along the strip, travel of the piston, and
-results, which are few as the tool is slow."""
+(doc/general_contact.md, section 7). With more arguments: cells along the strip, travel of the piston,
+results, which are few as the tool is slow, and the height of the box."""
 
 import sys
 from collections import defaultdict
@@ -13,8 +13,9 @@ import crossings  # of tests/, which touchstone_test finds
 from hexahedra import box
 
 MORE = sys.argv[4:]
-CELLS, TRAVEL, STEPS = (int(MORE[0]), float(MORE[1]), int(MORE[2])) if len(MORE) == 3 else (60, 25, 20)
-LENGTH, HEIGHT, THICKNESS, WIDTH, SPEED = CELLS / 2, 4, 0.3, 1, 1
+CELLS, TRAVEL, STEPS, HEIGHT = map(float, (MORE + ["60", "25", "20", "4"][len(MORE):]))
+CELLS, STEPS = int(CELLS), int(STEPS)
+LENGTH, THICKNESS, WIDTH, SPEED = CELLS / 2, 0.3, 1, 1
 
 
 def wavy(point):

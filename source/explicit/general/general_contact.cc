@@ -30,6 +30,10 @@ namespace Touchstone
      * touching, and would ask for a round of their own. */
     constexpr std::uint64_t cycles_remembered = 16;
 
+    /** Of what surfaces are moved inwards: by so much more a gap opens that was kept open in vain.
+     */
+    constexpr double least_opening = 0.25;
+
     /** For sums and products of lengths that have to be bounds. */
     constexpr double above_round_off = 1. + 1e-9;
   } // namespace
@@ -46,9 +50,9 @@ namespace Touchstone
     , candidates(surface, nodes, solid.owned, parameters.search.name)
     , made_at(nodes.n_local())
     , outcome(surface, nodes, solid.owned)
-    , normal_now(nodes.n_local())
-    , normal_before(nodes.n_local())
-    , normals_of(nodes.n_local(), 0)
+    , inset_now(nodes.n_local())
+    , inset_before(nodes.n_local())
+    , insets_of(nodes.n_local(), 0)
   {
     double size = std::numeric_limits<double>::max();
     for (const unsigned int node : surface.owned_nodes())
@@ -290,20 +294,26 @@ namespace Touchstone
 
 
   // The surfaces of the check go on from where the cycle before has left them, with its normals, so
-  // that nothing passes through them as normals turn from one cycle to the next.
+  // that nothing passes through them as normals turn from one cycle to the next. An interval knows
+  // of the cycle before it what a checkpoint knows: where it began.
   void
   GeneralContact::import_node(const unsigned int node, const NodeField &u, const NodeField &v)
   {
     const unsigned int of = local[node];
-    if (normals_of[of] != normals_now)
+    if (insets_of[of] != insets_now)
       {
-        normal_before[of] =
-          normals_of[of] + 1 == normals_now ? normal_now[of] : surface.normal(of, begun_before);
-        normal_now[of] = surface.normal(of, begun_at);
-        normals_of[of] = normals_now;
+        inset_before[of] =
+          insets_of[of] + 1 == insets_now ? inset_now[of] : surface.inset(of, begun_before);
+        inset_now[of] = surface.inset(of, begun_at);
+        insets_of[of] = insets_now;
       }
-    motion[node] = {
-      surface.position(of, u), v[of], normal_now[of], normal_before[of], surface.size(of)};
+    motion[node] = {surface.position(of, u),
+                    v[of],
+                    inset_now[of].normal,
+                    inset_before[of].normal,
+                    surface.size(of),
+                    inset_now[of].depth,
+                    inset_before[of].depth};
   }
 
 
@@ -326,7 +336,9 @@ namespace Touchstone
 
 
   void
-  GeneralContact::follow_normals(const NodeField &u)
+  GeneralContact::follow_insets(const NodeField &u,
+                                const NodeField &v_before,
+                                const double     step_before)
   {
     bool same = begun;
     for (const unsigned int node : surface.owned_nodes())
@@ -334,12 +346,17 @@ namespace Touchstone
     // A cycle that is halved begins where it has begun.
     if (Utilities::MPI::min(int(same), nodes.communicator()) == 1)
       return;
-    // Normals of an earlier interval are not those of the cycle before.
-    normals_now += begun ? 1 : 2;
+    // What belongs to an earlier interval is not that of the cycle before.
+    insets_now += begun ? 1 : 2;
     if (begun)
       begun_before.swap(begun_at);
     else
-      begun_before = u;
+      {
+        begun_before = u;
+        if (step_before > 0.)
+          for (unsigned int node = 0; node < nodes.n_local(); ++node)
+            begun_before[node] -= step_before * v_before[node];
+      }
     begun_at = u;
     begun    = true;
   }
@@ -348,6 +365,8 @@ namespace Touchstone
 
   void
   GeneralContact::begin_cycle(const NodeField &u,
+                              const NodeField &v_before,
+                              const double     step_before,
                               const NodeField &v,
                               const double     step,
                               const bool       only_touching)
@@ -365,7 +384,7 @@ namespace Touchstone
       renew_candidates(u, v, step, moved.in_cycle);
     cycle = step;
     ++cycles;
-    follow_normals(u);
+    follow_insets(u, v_before, step_before);
     if (!candidates.any())
       return;
     begin_near();
@@ -432,12 +451,30 @@ namespace Touchstone
     if (goes_on && !ahead)
       for (const OpenFaces &faces : open_faces)
         keep_until(faces);
+    // First of all of them: one place can be found more than once.
+    if (!ahead)
+      for (Row &row : found)
+        row.more = opens_more(row);
     for (const Row &row : found)
       use(row);
     int last[2] = {new_rows, !found.empty()};
     Utilities::MPI::max(last, nodes.communicator(), last);
     new_rows = last[0] > 0;
     return last[1] > 0;
+  }
+
+
+
+  // As faces turn and nodes slide, a row that takes part can leave open what crosses; of an overlap
+  // that is close to what surfaces are moved inwards by it can do so in the shortest of cycles.
+  double
+  GeneralContact::opens_more(const Row &row) const
+  {
+    const auto there = numbers.find(row.key);
+    if (there == numbers.end() || !rows[there->second].used)
+      return 0.;
+    return rows[there->second].more +
+           std::max(least_opening * inset * row.size, -inner_gap_at_end(row));
   }
 
 

@@ -31,6 +31,11 @@ namespace Touchstone
      * than this leaves a body that it is in. */
     constexpr double inwards = 0.1;
 
+    /** Relative to the size of faces: what closes by less in a cycle does not cross by anything.
+     * Edges in a common plane, as in a fold that is symmetric, have a normal across that plane,
+     * along which their motion is round-off. */
+    constexpr double nothing = 1e-12;
+
     /** Whether a node stays on one side of a triangle, by the normal of that. */
     bool
     on_one_side(const FourPoints &from, const FourPoints &to)
@@ -188,8 +193,8 @@ namespace Touchstone
     for (const unsigned int node : near_nodes)
       {
         const NodeMotion &of = motion[node];
-        inner_from[node]     = Point<dim>(of.x - part * of.size * of.normal_before);
-        inner_to[node]       = Point<dim>(of.x + cycle * of.v - part * of.size * of.normal);
+        inner_from[node]     = Point<dim>(of.x - part * of.depth_before * of.normal_before);
+        inner_to[node]       = Point<dim>(of.x + cycle * of.v - part * of.depth * of.normal);
       }
     middle_from.resize(candidates.faces.size());
     middle_to.resize(candidates.faces.size());
@@ -283,7 +288,7 @@ namespace Touchstone
     Tensor<1, dim> normal = cross_product_3d(x[2] - x[1], x[3] - x[1]);
     if (normal.norm() == 0.)
       normal = mean(middle(face), &NodeMotion::normal);
-    if (!(normal.norm() > 0.) || !(closing * normal < 0.))
+    if (!(normal.norm() > 0.) || !(closing * normal < -nothing * size(node) * normal.norm()))
       return; // it leaves the material
     // Of the triangle as it is.
     std::array<double, 3> weights = crossing.weights;
@@ -322,7 +327,7 @@ namespace Touchstone
     for (unsigned int i = 0; i < 4; ++i)
       x[i] = between(a[i], b[i], crossing->time);
     const Tensor<1, dim> normal = edge_normal(ends, x[1] - x[0], x[3] - x[2], closing);
-    if (!(closing * normal < 0.))
+    if (!(closing * normal < -nothing * faces.size))
       return;
     for (double &at_edge : at_edges)
       at_edge += tie * (2. * at_edge - 1.);

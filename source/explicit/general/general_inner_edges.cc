@@ -22,7 +22,7 @@ namespace Touchstone
           x[a] = inner_position(corner(face, a), at_end);
         const Tensor<1, dim> normal = cross_product_3d(x[2] - x[0], x[3] - x[1]);
         if (std::abs(normal * (x[0] - x[1] + x[2] - x[3])) >
-            inset * size(corner(face, 0)) * normal.norm())
+            inset * at(4 * std::size_t(face)).depth * normal.norm())
           return true;
       }
     return false;

@@ -41,7 +41,7 @@ namespace Touchstone
     candidates.find(u, at_rest, 0., margin, /*neighbours_as_well=*/true);
     begin_candidates();
     begun = false;
-    follow_normals(u);
+    follow_insets(u, at_rest, 0.);
     cycle = 0.;
     find_near();
     import(u, at_rest);

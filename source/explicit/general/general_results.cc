@@ -97,7 +97,7 @@ namespace Touchstone
         point.reference_position = Point<dim>(nodes.positions()[node]);
         point.displacement       = u[node];
         // As of a partner.
-        point.normal = -surface.normal(node, u);
+        point.normal = -surface.inset(node, u).normal;
         point.area   = surface.area(node);
         point.gap    = 0.;
         point.status = ContactStatus::no_partner;

@@ -64,8 +64,10 @@ namespace Touchstone
             row.tangential = tangential_projector(row.normal);
           set_lever(solver, row, x, from.normal, from.size);
           const double closing = -step * (solver.relative_velocity(row, v_before) * row.normal);
-          row.allowed =
-            ((from.gap - allowed_gap(from.gap, closing, from.size)) / step) * row.normal;
+          // Only of an overlap: a gap that opens by more would give energy.
+          const double more = from.gap < 0. ? from.more : 0.;
+          const double end  = std::min(0., allowed_gap(from.gap, closing, from.size) + more);
+          row.allowed       = ((from.gap - end) / step) * row.normal;
           solver.near.push_back(first + k);
         }
   }

@@ -78,6 +78,19 @@ namespace Touchstone
 
 
 
+  double
+  GeneralContact::inner_gap_at_end(const Row &row) const
+  {
+    Tensor<1, dim> between;
+    for (unsigned int side = 0; side < 2; ++side)
+      for (unsigned int i = 0; i < row.sides[side].n; ++i)
+        between += (side == 0 ? 1. : -1.) * row.sides[side].weights[i] *
+                   Tensor<1, dim>(inner_to[candidates.at_slots.node(row.sides[side].slots[i])]);
+    return between * row.normal;
+  }
+
+
+
   GeneralContact::Row
   GeneralContact::node_row(const SurfacePoint          &node,
                            const unsigned int           face,

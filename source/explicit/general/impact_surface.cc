@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // Faces without a cell behind them, and normals of their nodes (doc/general_contact.md, section 2).
 namespace Touchstone
@@ -132,15 +133,24 @@ namespace Touchstone
 
 
 
-  Tensor<1, dim>
-  ImpactSurface::normal(const unsigned int node, const NodeField &u) const
+  ImpactSurface::Inset
+  ImpactSurface::inset(const unsigned int node, const NodeField &u) const
   {
     const auto     x = [&](const unsigned int n) { return nodes.positions()[n] + u[n]; };
     Tensor<1, dim> sum;
+    double         smallest = std::numeric_limits<double>::max();
     for (const auto &face : around[place[node]])
-      sum += area_vector(face, x);
+      {
+        const Tensor<1, dim> of_face = area_vector(face, x);
+        sum += of_face;
+        smallest = std::min(smallest, of_face.norm_square());
+      }
     const double length = sum.norm();
-    return length > 0. ? sum / length : Tensor<1, dim>();
+    Inset        result;
+    if (length > 0.)
+      result.normal = sum / length;
+    result.depth = std::min(size(node), slender * std::sqrt(std::sqrt(smallest)));
+    return result;
   }
 
 

@@ -89,10 +89,16 @@ namespace Touchstone
     /**
      * @brief A cycle begins at the displacement @p u with the free velocities @p v: find candidates
      * if motion demands it, and the rows of what touches and of what would cross. Collective.
-     * @param only_touching Without the latter.
+     * @param v_before,step_before Velocities and length of the cycle before; length 0: there was
+     *                             none. @param only_touching Without what would cross.
      */
     void
-    begin_cycle(const NodeField &u, const NodeField &v, double step, bool only_touching = false);
+    begin_cycle(const NodeField &u,
+                const NodeField &v_before,
+                double           step_before,
+                const NodeField &v,
+                double           step,
+                bool             only_touching = false);
 
     /** @brief What a look at the motion to the end of a cycle has found. */
     enum class Crossings
@@ -212,6 +218,9 @@ namespace Touchstone
       dealii::Tensor<1, dim> normal;
       /** Size of the faces, length, and the gap at the start of the cycle. */
       double size = 0., gap = 0.;
+      /** By how much the gap must open in this cycle beyond what it may end with, length: it was
+       * to be kept open before, and surfaces that are moved inwards crossed all the same. */
+      double more = 0.;
       /** Takes part in this cycle. */
       bool used = false;
       /** The pair of edges that it is of, if any. */
@@ -222,7 +231,8 @@ namespace Touchstone
     struct NodeMotion
     {
       dealii::Tensor<1, dim> x, v, normal, normal_before;
-      double                 size = 0.;
+      /** Length, as of ImpactSurface; the depth as the normals. */
+      double size = 0., depth = 0., depth_before = 0.;
     };
     /** The ends of two edges, of the slave first. */
     using Points = std::array<SurfacePoint, 4>;
@@ -383,13 +393,14 @@ namespace Touchstone
      * not #begun. */
     NodeField begun_at, begun_before;
     bool      begun = false;
+    /** @param v_before,step_before As of begin_cycle(). */
     void
-    follow_normals(const NodeField &u);
-    /** By local node normals at the start of this cycle and of the one before, and the number of
-     * the cycle that they are of. */
-    NodeField                  normal_now, normal_before;
-    std::vector<std::uint64_t> normals_of;
-    std::uint64_t              normals_now = 2;
+    follow_insets(const NodeField &u, const NodeField &v_before, double step_before);
+    /** By local node how it is moved inwards at the start of this cycle and of the one before, and
+     * the number of the cycle that they are of. */
+    std::vector<ImpactSurface::Inset> inset_now, inset_before;
+    std::vector<std::uint64_t>        insets_of;
+    std::uint64_t                     insets_now = 2;
     /** Take what is known of the cycle before to the ranks that have the rows now. */
     void
     carry_over(const std::vector<Pressed> &rows, const std::vector<PressingNode> &pressing);
@@ -482,6 +493,9 @@ namespace Touchstone
     /** The row takes part in the cycle, as it is or instead of the one of its key. */
     void
     use(const Row &row);
+    /** Row::more of a row for what crosses. */
+    double
+    opens_more(const Row &row) const;
     /** Rows of a node and the triangle between two corners of a face and its middle, and of points
      * on two edges. */
     Row
@@ -497,6 +511,10 @@ namespace Touchstone
     /** The gap of a row at the start of the cycle, from its sides and normal. */
     double
     gap_at_start(const Row &row) const;
+    /** The gap of surfaces that are moved inwards at the end of the cycle that import() has
+     * brought. */
+    double
+    inner_gap_at_end(const Row &row) const;
     /** The ends of the edge of a slot, in ascending order of their keys; and of two. */
     std::array<SurfacePoint, 2>
     ends_of(std::size_t edge) const;

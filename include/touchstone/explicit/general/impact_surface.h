@@ -73,10 +73,20 @@ namespace Touchstone
       return n_global;
     }
 
-    /** @brief The outward normal of an owned node of the surface in the positions @p u: the mean of
-     * the faces around it by their areas, of length 1, or zero where they cancel. */
-    dealii::Tensor<1, dim>
-    normal(unsigned int node, const NodeField &u) const;
+    /** @brief How a node of the surface is moved inwards. */
+    struct Inset
+    {
+      /** The mean of the outward normals of the faces around it by their areas, of length 1, or
+       * zero where they cancel. */
+      dealii::Tensor<1, dim> normal;
+      /** Length of which it is moved by a part: size(), but no more than #slender times that of the
+       * smallest of these faces as it is, so that nothing of a sharp tip gets lost. */
+      double depth = 0.;
+    };
+    static constexpr double slender = 2.8;
+    /** @brief That of an owned node in the positions @p u. */
+    Inset
+    inset(unsigned int node, const NodeField &u) const;
 
     /** @brief Size of the faces around an owned node of the surface as the bodies were placed,
      * length. */
