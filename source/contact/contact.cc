@@ -3,6 +3,7 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/junctions.h>
 #include <touchstone/contact/pairing/sets_of_points.h>
+#include <touchstone/contact/shared_faces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -42,9 +43,11 @@ namespace Touchstone
   Contact::Contact(const std::vector<ContactPairInput> &inputs,
                    const ContactParameters             &parameters,
                    const Solid                         &solid,
-                   const Mirrors                       &mirrors)
+                   const Mirrors                       &mirrors,
+                   const Mirrors                       &supports)
     : solid(solid)
     , mirrors(mirrors)
+    , supports(supports)
     , friction_rows(solid)
     , method(parameters.enforcement.make(parameters))
     , impulse_forces("impulse force")
@@ -75,6 +78,7 @@ namespace Touchstone
       if (pair->master())
         seen.add_indices(pair->master()->far_unknowns().begin(),
                          pair->master()->far_unknowns().end());
+    held_of_pairs.resize(pairs.size());
     method->reinit(all_rows);
     impulse_forces.reinit(all_rows);
     cyclic.reinit(pairs, solid.communicator);
@@ -95,6 +99,30 @@ namespace Touchstone
     else
       ghosted.reinit(solid.owned, seen, solid.communicator);
     import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
+    for (const auto &pair : pairs)
+      if (pair->takes_points())
+        pair->set_node_stiffness(node_stiffness(*pair));
+  }
+
+
+
+  std::unordered_map<Index, double>
+  Contact::node_stiffness(const ContactPair &pair) const
+  {
+    Vector stiffness(solid.owned, solid.communicator);
+    for (const ContactRow &row : pair.rows())
+      if (!row.between_nodes)
+        stiffness(dim * row.slave) = row.stiffness;
+    stiffness.compress(VectorOperation::insert);
+    const Vector                      all = with_ghosts(stiffness);
+    std::unordered_map<Index, double> result;
+    for (const auto *faces : {&pair.slave().owned_faces(), &pair.slave().neighbour_faces()})
+      for (const Face &face : *faces)
+        for (unsigned int m = 0; m < face.n_nodes(); ++m)
+          // Hanging nodes have none.
+          if (const double value = all(dim * face.nodes[m]); value > 0.)
+            result[face.nodes[m]] = value;
+    return result;
   }
 
 
@@ -136,6 +164,7 @@ namespace Touchstone
       pair->update(u, ghosted, time, [this](const ContactRow &row) { return state(row).active(); });
     if (!started)
       remove_junction_rows(u);
+    complete_cover(u);
     // Impulses belong to the committed step alone.
     impulse_forces.reinit_present();
     // Before the slip: a row that has lost its partner has none.
@@ -149,13 +178,32 @@ namespace Touchstone
   void
   Contact::remove_junction_rows(const Vector &u)
   {
-    const std::vector<std::set<Index>> nodes = junction_nodes(pairs, solid);
+    std::vector<std::set<Index>> nodes = junction_nodes(pairs, solid);
+    held_of_pairs                      = held_nodes(pairs, supports, mirrors, solid);
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      nodes[p].insert(held_of_pairs[p].begin(), held_of_pairs[p].end());
     for (std::size_t p = 0; p < pairs.size(); ++p)
       if (!nodes[p].empty())
         {
           pairs[p]->remove_rows(nodes[p]);
           pairs[p]->update(u, ghosted, present_time, [](const ContactRow &) { return false; });
         }
+  }
+
+
+
+  void
+  Contact::complete_cover(const Vector &u)
+  {
+    const std::vector<Vector> parts = cover_by_other_pairs(pairs, solid);
+    if (parts.empty() && !shares_faces)
+      return;
+    shares_faces = !parts.empty();
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      {
+        const Vector part = shares_faces ? with_ghosts(parts[p]) : Vector();
+        pairs[p]->complete_cover(u, shares_faces ? &part : nullptr, !started);
+      }
   }
 
 

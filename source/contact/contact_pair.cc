@@ -93,7 +93,8 @@ namespace Touchstone
             &input.solid,
             slave_surface.get(),
             master_surface.get(),
-            search_distance};
+            search_distance,
+            input.one_of_several};
   }
 
 
@@ -172,7 +173,7 @@ namespace Touchstone
         row.small             = small;
         row.exact             = (contact.friction == ContactParameters::Stick::exact);
         // alpha_t = 10 E A / h times the factor of the scene, doc/theory.md 6.1.
-        row.alpha = 10. * contact.tangential_factor * present[k].stiffness;
+        row.springs = 10. * contact.tangential_factor;
       }
     return result;
   }

@@ -3,6 +3,8 @@
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/start_check.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 // The geometry of the rows of a pair in each update: search and pairing in the present state for
@@ -32,12 +34,38 @@ namespace Touchstone
         point_rows->update(*pairing_method, time, present);
         for (std::size_t k = 0; k < present.size(); ++k)
           if (ContactRow &row = present[k]; row.between_nodes && row.has_partner)
-            row.moved = row.motion.since(committed[k].motion, contact_point(row));
+            {
+              row.moved     = row.motion.since(committed[k].motion, contact_point(row));
+              row.stiffness = stiffness_between_nodes(row);
+            }
       }
     ++searches;
     // Only once, with the bodies as they are placed: later on surfaces may well separate.
     if (!started)
       check_start(u);
+  }
+
+
+
+  double
+  ContactPair::stiffness_between_nodes(const ContactRow &row) const
+  {
+    // Which of the nodes has the row is a choice, and nothing may depend on it: c is the mean of
+    // all with the weights W_a of the point, and as F = c g becomes lambda/W_s = c W_s g there, the
+    // row has c W_s^2.
+    const double own = 1. / row.share;
+    double       sum = 0., weights = 0.;
+    const auto   add = [&](const Index node, const double weight) {
+      if (const auto found = node_stiffness.find(node); found != node_stiffness.end())
+        {
+          sum += weight * found->second;
+          weights += weight;
+        }
+    };
+    add(row.slave, own);
+    for (const StencilEntry &entry : row.stencil)
+      add(entry.node, -own * entry.weight);
+    return weights > 0. ? own * own * sum / weights : row.stiffness;
   }
 
 
@@ -201,6 +229,30 @@ namespace Touchstone
           make_reference();
         update_small_sliding(u);
       }
+    apply_overlap();
+    started = true;
+  }
+
+
+
+  void
+  ContactPair::complete_cover(const Vector &u, const Vector *const part, const bool first)
+  {
+    // What is paired once is that of the first update.
+    if (small && !first)
+      return;
+    const bool changes = pairing_method->set_cover_by_others(part);
+    if (Utilities::MPI::max(static_cast<int>(changes), input.solid.communicator) == 0)
+      return;
+    if (small)
+      {
+        make_reference();
+        update_small_sliding(u);
+      }
+    else
+      search(*displacement);
+    // Overlaps that are taken out of gaps are those of the first rows.
+    started = !first;
     apply_overlap();
     started = true;
   }

@@ -16,6 +16,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
 namespace Touchstone
@@ -40,6 +41,8 @@ namespace Touchstone
     bool edges = true;
     /** In explicit dynamics. */
     bool in_cycles = false;
+    /** There are other pairs. */
+    bool one_of_several = false;
   };
 
   /**
@@ -202,6 +205,14 @@ namespace Touchstone
     /** Normals of the planes of symmetry that nodes lie on. */
     using Mirrors = std::map<Index, std::vector<dealii::Tensor<1, dim>>>;
 
+    /** @brief ContactRow::stiffness of the nodes of slave faces of this rank, where
+     * takes_points(): rows between nodes have the mean of theirs. */
+    void
+    set_node_stiffness(const std::unordered_map<Index, double> &stiffness)
+    {
+      node_stiffness = stiffness;
+    }
+
     /** @brief The constants of the friction of each row.
      * @param mirrors Of owned nodes, by node. */
     std::vector<FrictionRow>
@@ -221,6 +232,13 @@ namespace Touchstone
            const Vector                                  &ghosted,
            double                                         time,
            const std::function<bool(const ContactRow &)> &active);
+
+    /** @brief Update again where other pairs cover what this one does not, from what all have found
+     * in their update; see cover_by_other_pairs(). Collective.
+     * @param u     Of the update. @param part With ghosts; null: nowhere.
+     * @param first The update was the first one. */
+    void
+    complete_cover(const Vector &u, const Vector *part, bool first);
 
     /** @brief Let slave nodes have no rows where the others of their faces can take their part, see
      * junction_nodes(), and begin again with the next update. Pointwise rows stay.
@@ -273,6 +291,8 @@ namespace Touchstone
     std::unique_ptr<PointRows> point_rows;
     std::vector<ContactRow>    present, committed;
     std::vector<MaterialPoint> points_before;
+    /** See set_node_stiffness(). */
+    std::unordered_map<Index, double> node_stiffness;
     /** Small sliding: the rows of the reference state, and the displacement with the ghosts that
      * their stencils need. */
     std::vector<ContactRow> reference;
@@ -302,6 +322,8 @@ namespace Touchstone
      * reaches. @throws InputError if the surfaces do not face each other. */
     void
     check_start(const Vector &u);
+    double
+    stiffness_between_nodes(const ContactRow &row) const;
     void
     make_reference();
     void

@@ -26,7 +26,7 @@ namespace Touchstone
       Division(const unsigned int                         n,
                const std::array<Number, Face::max_nodes> &covered,
                const std::array<double, Face::max_nodes> &whole,
-               const bool                                 gradual)
+               const std::array<double, Face::max_nodes> &at_once)
       {
         // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
         Number sum = 0., squares = 0., receivers = 0.;
@@ -47,8 +47,9 @@ namespace Touchstone
             // it keeps its part.
             const Number cover =
               whole[i] > 0. ? Number(covered[i] / whole[i] * sum / squares) : Number(1.);
-            keep[i] = gradual ? smooth_step(cover, Tolerances::gives_all, Tolerances::keeps_all)
-                              : Number(cover < Tolerances::keeps_if_at_once ? 0. : 1.);
+            keep[i] =
+              (1. - at_once[i]) * smooth_step(cover, Tolerances::gives_all, Tolerances::keeps_all) +
+              (cover < Tolerances::keeps_if_at_once ? 0. : at_once[i]);
             // Receivers are those that keep all of their own (beta = 1), in proportion to their
             // area, and start from zero there: no jump, and no chain of nodes that both give and
             // receive.
@@ -77,10 +78,10 @@ namespace Touchstone
   CoverShares::CoverShares(const unsigned int                         n,
                            const std::array<double, Face::max_nodes> &covered,
                            const std::array<double, Face::max_nodes> &whole,
-                           const bool                                 gradual,
+                           const std::array<double, Face::max_nodes> &at_once,
                            const bool                                 with_derivative)
   {
-    const Division<double> division(n, covered, whole, gradual);
+    const Division<double> division(n, covered, whole, at_once);
     partial = std::any_of(division.keep.begin(), division.keep.begin() + n, [](const double beta) {
       return beta != 1.;
     });
@@ -100,7 +101,7 @@ namespace Touchstone
     std::array<Number, Face::max_nodes> a;
     for (unsigned int i = 0; i < n; ++i)
       a[i] = Number(int(Face::max_nodes), int(i), covered[i]);
-    const Division<Number> differentiated(n, a, whole, gradual);
+    const Division<Number> differentiated(n, a, whole, at_once);
     for (unsigned int k = 0; k < n; ++k)
       for (unsigned int i = 0; i < n; ++i)
         {

@@ -42,13 +42,14 @@ namespace Touchstone
      * @param n               Number of basis functions.
      * @param covered         a_i of the n basis functions.
      * @param whole           A_i in the reference state; infinite: the node gives all that it has.
-     * @param gradual         beta changes smoothly, and not at once.
+     * @param at_once         The part of beta that does not change smoothly with the cover, but is
+     *                        0 or 1: no unit.
      * @param with_derivative Compute `derivative`, too.
      */
     CoverShares(unsigned int                               n,
                 const std::array<double, Face::max_nodes> &covered,
                 const std::array<double, Face::max_nodes> &whole,
-                bool                                       gradual,
+                const std::array<double, Face::max_nodes> &at_once,
                 bool                                       with_derivative);
   };
 } // namespace Touchstone
