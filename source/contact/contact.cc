@@ -4,6 +4,7 @@
 #include <touchstone/contact/junctions.h>
 #include <touchstone/contact/pairing/sets_of_points.h>
 #include <touchstone/contact/shared_faces.h>
+#include <touchstone/contact/undetermined_forces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -363,7 +364,10 @@ namespace Touchstone
     // The history needs the forces and the geometry of the step that ends, so it is made before
     // anything is committed. Explicit steps follow it through their cycles: record_friction().
     if (!in_cycles)
-      friction_rows.end_step(all_rows, method->states());
+      {
+        divide_undetermined_forces(*this);
+        friction_rows.end_step(all_rows, method->states());
+      }
     for (Stateful *part : parts)
       part->commit();
   }

@@ -39,7 +39,7 @@ namespace Touchstone
   AveragedDerivative::add_face(const FaceGeometry              &slave,
                                const TraceBasis                *basis,
                                const std::vector<const Face *> &covering,
-                               const DualBasis::Values         &at_once)
+                               const CoverShares::Whole        &at_once)
   {
     // The number of nodes is a template parameter: derivative numbers have a fixed length of 24 or
     // 54.
@@ -56,7 +56,7 @@ namespace Touchstone
   AveragedDerivative::add(const FaceGeometry              &slave,
                           const TraceBasis                *basis,
                           const std::vector<const Face *> &covering,
-                          const DualBasis::Values         &at_once)
+                          const CoverShares::Whole        &at_once)
   {
     const FaceDifferentiator               on_slave(slave);
     typename SlaveFaceDerivative<n>::Parts parts;

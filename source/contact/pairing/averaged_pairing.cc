@@ -71,9 +71,11 @@ namespace Touchstone
                               {},
                               whole_areas(face, basis, /*reference=*/true),
                               areas_to_cover(face, basis),
+                              {},
                               {}};
+              slave.cover.fill(-1.);
               // Tied rows are made once and need not change smoothly.
-              slave.at_once.fill(tied ? 1. : 0.);
+              slave.at_once.part.fill(tied ? 1. : 0.);
               bool any = false;
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
                 {
@@ -131,6 +133,7 @@ namespace Touchstone
         facing.remember(own);
         searched.clear();
         present.clear();
+        step_begins = true;
       }
 
       const CoverOfNodes *
@@ -175,13 +178,27 @@ namespace Touchstone
         /** whole_areas() in the reference state, and areas_to_cover(). */
         std::array<double, Face::max_nodes> whole, to_cover;
         /** Of CoverShares. */
-        DualBasis::Values at_once;
+        CoverShares::Whole at_once;
+        /** CoverShares::cover of the last update; negative: not covered. */
+        std::array<double, Face::max_nodes> cover;
       };
 
       /** What is covered since the last update, if there are other pairs; and whether what these
        * cover has changed since. */
       CoverOfNodes covered_nodes;
-      bool         others_changed = false;
+      /** The next update is that of the committed state, which is not known since a restart. */
+      bool step_begins = false;
+
+      /** The committed state is that of the last update. */
+      void
+      set_before()
+      {
+        for (SlaveFace &face : faces)
+          for (unsigned int m = 0; m < face.face->n_nodes(); ++m)
+            face.at_once.before[m] =
+              face.cover[m] < 0. ? -1 : static_cast<int>(CoverShares::keeps(face.cover[m], -1));
+      }
+      bool others_changed = false;
 
       /** Indices of the rows of the owned nodes, and the slave faces around these in the order
        * of their keys. */
@@ -210,7 +227,7 @@ namespace Touchstone
       /** @tparam n Nodes of the face. */
       template <unsigned int n>
       void
-      add_face(const SlaveFace &face, CoveredFace &covered);
+      add_face(SlaveFace &face, CoveredFace &covered);
       /** Add the parts of the face that nodes give to others. @param shares Of the face. */
       void
       add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares);
@@ -232,6 +249,7 @@ namespace Touchstone
       // step begins.
       facing.commit(slave_faces);
       search.commit(&u);
+      set_before();
       // The motion within a step is counted from here: candidates are searched anew.
       searched.clear();
       for (CoveredFace &covered : slave_faces)
@@ -293,8 +311,9 @@ namespace Touchstone
 
     template <unsigned int n>
     void
-    AveragedPairing::add_face(const SlaveFace &face, CoveredFace &covered)
+    AveragedPairing::add_face(SlaveFace &face, CoveredFace &covered)
     {
+      face.cover.fill(-1.);
       const Face                    &slave   = covered.slave;
       const std::vector<FacingFace> &masters = covered.masters = facing.find(slave);
       if (masters.empty())
@@ -325,7 +344,8 @@ namespace Touchstone
                            face.to_cover,
                            face.at_once,
                            /*with_derivative=*/false);
-      const auto      present = whole_areas(slave, face.basis, /*reference=*/false);
+      face.cover         = dual.shares.cover;
+      const auto present = whole_areas(slave, face.basis, /*reference=*/false);
 
       for (unsigned int k = 0; k < n; ++k)
         {
@@ -333,7 +353,7 @@ namespace Touchstone
           if (face.row[k] < 0)
             continue;
           RowSums &sum = sums[face.row[k]];
-          sum.shared   = face.at_once[k];
+          sum.shared   = face.at_once.part[k];
           if (input.one_of_several)
             covered_nodes.add<n>(
               input.slave->owned_nodes()[face.row[k]], k, plane, dual, masters, parts);
@@ -372,9 +392,9 @@ namespace Touchstone
             // What hanging nodes follow may lie beyond what this rank sees.
             const bool known = part && part->trilinos_partitioner().MyGID(
                                          static_cast<TrilinosWrappers::types::int_type>(dof));
-            const double value = known ? (*part)(dof) : 0.;
-            changed            = changed || value != face.at_once[m];
-            face.at_once[m]    = value;
+            const double value   = known ? (*part)(dof) : 0.;
+            changed              = changed || value != face.at_once.part[m];
+            face.at_once.part[m] = value;
           }
       others_changed = others_changed || changed;
       return changed;
@@ -491,6 +511,9 @@ namespace Touchstone
         }
       for (RowSums &sum : sums)
         sum.finish();
+      if (step_begins)
+        set_before();
+      step_begins = false;
     }
 
 

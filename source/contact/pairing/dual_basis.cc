@@ -49,7 +49,7 @@ namespace Touchstone
                        const Values             &shape_areas,
                        const TraceBasis         *basis,
                        const Values             &whole,
-                       const Values             &at_once,
+                       const CoverShares::Whole &at_once,
                        const bool                with_derivative)
     : areas(basis ? basis->apply(shape_areas) : shape_areas)
     , shares(mass.m(), areas, whole, at_once, with_derivative)

@@ -13,10 +13,10 @@ namespace Touchstone
   using namespace dealii;
 
   template <unsigned int n>
-  SlaveFaceDerivative<n>::SlaveFaceDerivative(const FaceGeometry      &slave,
-                                              const TraceBasis        *basis,
-                                              const Parts             &parts,
-                                              const DualBasis::Values &at_once)
+  SlaveFaceDerivative<n>::SlaveFaceDerivative(const FaceGeometry       &slave,
+                                              const TraceBasis         *basis,
+                                              const Parts              &parts,
+                                              const CoverShares::Whole &at_once)
     : slave(slave)
     , parts(parts)
     , dual(total_mass<n>(parts),

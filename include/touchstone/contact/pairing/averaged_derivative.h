@@ -58,7 +58,7 @@ namespace Touchstone
     add_face(const FaceGeometry              &slave,
              const TraceBasis                *basis,
              const std::vector<const Face *> &covering,
-             const DualBasis::Values         &at_once);
+             const CoverShares::Whole        &at_once);
 
     /** @brief All faces have been added: the derivatives by the slave nodes of the rows.
      * Collective. */
@@ -89,7 +89,7 @@ namespace Touchstone
     add(const FaceGeometry              &slave,
         const TraceBasis                *basis,
         const std::vector<const Face *> &covering,
-        const DualBasis::Values         &at_once);
+        const CoverShares::Whole        &at_once);
   };
 } // namespace Touchstone
 

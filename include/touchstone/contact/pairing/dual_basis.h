@@ -45,7 +45,7 @@ namespace Touchstone
               const Values                     &areas,
               const TraceBasis                 *basis,
               const Values                     &whole,
-              const Values                     &at_once,
+              const CoverShares::Whole         &at_once,
               bool                              with_derivative);
 
     /** @brief a~, area. */

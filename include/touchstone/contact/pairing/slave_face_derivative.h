@@ -32,10 +32,10 @@ namespace Touchstone
      * @param parts Must live as long; their areas must not all be zero.
      * @param at_once Of CoverShares.
      */
-    SlaveFaceDerivative(const FaceGeometry      &slave,
-                        const TraceBasis        *basis,
-                        const Parts             &parts,
-                        const DualBasis::Values &at_once);
+    SlaveFaceDerivative(const FaceGeometry       &slave,
+                        const TraceBasis         *basis,
+                        const Parts              &parts,
+                        const CoverShares::Whole &at_once);
 
     const FaceGeometry &slave;
     const Parts        &parts;
