@@ -100,30 +100,6 @@ namespace Touchstone
     else
       ghosted.reinit(solid.owned, seen, solid.communicator);
     import_ghosts.emplace(Vector(solid.owned, solid.communicator), ghosted);
-    for (const auto &pair : pairs)
-      if (pair->takes_points())
-        pair->set_node_stiffness(node_stiffness(*pair));
-  }
-
-
-
-  std::unordered_map<Index, double>
-  Contact::node_stiffness(const ContactPair &pair) const
-  {
-    Vector stiffness(solid.owned, solid.communicator);
-    for (const ContactRow &row : pair.rows())
-      if (!row.between_nodes)
-        stiffness(dim * row.slave) = row.stiffness;
-    stiffness.compress(VectorOperation::insert);
-    const Vector                      all = with_ghosts(stiffness);
-    std::unordered_map<Index, double> result;
-    for (const auto *faces : {&pair.slave().owned_faces(), &pair.slave().neighbour_faces()})
-      for (const Face &face : *faces)
-        for (unsigned int m = 0; m < face.n_nodes(); ++m)
-          // Hanging nodes have none.
-          if (const double value = all(dim * face.nodes[m]); value > 0.)
-            result[face.nodes[m]] = value;
-    return result;
   }
 
 

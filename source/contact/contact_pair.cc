@@ -173,7 +173,7 @@ namespace Touchstone
         row.small             = small;
         row.exact             = (contact.friction == ContactParameters::Stick::exact);
         // alpha_t = 10 E A / h times the factor of the scene, doc/theory.md 6.1.
-        row.springs = 10. * contact.tangential_factor;
+        row.alpha = 10. * contact.tangential_factor * present[k].stiffness;
       }
     return result;
   }

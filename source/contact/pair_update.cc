@@ -44,29 +44,6 @@ namespace Touchstone
 
 
 
-  double
-  ContactPair::stiffness_between_nodes(const ContactRow &row) const
-  {
-    // Which of the nodes has the row is a choice, and nothing may depend on it: c is the mean of
-    // all with the weights W_a of the point, and as F = c g becomes lambda/W_s = c W_s g there, the
-    // row has c W_s^2.
-    const double own = 1. / row.share;
-    double       sum = 0., weights = 0.;
-    const auto   add = [&](const Index node, const double weight) {
-      if (const auto found = node_stiffness.find(node); found != node_stiffness.end())
-        {
-          sum += weight * found->second;
-          weights += weight;
-        }
-    };
-    add(row.slave, own);
-    for (const StencilEntry &entry : row.stencil)
-      add(entry.node, -own * entry.weight);
-    return weights > 0. ? own * own * sum / weights : row.stiffness;
-  }
-
-
-
   void
   ContactPair::check_start(const Vector &u)
   {

@@ -13,7 +13,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <unordered_map>
 #include <vector>
 
 namespace Touchstone
@@ -318,10 +317,6 @@ namespace Touchstone
     /** In the last update slave faces were covered by several pairs. */
     bool   shares_faces = false;
     double present_time = 0.;
-
-    /** ContactRow::stiffness at the nodes of slave faces that this rank sees. Collective. */
-    std::unordered_map<Index, double>
-    node_stiffness(const ContactPair &pair) const;
 
     /** Of the first update: rows that pairs have in common with others go, see junction_nodes(),
      * and those between supports, see held_nodes(). Collective. */

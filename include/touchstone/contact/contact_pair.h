@@ -16,7 +16,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <unordered_map>
 #include <vector>
 
 namespace Touchstone
@@ -205,14 +204,6 @@ namespace Touchstone
     /** Normals of the planes of symmetry that nodes lie on. */
     using Mirrors = std::map<Index, std::vector<dealii::Tensor<1, dim>>>;
 
-    /** @brief ContactRow::stiffness of the nodes of slave faces of this rank, where
-     * takes_points(): rows between nodes have the mean of theirs. */
-    void
-    set_node_stiffness(const std::unordered_map<Index, double> &stiffness)
-    {
-      node_stiffness = stiffness;
-    }
-
     /** @brief The constants of the friction of each row.
      * @param mirrors Of owned nodes, by node. */
     std::vector<FrictionRow>
@@ -291,8 +282,6 @@ namespace Touchstone
     std::unique_ptr<PointRows> point_rows;
     std::vector<ContactRow>    present, committed;
     std::vector<MaterialPoint> points_before;
-    /** See set_node_stiffness(). */
-    std::unordered_map<Index, double> node_stiffness;
     /** Small sliding: the rows of the reference state, and the displacement with the ghosts that
      * their stencils need. */
     std::vector<ContactRow> reference;
@@ -322,8 +311,6 @@ namespace Touchstone
      * reaches. @throws InputError if the surfaces do not face each other. */
     void
     check_start(const Vector &u);
-    double
-    stiffness_between_nodes(const ContactRow &row) const;
     void
     make_reference();
     void

@@ -68,8 +68,7 @@ namespace Touchstone
     /** Size of the slave faces at the node, length; makes gaps nondimensional. */
     double size = 1.;
     /** Scale of contact forces per gap, force per length: Young's modulus of the
-     * softer body times area over size. The complementarity constant c. Of a row between nodes it
-     * changes with the point (doc/theory.md 4.2). */
+     * softer body times area over size. The complementarity constant c. */
     double stiffness = 1.;
     /** Body of the slave node, and of the stencil. */
     unsigned int body = 0, master_body = 0;

@@ -88,7 +88,7 @@ namespace Touchstone
   {
     state.friction.constrained = false;
     state.friction.carried     = true;
-    state.friction.c           = row.friction->springs * row.stiffness;
+    state.friction.c           = row.friction->alpha;
     state.friction.base        = row.friction->kinematics.start;
   }
 

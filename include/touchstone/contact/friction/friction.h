@@ -124,9 +124,8 @@ namespace Touchstone
     bool small = false;
     /** Stick without elastic slip, where the enforcement permits it. */
     bool exact = true;
-    /** Stiffness of regularised stick alpha_t by that of the row, ContactRow::stiffness; no unit.
-     */
-    double springs = 1.;
+    /** Stiffness of regularised stick alpha_t, force per length. */
+    double alpha = 1.;
     /** @} */
 
     FrictionHistory history;
