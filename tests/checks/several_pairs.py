@@ -129,6 +129,21 @@ for path, settings in ((star("held.prm", (100, 130, 130), ("3, 3, 2", "4, 4, 2",
                     below(f"{result}, force of {pair}", relative(math.hypot(*result.force(pair)), 10),
                           1e-7)
 
+# Tied pointwise rows on meshes that match around the edge say more than there is to say, and forces that go around the
+# edge and back are not determined: those are taken that continue the tractions beside it.
+for path, n in ((star("matching.prm", (100, 130, 130), ("3, 3, 1",) * 3, CIRCLE), 3),
+                (star("chain.prm", (100, 130, 130), ("3, 3, 2",) * 3, CHAIN), 3),
+                (star("matching_four.prm", (90, 80, 100, 90), ("3, 3, 2",) * 4,
+                      (True, False, True, True)), 4)):
+    for enforcement in EXACT_ENFORCEMENTS:
+        result = patch(f"{path[:-4]}_{enforcement}", path,
+                       {**kind(n, Pairing="pointwise", Behaviour="tied"), ENFORCEMENT: enforcement})
+        for pair in NAMES[:n]:
+            below(f"{result}, force of {pair}", relative(math.hypot(*result.force(pair)), 10), 1e-7)
+    patch(f"{path[:-4]}_2", path, kind(n, Pairing="pointwise", Behaviour="tied"), ranks=2)
+patch("matching_four_steps", path, {**kind(4, Pairing="pointwise", Behaviour="tied"),
+                                    "Load stepping/Steps": 4})
+
 # A plate over two blocks: its nodes over both are slaves of two pairs with the same normal.
 def over(name, cells, order):
     z = ["set Reference displacement x = 0", "set Reference displacement y = 0",
