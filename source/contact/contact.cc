@@ -3,6 +3,8 @@
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/junctions.h>
 #include <touchstone/contact/pairing/sets_of_points.h>
+#include <touchstone/contact/shared_faces.h>
+#include <touchstone/contact/undetermined_forces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -42,9 +44,11 @@ namespace Touchstone
   Contact::Contact(const std::vector<ContactPairInput> &inputs,
                    const ContactParameters             &parameters,
                    const Solid                         &solid,
-                   const Mirrors                       &mirrors)
+                   const Mirrors                       &mirrors,
+                   const Mirrors                       &supports)
     : solid(solid)
     , mirrors(mirrors)
+    , supports(supports)
     , friction_rows(solid)
     , method(parameters.enforcement.make(parameters))
     , impulse_forces("impulse force")
@@ -75,6 +79,7 @@ namespace Touchstone
       if (pair->master())
         seen.add_indices(pair->master()->far_unknowns().begin(),
                          pair->master()->far_unknowns().end());
+    held_of_pairs.resize(pairs.size());
     method->reinit(all_rows);
     impulse_forces.reinit(all_rows);
     cyclic.reinit(pairs, solid.communicator);
@@ -152,6 +157,7 @@ namespace Touchstone
       pair->update(u, ghosted, time, [this](const ContactRow &row) { return state(row).active(); });
     if (!started)
       remove_junction_rows(u);
+    complete_cover(u);
     // Impulses belong to the committed step alone.
     impulse_forces.reinit_present();
     // Before the slip: a row that has lost its partner has none.
@@ -165,13 +171,32 @@ namespace Touchstone
   void
   Contact::remove_junction_rows(const Vector &u)
   {
-    const std::vector<std::set<Index>> nodes = junction_nodes(pairs, solid);
+    std::vector<std::set<Index>> nodes = junction_nodes(pairs, solid);
+    held_of_pairs                      = held_nodes(pairs, supports, mirrors, solid);
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      nodes[p].insert(held_of_pairs[p].begin(), held_of_pairs[p].end());
     for (std::size_t p = 0; p < pairs.size(); ++p)
       if (!nodes[p].empty())
         {
           pairs[p]->remove_rows(nodes[p]);
           pairs[p]->update(u, ghosted, present_time, [](const ContactRow &) { return false; });
         }
+  }
+
+
+
+  void
+  Contact::complete_cover(const Vector &u)
+  {
+    const std::vector<Vector> parts = cover_by_other_pairs(pairs, solid);
+    if (parts.empty() && !shares_faces)
+      return;
+    shares_faces = !parts.empty();
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+      {
+        const Vector part = shares_faces ? with_ghosts(parts[p]) : Vector();
+        pairs[p]->complete_cover(u, shares_faces ? &part : nullptr, !started);
+      }
   }
 
 
@@ -331,7 +356,10 @@ namespace Touchstone
     // The history needs the forces and the geometry of the step that ends, so it is made before
     // anything is committed. Explicit steps follow it through their cycles: record_friction().
     if (!in_cycles)
-      friction_rows.end_step(all_rows, method->states());
+      {
+        divide_undetermined_forces(*this);
+        friction_rows.end_step(all_rows, method->states());
+      }
     for (Stateful *part : parts)
       part->commit();
   }

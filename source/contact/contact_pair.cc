@@ -93,7 +93,8 @@ namespace Touchstone
             &input.solid,
             slave_surface.get(),
             master_surface.get(),
-            search_distance};
+            search_distance,
+            input.one_of_several};
   }
 
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/exchange.h>
+#include <touchstone/base/orthogonal.h>
 #include <touchstone/contact/junctions.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
+#include <cmath>
 #include <map>
 
 // Nodes around which pairs join the same surfaces more than once (doc/theory.md 3.1): the graph has
@@ -27,6 +29,10 @@ namespace Touchstone
 
     /** Of smaller weights another node of the stencil is the partner. */
     constexpr double least_weight = 0.1;
+
+    /** Part of the weight of a stencil that must be free to meet a condition, as for
+     * RefusedConditions. */
+    constexpr double least_free = 0.5;
 
     /** Whether rows of a pair can determine all displacements of their nodes. */
     bool
@@ -120,6 +126,78 @@ namespace Touchstone
                 joined.find_set(numbers.at(link.slave)) == joined.find_set(numbers.at(link.master)))
               result[p].insert(link.slave);
         }
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /** What a row with a held slave node has of one node of its stencil. */
+    struct Facing
+    {
+      unsigned int   pair;
+      Index          slave, node;
+      double         weight;
+      Tensor<1, dim> normal;
+    };
+
+    /** Coefficients below this part are none, as for the constraint graph (doc/theory.md 6). */
+    constexpr double no_part = 1e-3;
+
+    /** What is free of a unit vector at a node.
+     * @param held Directions that need not be independent, by node. */
+    double
+    free_part(const Tensor<1, dim> &vector, const Index node, const ContactPair::Mirrors &held)
+    {
+      std::vector<Tensor<1, dim>> basis;
+      if (const auto found = held.find(node); found != held.end())
+        for (const Tensor<1, dim> &direction : found->second)
+          if (const Tensor<1, dim> part = orthogonal_part(direction, basis);
+              part.norm() > no_part * direction.norm())
+            basis.push_back(part / part.norm());
+      return orthogonal_part(vector, basis).norm();
+    }
+  } // namespace
+
+
+
+  std::vector<std::set<Index>>
+  held_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+             const ContactPair::Mirrors                      &supports,
+             const ContactPair::Mirrors                      &mirrors,
+             const Solid                                     &solid)
+  {
+    std::vector<std::set<Index>> result(pairs.size());
+    std::vector<Facing>          mine;
+    for (unsigned int p = 0; p < pairs.size(); ++p)
+      for (const ContactRow &row : pairs[p]->rows())
+        if (row.has_partner && !row.between_nodes && (row.tied || row.gap < row.size) &&
+            free_part(row.normal, row.slave, supports) < no_part &&
+            free_part(row.normal, row.slave, mirrors) > no_part)
+          for (const StencilEntry &entry : row.stencil)
+            mine.push_back({p, row.slave, entry.node, std::abs(entry.weight), row.normal});
+    const std::vector<Facing> all = gather_all(mine, solid.communicator);
+    if (all.empty())
+      return result;
+    // Weights of the nodes that a row faces, and what is free of them, which their owners know. The
+    // rows are numbered in the same order on all ranks.
+    std::map<std::pair<unsigned int, Index>, std::size_t> numbers;
+    std::vector<double>                                   sums;
+    for (const Facing &facing : all)
+      {
+        const std::size_t k =
+          numbers.emplace(std::make_pair(facing.pair, facing.slave), numbers.size()).first->second;
+        sums.resize(2 * numbers.size());
+        if (!solid.owned.is_element(dim * facing.node))
+          continue;
+        sums[2 * k] += facing.weight;
+        sums[2 * k + 1] += facing.weight * free_part(facing.normal, facing.node, supports);
+      }
+    Utilities::MPI::sum(sums, solid.communicator, sums);
+    for (const auto &[row, k] : numbers)
+      if (sums[2 * k + 1] <= least_free * sums[2 * k])
+        result[row.first].insert(row.second);
     return result;
   }
 } // namespace Touchstone

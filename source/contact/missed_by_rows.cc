@@ -6,7 +6,10 @@
 #include <touchstone/contact/missed_contact.h>
 #include <touchstone/contact/overlap_order.h>
 #include <touchstone/contact/overlapping_bodies.h>
+#include <touchstone/contact/search/search.h>
 #include <touchstone/contact/tolerances.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,10 +73,55 @@ namespace Touchstone
 
 
 
+    /** Add held nodes that have left their rows to others (Contact::held()): these keep the
+     * surfaces apart in the mean, whatever displacements are prescribed there. Collective. */
+    void
+    add_without_rows(const Contact                     &contact,
+                     const ContactPair                 &pair,
+                     const std::set<Index>             &held,
+                     std::vector<MissedContact::Place> &places)
+    {
+      // The same on all ranks.
+      if (held.empty() || !pair.master())
+        return;
+      Search                          search(*pair.master(),
+                    2. * std::max(pair.slave().largest_face(), pair.master()->largest_face()),
+                    pair.parameters().edge_tolerance,
+                    pair.parameters().master_normal,
+                    contact.communicator());
+      std::vector<const ContactRow *> rows;
+      std::vector<Point<dim>>         positions;
+      double                          adjusted = 0.;
+      for (std::size_t k = 0; k < pair.rows().size(); ++k)
+        {
+          const ContactRow &row = pair.rows()[k];
+          adjusted              = std::max(adjusted, -pair.overlap(k));
+          if (row.has_partner || row.between_nodes || held.count(row.slave) == 0)
+            continue;
+          rows.push_back(&row);
+          positions.push_back(row.position);
+        }
+      adjusted = Utilities::MPI::max(adjusted, contact.communicator()) *
+                 pair.part_of_overlap(contact.time());
+      search.update(positions);
+      for (const ContactRow *row : rows)
+        {
+          SlavePoint point;
+          point.x = point.start = row->position;
+          point.normal          = pair.slave().normal(row->slave);
+          if (const auto partner = search.find(point))
+            if (const double depth = (partner->x - row->position) * partner->normal - adjusted;
+                depth > Tolerances::touching * row->size)
+              places.push_back({depth, row->position, row->size, row->area});
+        }
+    }
+
+
+
     /** The deepest of the slave nodes of a pair that touch and whose row was refused, and the area
      * of all of them; the same on all ranks. Collective. */
     MissedContact::Place
-    held_nodes(const Contact &contact, const ContactPair &pair)
+    held_nodes(const Contact &contact, const ContactPair &pair, const std::set<Index> &without_rows)
     {
       std::vector<MissedContact::Place> mine;
       for (const ContactRow &row : pair.rows())
@@ -81,6 +129,7 @@ namespace Touchstone
             row.has_partner && !row.between_nodes && contact.state(row).active() &&
             contact.state(row).dropped() && depth > Tolerances::touching * row.size)
           mine.push_back({depth, row.position, row.size, row.area});
+      add_without_rows(contact, pair, without_rows, mine);
       std::vector<MissedContact::Place> all = gather_all(mine, contact.communicator());
       sort_by_depth(all, [](const MissedContact::Place &place) { return place; });
       return MissedContact::first_of(all);
@@ -150,7 +199,7 @@ namespace Touchstone
         else if (pair.master())
           idle.emplace(bodies, pair.parameters().name);
         MissedByRows               found;
-        const MissedContact::Place held = held_nodes(contact, pair);
+        const MissedContact::Place held = held_nodes(contact, pair, contact.held(p));
         if (held.depth > 0.)
           found = {at_held_nodes(pair.parameters(), held),
                    MissedContact::deep(held),

@@ -3,6 +3,8 @@
 #include <touchstone/contact/contact_pair.h>
 #include <touchstone/contact/start_check.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 // The geometry of the rows of a pair in each update: search and pairing in the present state for
@@ -201,6 +203,30 @@ namespace Touchstone
           make_reference();
         update_small_sliding(u);
       }
+    apply_overlap();
+    started = true;
+  }
+
+
+
+  void
+  ContactPair::complete_cover(const Vector &u, const Vector *const part, const bool first)
+  {
+    // What is paired once is that of the first update.
+    if (small && !first)
+      return;
+    const bool changes = pairing_method->set_cover_by_others(part);
+    if (Utilities::MPI::max(static_cast<int>(changes), input.solid.communicator) == 0)
+      return;
+    if (small)
+      {
+        make_reference();
+        update_small_sliding(u);
+      }
+    else
+      search(*displacement);
+    // Overlaps that are taken out of gaps are those of the first rows.
+    started = !first;
     apply_overlap();
     started = true;
   }

@@ -192,7 +192,11 @@ namespace Touchstone
     parameters.enforcement = std::string("elimination");
     try
       {
-        Contact contact(pair_inputs(scene, forest, solid), parameters, solid, conditions.mirrors());
+        Contact contact(pair_inputs(scene, forest, solid),
+                        parameters,
+                        solid,
+                        conditions.mirrors(),
+                        conditions.supported_directions());
         contact.update(Vector(solid.owned, solid.communicator), 0.);
         return start_report(contact);
       }

@@ -31,7 +31,8 @@ namespace Touchstone
     , contact(pair_inputs(scene, forest, solid),
               scene.contact,
               solid,
-              boundary_conditions.mirrors())
+              boundary_conditions.mirrors(),
+              boundary_conditions.supported_directions())
     , pretension(scene.pairs, scene.load_stepping, contact)
     , tools(scene.obstacles, scene.time_integration, scene.newton.residual_tolerance, contact)
     , u(solid.owned, solid.communicator)

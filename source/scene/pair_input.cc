@@ -23,6 +23,8 @@ namespace Touchstone
     // Explicit steps know of edges by their own search, see GeneralContact.
     input.in_cycles = scene.time_integration.runs_in_cycles();
     input.edges     = !input.in_cycles;
+
+    input.one_of_several = scene.pairs.size() > 1;
     for (const ObstacleParameters &obstacle : scene.obstacles)
       if (obstacle.name == parameters.obstacle)
         input.obstacle = &obstacle;

@@ -114,6 +114,36 @@ for path, n in (star("sheared.prm", (100, 130, 130), ("3, 3, 2", "3, 3, 1", "3, 
     for enforcement in EXACT_ENFORCEMENTS:
         patch(f"sheared_{enforcement}", path, {**tied(n), ENFORCEMENT: enforcement}, pressure=False)
 
+# Both sides of each interface are held at its outer end: rows there have nothing to determine, and others take their
+# part, of the force of the pair, too.
+HELD = -10 * (1 + NU) * (1 - 2 * NU) / E
+for path, settings in ((star("held.prm", (100, 130, 130), ("3, 3, 2", "4, 4, 2", "5, 7, 3"), CIRCLE,
+                             (HELD, HELD, 0)), {"smooth": {}, "tied": tied(3), "rough": rough(3)}),
+                       (star("held_shear.prm", (100, 130, 130), ("3, 3, 2", "4, 4, 2", "5, 7, 3"), CIRCLE,
+                             (-0.004, 0.001, 0.003)), {"tied": tied(3)})):
+    for way, of_pairs in settings.items():
+        for ranks in (1, 2) if way == "tied" else (1,):
+            result = patch(f"{path[:-4]}_{way}_{ranks}", path, of_pairs, pressure=False, ranks=ranks)
+            if path == "held.prm":
+                for pair in "abc":
+                    below(f"{result}, force of {pair}", relative(math.hypot(*result.force(pair)), 10),
+                          1e-7)
+
+# Tied pointwise rows on meshes that match around the edge say more than there is to say, and forces that go around the
+# edge and back are not determined: those are taken that continue the tractions beside it.
+for path, n in ((star("matching.prm", (100, 130, 130), ("3, 3, 1",) * 3, CIRCLE), 3),
+                (star("chain.prm", (100, 130, 130), ("3, 3, 2",) * 3, CHAIN), 3),
+                (star("matching_four.prm", (90, 80, 100, 90), ("3, 3, 2",) * 4,
+                      (True, False, True, True)), 4)):
+    for enforcement in EXACT_ENFORCEMENTS:
+        result = patch(f"{path[:-4]}_{enforcement}", path,
+                       {**kind(n, Pairing="pointwise", Behaviour="tied"), ENFORCEMENT: enforcement})
+        for pair in NAMES[:n]:
+            below(f"{result}, force of {pair}", relative(math.hypot(*result.force(pair)), 10), 1e-7)
+    patch(f"{path[:-4]}_2", path, kind(n, Pairing="pointwise", Behaviour="tied"), ranks=2)
+patch("matching_four_steps", path, {**kind(4, Pairing="pointwise", Behaviour="tied"),
+                                    "Load stepping/Steps": 4})
+
 # A plate over two blocks: its nodes over both are slaves of two pairs with the same normal.
 def over(name, cells, order):
     z = ["set Reference displacement x = 0", "set Reference displacement y = 0",
@@ -148,6 +178,58 @@ patch("over_2", OVER, {}, pressure=False, ranks=2)
 for solver in CG, GMRES:
     patch(f"over_{solver['Linear solver/Type'][6:]}", OVER, solver, pressure=False)
 patch("over_other_order", over("other.prm", CELLS, ("right", "left")), {}, pressure=False)
+
+# Slave faces over the joint of several masters, inside them, along their sides or across, at corners, and where
+# pairs cover parts of the same face as their slave or as their master: together they cover all of it. Uniaxial strain.
+def joint(name, blocks, cells, pairs):
+    """A plate over blocks. @param blocks name: (corners in the plane, cells).
+    @param pairs (block, whether the plate is the slave)."""
+    exact = ["set Reference displacement x = 0", "set Reference displacement y = 0",
+             "set Reference displacement z = -0.01*z"]
+    fixed = [f"set Displacement {d} = 0" for d in "xyz"]
+    bodies = {}
+    for block, (corners, of_block) in blocks.items():
+        bodies[block] = ["set Boundary conditions = bottom", *exact, "subsection Boundary bottom",
+                         *fixed, "end", "subsection Geometry", "set Type = block",
+                         "set Corners = " + "; ".join(f"{x}, {y}, 0" for x, y in corners),
+                         f"set Cells = {of_block}", "end"]
+    bodies["plate"] = ["set Symmetry = left, front", "set Boundary conditions = top", *exact,
+                       "subsection Boundary top", "set Pressure = 10 * t", "end",
+                       *box("0, 0, 1", "2, 2, 2", cells)]
+    bodies = {body: lines + material(0.) for body, lines in bodies.items()}
+    sides = [[("plate", "bottom"), (block, "top")][::1 if slave else -1] for block, slave in pairs]
+    return scene(name, "plate over blocks", bodies, [(*a, *b) for a, b in sides],
+                 ["set Type = formula"])
+
+
+def rectangle(x, y, end_x, end_y):
+    return (x, y), (end_x, y), (end_x, end_y), (x, end_y)
+
+
+MIDDLE = {"one": (rectangle(0, 0, 1, 2), "3, 4, 2"), "two": (rectangle(1, 0, 2, 2), "3, 4, 2")}
+OBLIQUE = {"one": (((0, 0), (0.7, 0), (1.2, 2), (0, 2)), "3, 4, 2"),
+           "two": (((0.7, 0), (2, 0), (2, 2), (1.2, 2)), "4, 3, 2")}
+CORNERS = {"one": (rectangle(0, 0, 0.9, 1.2), "2, 3, 1"), "two": (rectangle(0.9, 0, 2, 1.2), "3, 2, 1"),
+           "three": (rectangle(0, 1.2, 0.9, 2), "2, 2, 1"),
+           "four": (rectangle(0.9, 1.2, 2, 2), "2, 3, 1")}
+STRIPS = {"one": (rectangle(0, 0, 0.8, 2), "2, 3, 1"), "two": (rectangle(0.8, 0, 1.1, 2), "1, 3, 1"),
+          "three": (rectangle(1.1, 0, 2, 2), "2, 4, 1")}
+for way, blocks in {"middle": MIDDLE, "oblique": OBLIQUE, "corners": CORNERS, "strips": STRIPS}.items():
+    n = len(blocks)
+    for cells in "1, 1, 1", "3, 3, 2":
+        name = f"joint_{way}_{cells[0]}"
+        path = joint(f"{name}.prm", blocks, cells, [(block, True) for block in blocks])
+        for law, settings in {"smooth": {}, "tied": tied(n), "rough": rough(n)}.items():
+            patch(f"{name}_{law}", path, settings, pressure=False)
+        # The first and the third block are masters of the plate, the others its slaves.
+        mixed = joint(f"{name}_mixed.prm", blocks, cells,
+                      [(block, k % 2 == 0) for k, block in enumerate(blocks)])
+        patch(f"{name}_mixed", mixed, {}, pressure=False)
+    for enforcement in EXACT_ENFORCEMENTS[1:]:
+        patch(f"{name}_{enforcement}", path, {ENFORCEMENT: enforcement}, pressure=False)
+    patch(f"{name}_2", path, {}, pressure=False, ranks=2)
+    patch(f"{name}_small", path, kind(n, Sliding="small"), pressure=False)
+    patch(f"{name}_gmres", path, {**rough(n), **GMRES}, pressure=False)
 
 # A surface that is driven is slave: the master gives way, as it does with the roles exchanged. Meshes
 # match, so that pointwise rows say the same with either role.

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace Touchstone
@@ -37,11 +38,14 @@ namespace Touchstone
     /** @param inputs     Input of the pairs, in their order.
      * @param parameters How they are enforced; must live as long as this.
      * @param mirrors    Of owned nodes, by node.
+     * @param supports   Directions in which displacements of owned nodes are prescribed, planes of
+     *                   symmetry among them, by node.
      * @throws InputError for boundaries that do not exist, and surfaces without faces. */
     Contact(const std::vector<ContactPairInput> &inputs,
             const ContactParameters             &parameters,
             const Solid                         &solid,
-            const Mirrors                       &mirrors = Mirrors());
+            const Mirrors                       &mirrors  = Mirrors(),
+            const Mirrors                       &supports = Mirrors());
     Contact(const Contact &) = delete;
 
     /** @brief The rows of this rank, pair after pair. */
@@ -83,6 +87,14 @@ namespace Touchstone
     pair(const ContactRow &row) const
     {
       return *pairs[row.pair];
+    }
+
+    /** @brief Slave nodes of the pair @p p that have no rows where they can leave them to others,
+     * since supports hold both sides: see held_nodes(). The same on all ranks. */
+    const std::set<Index> &
+    held(const unsigned int p) const
+    {
+      return held_of_pairs[p];
     }
 
     /** @brief Normals of the planes of symmetry that owned nodes lie on. */
@@ -295,23 +307,31 @@ namespace Touchstone
     };
 
     const Solid                              &solid;
-    const Mirrors                             mirrors;
+    const Mirrors                             mirrors, supports;
     std::vector<std::unique_ptr<ContactPair>> pairs;
     ContactRows                               all_rows;
     Friction                                  friction_rows;
     std::shared_ptr<Enforcement>              method;
     CyclicConstraints                         cyclic;
     RowArray<ImpulseForce>                    impulse_forces;
+    std::vector<std::set<Index>>              held_of_pairs;
     /** Displacement with the ghosts that the surfaces need; empty without pairs. */
     Vector                             ghosted;
     mutable std::optional<GhostImport> import_ghosts;
     bool                               started = false, in_cycles = false;
-    double                             present_time = 0.;
+    /** In the last update slave faces were covered by several pairs. */
+    bool   shares_faces = false;
+    double present_time = 0.;
 
-    /** Of the first update: rows that pairs have in common with others go, see junction_nodes().
-     * Collective. */
+    /** Of the first update: rows that pairs have in common with others go, see junction_nodes(),
+     * and those between supports, see held_nodes(). Collective. */
     void
     remove_junction_rows(const Vector &u);
+
+    /** After all pairs have been updated: rows of slave faces that several pairs cover.
+     * Collective. */
+    void
+    complete_cover(const Vector &u);
 
     /** All objects with history, in the order in which they are committed and loaded. */
     std::vector<Stateful *> parts;

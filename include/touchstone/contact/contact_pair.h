@@ -40,6 +40,8 @@ namespace Touchstone
     bool edges = true;
     /** In explicit dynamics. */
     bool in_cycles = false;
+    /** There are other pairs. */
+    bool one_of_several = false;
   };
 
   /**
@@ -221,6 +223,13 @@ namespace Touchstone
            const Vector                                  &ghosted,
            double                                         time,
            const std::function<bool(const ContactRow &)> &active);
+
+    /** @brief Update again where other pairs cover what this one does not, from what all have found
+     * in their update; see cover_by_other_pairs(). Collective.
+     * @param u     Of the update. @param part With ghosts; null: nowhere.
+     * @param first The update was the first one. */
+    void
+    complete_cover(const Vector &u, const Vector *part, bool first);
 
     /** @brief Let slave nodes have no rows where the others of their faces can take their part, see
      * junction_nodes(), and begin again with the next update. Pointwise rows stay.

@@ -26,6 +26,25 @@ namespace Touchstone
    */
   std::vector<std::set<Index>>
   junction_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs, const Solid &solid);
+
+  /**
+   * @brief Slave nodes that supports hold along the normal of their row, as they hold what the
+   * nodes face (doc/theory.md 3.1, "Edges that supports hold"): at the end of an interface both
+   * sides of which have prescribed displacements. No displacement is left for a row there to
+   * determine, and the multiplier space of mortar methods has no function of its own at such
+   * points, either.
+   *
+   * @param pairs    After an update.
+   * @param supports Directions in which displacements of owned nodes are prescribed.
+   * @param mirrors  Those among them that are normals of planes of symmetry: these hold nodes as
+   *                 the mirrored half of the body would.
+   * @return By pair; the same on all ranks. Collective.
+   */
+  std::vector<std::set<Index>>
+  held_nodes(const std::vector<std::unique_ptr<ContactPair>> &pairs,
+             const ContactPair::Mirrors                      &supports,
+             const ContactPair::Mirrors                      &mirrors,
+             const Solid                                     &solid);
 } // namespace Touchstone
 
 #endif

@@ -126,8 +126,10 @@ namespace Touchstone
     /** By the mean cover of a face, limits of the step S in doc/theory.md 3.1: below the first the
      * basis function of a node is aggregated entirely with others, above the second the node keeps
      * all of its row. With two thirds of a face covered nodes beyond the edge of the cover have
-     * 0.6. For tied rows, which are kept or aggregated as a whole, the mean of both decides. */
-    constexpr double gives_all = 0.2, keeps_all = 0.6, keeps_if_at_once = 0.5 * (0.2 + 0.6);
+     * 0.6. Where rows are kept or aggregated as a whole, as tied ones are and those beside which
+     * another pair covers the rest, a third decides: two thirds of that which a node has on a face
+     * half of which is covered, so that round-off does not. */
+    constexpr double gives_all = 0.2, keeps_all = 0.6, keeps_if_at_once = 1. / 3.;
 
     /** Largest ratio r of the area that a node has given away to that which it keeps, beyond which
      * it has no row; and the growth of the gap, by the size of the face, at r = 1 (doc/theory.md
@@ -137,6 +139,11 @@ namespace Touchstone
 
     /** Kept area by the tributary area below which a node has no row. */
     constexpr double least_cover = 1e-6;
+
+    /** Part of the area of a node from which on all of it counts as covered by one pair; and from
+     * the first to the second it counts as covered by all pairs together (doc/theory.md 3.1, "Faces
+     * that several pairs cover"): surfaces of two bodies side by side need not fit exactly. */
+    constexpr double nearly_covered = 0.999, shared_from = 0.8, shared_to = 0.95;
 
     /** Part of a nodal area that may be missing by round-off where all is covered. */
     constexpr double fully_covered = 1e-10;

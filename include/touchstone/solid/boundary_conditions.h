@@ -164,6 +164,16 @@ namespace Touchstone
       return mirror_normals;
     }
 
+    /** @brief The directions in which displacements of owned nodes are prescribed, by node. */
+    std::map<Index, std::vector<dealii::Tensor<1, dim>>>
+    supported_directions() const
+    {
+      std::map<Index, std::vector<dealii::Tensor<1, dim>>> result;
+      for (const Prescribed &entry : prescribed)
+        result[entry.node].push_back(entry.direction);
+      return result;
+    }
+
     /**
      * @brief Forces that the supports exert on the bodies.
      * @param unbalanced Internal minus external minus contact forces at each

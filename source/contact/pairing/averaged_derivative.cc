@@ -38,14 +38,15 @@ namespace Touchstone
   void
   AveragedDerivative::add_face(const FaceGeometry              &slave,
                                const TraceBasis                *basis,
-                               const std::vector<const Face *> &covering)
+                               const std::vector<const Face *> &covering,
+                               const CoverShares::Whole        &at_once)
   {
     // The number of nodes is a template parameter: derivative numbers have a fixed length of 24 or
     // 54.
     if (slave.face().degree == 1)
-      add<4>(slave, basis, covering);
+      add<4>(slave, basis, covering, at_once);
     else
-      add<9>(slave, basis, covering);
+      add<9>(slave, basis, covering, at_once);
   }
 
 
@@ -54,7 +55,8 @@ namespace Touchstone
   void
   AveragedDerivative::add(const FaceGeometry              &slave,
                           const TraceBasis                *basis,
-                          const std::vector<const Face *> &covering)
+                          const std::vector<const Face *> &covering,
+                          const CoverShares::Whole        &at_once)
   {
     const FaceDifferentiator               on_slave(slave);
     typename SlaveFaceDerivative<n>::Parts parts;
@@ -76,7 +78,7 @@ namespace Touchstone
     const auto areas = total_areas<n>(parts);
     if (std::accumulate(areas.begin(), areas.end(), 0.) <= 0.)
       return;
-    const SlaveFaceDerivative<n> face(slave, basis, parts, gradual);
+    const SlaveFaceDerivative<n> face(slave, basis, parts, at_once);
     for (unsigned int k = 0; k < n; ++k)
       // A face contributes to the rows of all its nodes, or of the nodes that its hanging nodes
       // follow.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/contact/pairing/averaged_derivative.h>
+#include <touchstone/contact/pairing/cover_of_nodes.h>
 #include <touchstone/contact/pairing/facing_part.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/row_sums.h>
+#include <touchstone/contact/pairing/smooth_step.h>
 #include <touchstone/contact/search/facing_faces.h>
 
 #include <deal.II/base/mpi.h>
@@ -68,8 +70,13 @@ namespace Touchstone
                               basis,
                               {},
                               whole_areas(face, basis, /*reference=*/true),
-                              areas_to_cover(face, basis)};
-              bool                    any = false;
+                              areas_to_cover(face, basis),
+                              {},
+                              {}};
+              slave.cover.fill(-1.);
+              // Tied rows are made once and need not change smoothly.
+              slave.at_once.part.fill(tied ? 1. : 0.);
+              bool any = false;
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
                 {
                   const auto found =
@@ -126,7 +133,17 @@ namespace Touchstone
         facing.remember(own);
         searched.clear();
         present.clear();
+        step_begins = true;
       }
+
+      const CoverOfNodes *
+      cover() const override
+      {
+        return input.one_of_several ? &covered_nodes : nullptr;
+      }
+
+      bool
+      set_cover_by_others(const Vector *part) override;
 
       SearchWork
       search_work() const override
@@ -160,7 +177,28 @@ namespace Touchstone
         std::array<int, Face::max_nodes> row;
         /** whole_areas() in the reference state, and areas_to_cover(). */
         std::array<double, Face::max_nodes> whole, to_cover;
+        /** Of CoverShares. */
+        CoverShares::Whole at_once;
+        /** CoverShares::cover of the last update; negative: not covered. */
+        std::array<double, Face::max_nodes> cover;
       };
+
+      /** What is covered since the last update, if there are other pairs; and whether what these
+       * cover has changed since. */
+      CoverOfNodes covered_nodes;
+      /** The next update is that of the committed state, which is not known since a restart. */
+      bool step_begins = false;
+
+      /** The committed state is that of the last update. */
+      void
+      set_before()
+      {
+        for (SlaveFace &face : faces)
+          for (unsigned int m = 0; m < face.face->n_nodes(); ++m)
+            face.at_once.before[m] =
+              face.cover[m] < 0. ? -1 : static_cast<int>(CoverShares::keeps(face.cover[m], -1));
+      }
+      bool others_changed = false;
 
       /** Indices of the rows of the owned nodes, and the slave faces around these in the order
        * of their keys. */
@@ -189,7 +227,7 @@ namespace Touchstone
       /** @tparam n Nodes of the face. */
       template <unsigned int n>
       void
-      add_face(const SlaveFace &face, CoveredFace &covered);
+      add_face(SlaveFace &face, CoveredFace &covered);
       /** Add the parts of the face that nodes give to others. @param shares Of the face. */
       void
       add_shares(const SlaveFace &face, const Face &slave, const CoverShares &shares);
@@ -211,6 +249,7 @@ namespace Touchstone
       // step begins.
       facing.commit(slave_faces);
       search.commit(&u);
+      set_before();
       // The motion within a step is counted from here: candidates are searched anew.
       searched.clear();
       for (CoveredFace &covered : slave_faces)
@@ -262,7 +301,8 @@ namespace Touchstone
           now.insert(now.end(),
                      face.displacement.begin(),
                      face.displacement.begin() + face.n_nodes());
-      const bool same = now == present;
+      const bool same = now == present && !others_changed;
+      others_changed  = false;
       present.swap(now);
       return Utilities::MPI::min(same ? 1 : 0, input.solid->communicator) == 0;
     }
@@ -271,8 +311,9 @@ namespace Touchstone
 
     template <unsigned int n>
     void
-    AveragedPairing::add_face(const SlaveFace &face, CoveredFace &covered)
+    AveragedPairing::add_face(SlaveFace &face, CoveredFace &covered)
     {
+      face.cover.fill(-1.);
       const Face                    &slave   = covered.slave;
       const std::vector<FacingFace> &masters = covered.masters = facing.find(slave);
       if (masters.empty())
@@ -296,15 +337,15 @@ namespace Touchstone
       // Covered only where the surfaces are too inclined to each other (doc/theory.md 3.2).
       if (std::accumulate(areas.begin(), areas.end(), 0.) <= 0.)
         return;
-      // The dual basis of the whole covered part, which several master faces may share. Tied rows
-      // are made once and need not change smoothly.
+      // The dual basis of the whole covered part, which several master faces may share.
       const DualBasis dual(total_mass<n>(parts),
                            areas,
                            face.basis,
                            face.to_cover,
-                           /*gradual=*/!tied,
+                           face.at_once,
                            /*with_derivative=*/false);
-      const auto      present = whole_areas(slave, face.basis, /*reference=*/false);
+      face.cover         = dual.shares.cover;
+      const auto present = whole_areas(slave, face.basis, /*reference=*/false);
 
       for (unsigned int k = 0; k < n; ++k)
         {
@@ -312,6 +353,10 @@ namespace Touchstone
           if (face.row[k] < 0)
             continue;
           RowSums &sum = sums[face.row[k]];
+          sum.shared   = face.at_once.part[k];
+          if (input.one_of_several)
+            covered_nodes.add<n>(
+              input.slave->owned_nodes()[face.row[k]], k, plane, dual, masters, parts);
           // Where the node hangs the row is that of another node, which is not on this face.
           FaceShare *share = nullptr;
           if (!face.basis || face.basis->nodes[k] == slave.nodes[k])
@@ -330,6 +375,29 @@ namespace Touchstone
         }
       if (dual.shares.partial)
         add_shares(face, slave, dual.shares);
+    }
+
+
+
+    bool
+    AveragedPairing::set_cover_by_others(const Vector *const part)
+    {
+      if (tied)
+        return false;
+      bool changed = false;
+      for (SlaveFace &face : faces)
+        for (unsigned int m = 0; m < face.face->n_nodes(); ++m)
+          {
+            const Index dof = dim * (face.basis ? face.basis->nodes[m] : face.face->nodes[m]);
+            // What hanging nodes follow may lie beyond what this rank sees.
+            const bool known = part && part->trilinos_partitioner().MyGID(
+                                         static_cast<TrilinosWrappers::types::int_type>(dof));
+            const double value   = known ? (*part)(dof) : 0.;
+            changed              = changed || value != face.at_once.part[m];
+            face.at_once.part[m] = value;
+          }
+      others_changed = others_changed || changed;
+      return changed;
     }
 
 
@@ -392,6 +460,7 @@ namespace Touchstone
     {
       for (RowSums &sum : sums)
         sum.clear();
+      covered_nodes.clear();
 
       // Bring the copies of the slave faces to the present state. Master faces are wanted around
       // the nodes where they are and where they were at the start of the step, for SweptSearch.
@@ -428,12 +497,23 @@ namespace Touchstone
       geometries.resize(search.known_faces().size());
       watch_motion();
       for (std::size_t f = 0; f < faces.size(); ++f)
-        if (slave_faces[f].slave.degree == 1)
-          add_face<4>(faces[f], slave_faces[f]);
-        else
-          add_face<9>(faces[f], slave_faces[f]);
+        {
+          for (unsigned int k = 0; input.one_of_several && k < faces[f].face->n_nodes(); ++k)
+            if (faces[f].row[k] >= 0)
+              covered_nodes.add_whole(input.slave->owned_nodes()[faces[f].row[k]].node,
+                                      k,
+                                      slave_faces[f].slave,
+                                      faces[f].basis);
+          if (slave_faces[f].slave.degree == 1)
+            add_face<4>(faces[f], slave_faces[f]);
+          else
+            add_face<9>(faces[f], slave_faces[f]);
+        }
       for (RowSums &sum : sums)
         sum.finish();
+      if (step_begins)
+        set_before();
+      step_begins = false;
     }
 
 
@@ -485,7 +565,6 @@ namespace Touchstone
       // All ranks must take part: finish() is collective.
       AveragedDerivative derivative(search.exchange(),
                                     slave_exchange.get(),
-                                    /*gradual=*/!tied,
                                     input.slave->largest_face());
       for (const ContactRow &row : rows)
         if (row.was_active && !row.between_nodes)
@@ -494,11 +573,12 @@ namespace Touchstone
                              sums[row_of_node.at(row.slave)],
                              row.size,
                              row.friction != nullptr);
-      for (const auto &[slave, masters] : slave_faces)
-        if (const TraceBasis *basis = input.slave->trace(slave); derivative.wants(slave, basis))
+      for (std::size_t f = 0; f < faces.size(); ++f)
+        if (const auto &[slave, masters] = slave_faces[f]; derivative.wants(slave, faces[f].basis))
           derivative.add_face(FaceGeometry(slave, input.slave->exact_surface(slave), kind),
-                              basis,
-                              masters_of(masters));
+                              faces[f].basis,
+                              masters_of(masters),
+                              faces[f].at_once);
       const auto derivatives = derivative.finish();
       for (ContactRow &row : rows)
         if (!row.between_nodes)

@@ -16,9 +16,9 @@ namespace Touchstone
   CoverSums::suffices(const double whole) const
   {
     // A row needs some covered area of its own, at most r = 3 of it given away (doc/theory.md 3.1),
-    // and a normal.
-    return kept >= Tolerances::least_cover * whole && Tolerances::most_given * kept >= given &&
-           normal.norm_square() > 0.;
+    // and a normal. Without the rows of parts that are kept as a whole a pressure would be lost.
+    return kept >= Tolerances::least_cover * whole &&
+           Tolerances::most_given * kept >= (1. - shared) * given && normal.norm_square() > 0.;
   }
 
 
@@ -162,11 +162,13 @@ namespace Touchstone
       result +=
         above *
         smooth_step(Number(at_least / size), Tolerances::hardly_open, Tolerances::well_open);
-    // 0.01 h r^4 of equation (6): the row opens before its area vanishes.
-    if (at_given > 0.)
+    // 0.01 h r^4 of equation (6): the row opens before its area vanishes. Where other pairs cover
+    // the rest it need not: parts are kept as a whole or not at all.
+    if (at_given > 0. && sums.shared < 1.)
       {
         const Number ratio = at_given / at_kept;
-        result += Tolerances::gap_growth * size * ratio * ratio * ratio * ratio;
+        result +=
+          (1. - sums.shared) * Tolerances::gap_growth * size * ratio * ratio * ratio * ratio;
       }
     const auto by    = [&result](const Of which) { return result.dx(static_cast<int>(which)); };
     value            = result.val();

@@ -49,10 +49,10 @@ namespace Touchstone
                        const Values             &shape_areas,
                        const TraceBasis         *basis,
                        const Values             &whole,
-                       const bool                gradual,
+                       const CoverShares::Whole &at_once,
                        const bool                with_derivative)
     : areas(basis ? basis->apply(shape_areas) : shape_areas)
-    , shares(mass.m(), areas, whole, gradual, with_derivative)
+    , shares(mass.m(), areas, whole, at_once, with_derivative)
     , basis(basis)
     , inverse(mass)
   {

@@ -72,6 +72,18 @@ namespace Touchstone
         keys.assign(memory.of_rows.begin() + n, memory.of_rows.end());
       }
 
+      const CoverOfNodes *
+      cover() const override
+      {
+        return of_nodes->cover();
+      }
+
+      bool
+      set_cover_by_others(const Vector *const part) override
+      {
+        return of_nodes->set_cover_by_others(part);
+      }
+
       SearchWork
       search_work() const override
       {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/geometry/value_of.h>
 #include <touchstone/contact/pairing/partial_cover.h>
 #include <touchstone/contact/pairing/smooth_step.h>
 #include <touchstone/contact/tolerances.h>
@@ -22,11 +23,12 @@ namespace Touchstone
     struct Division
     {
       std::array<Number, Face::max_nodes> keep, take;
+      std::array<double, Face::max_nodes> at{};
 
       Division(const unsigned int                         n,
                const std::array<Number, Face::max_nodes> &covered,
                const std::array<double, Face::max_nodes> &whole,
-               const bool                                 gradual)
+               const CoverShares::Whole                  &at_once)
       {
         // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
         Number sum = 0., squares = 0., receivers = 0.;
@@ -47,8 +49,11 @@ namespace Touchstone
             // it keeps its part.
             const Number cover =
               whole[i] > 0. ? Number(covered[i] / whole[i] * sum / squares) : Number(1.);
-            keep[i] = gradual ? smooth_step(cover, Tolerances::gives_all, Tolerances::keeps_all)
-                              : Number(cover < Tolerances::keeps_if_at_once ? 0. : 1.);
+            const double once = at_once.part[i];
+            at[i]             = value_of(cover);
+            keep[i] =
+              (1. - once) * smooth_step(cover, Tolerances::gives_all, Tolerances::keeps_all) +
+              (CoverShares::keeps(at[i], at_once.before[i]) ? once : 0.);
             // Receivers are those that keep all of their own (beta = 1), in proportion to their
             // area, and start from zero there: no jump, and no chain of nodes that both give and
             // receive.
@@ -74,13 +79,28 @@ namespace Touchstone
 
 
 
+  bool
+  CoverShares::keeps(const double cover, const int before)
+  {
+    // Beyond these limits what was before is outdated, for the edge of the cover has moved by a
+    // good part of a face: rows of slivers, or nodes without their rows, would be left. Those
+    // that may receive parts of others keep their own.
+    constexpr double surely_gives = 0.1, surely_keeps = Tolerances::keeps_all;
+    if (before < 0 || cover < surely_gives || cover > surely_keeps)
+      return cover >= Tolerances::keeps_if_at_once;
+    return before == 1;
+  }
+
+
+
   CoverShares::CoverShares(const unsigned int                         n,
                            const std::array<double, Face::max_nodes> &covered,
                            const std::array<double, Face::max_nodes> &whole,
-                           const bool                                 gradual,
+                           const CoverShares::Whole                  &at_once,
                            const bool                                 with_derivative)
   {
-    const Division<double> division(n, covered, whole, gradual);
+    const Division<double> division(n, covered, whole, at_once);
+    cover   = division.at;
     partial = std::any_of(division.keep.begin(), division.keep.begin() + n, [](const double beta) {
       return beta != 1.;
     });
@@ -100,7 +120,7 @@ namespace Touchstone
     std::array<Number, Face::max_nodes> a;
     for (unsigned int i = 0; i < n; ++i)
       a[i] = Number(int(Face::max_nodes), int(i), covered[i]);
-    const Division<Number> differentiated(n, a, whole, gradual);
+    const Division<Number> differentiated(n, a, whole, at_once);
     for (unsigned int k = 0; k < n; ++k)
       for (unsigned int i = 0; i < n; ++i)
         {

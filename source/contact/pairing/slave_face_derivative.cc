@@ -13,17 +13,17 @@ namespace Touchstone
   using namespace dealii;
 
   template <unsigned int n>
-  SlaveFaceDerivative<n>::SlaveFaceDerivative(const FaceGeometry &slave,
-                                              const TraceBasis   *basis,
-                                              const Parts        &parts,
-                                              const bool          gradual)
+  SlaveFaceDerivative<n>::SlaveFaceDerivative(const FaceGeometry       &slave,
+                                              const TraceBasis         *basis,
+                                              const Parts              &parts,
+                                              const CoverShares::Whole &at_once)
     : slave(slave)
     , parts(parts)
     , dual(total_mass<n>(parts),
            total_areas<n>(parts),
            basis,
            areas_to_cover(slave.face(), basis),
-           gradual,
+           at_once,
            /*with_derivative=*/true)
     , basis(basis)
     , whole(whole_areas(slave.face(), basis, /*reference=*/true))

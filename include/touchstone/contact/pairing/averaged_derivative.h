@@ -25,15 +25,12 @@ namespace Touchstone
     /** @param exchange       Of the master surface.
      * @param slave_exchange Of the slave surface; needed where its faces are smoothed,
      *                     or null. Both must live as long.
-     * @param gradual      Of the CoverShares.
      * @param length       Of the OverlapIntegrals. */
     AveragedDerivative(const FaceExchange &exchange,
                        const FaceExchange *slave_exchange,
-                       const bool          gradual,
                        const double        length)
       : exchange(exchange)
       , slave_exchange(slave_exchange)
-      , gradual(gradual)
       , length(length)
     {
     }
@@ -56,11 +53,12 @@ namespace Touchstone
     wants(const Face &slave, const TraceBasis *basis) const;
 
     /** @brief Add the share of a slave face.
-     * @param covering Master faces that cover it. */
+     * @param covering Master faces that cover it. @param at_once Of CoverShares. */
     void
     add_face(const FaceGeometry              &slave,
              const TraceBasis                *basis,
-             const std::vector<const Face *> &covering);
+             const std::vector<const Face *> &covering,
+             const CoverShares::Whole        &at_once);
 
     /** @brief All faces have been added: the derivatives by the slave nodes of the rows.
      * Collective. */
@@ -82,7 +80,6 @@ namespace Touchstone
 
     const FaceExchange                              &exchange;
     const FaceExchange                              *slave_exchange;
-    const bool                                       gradual;
     const double                                     length;
     std::unordered_map<Index, AveragedRowDerivative> rows;
     std::unordered_map<const Face *, Master>         masters;
@@ -91,7 +88,8 @@ namespace Touchstone
     void
     add(const FaceGeometry              &slave,
         const TraceBasis                *basis,
-        const std::vector<const Face *> &covering);
+        const std::vector<const Face *> &covering,
+        const CoverShares::Whole        &at_once);
   };
 } // namespace Touchstone
 

@@ -45,6 +45,9 @@ namespace Touchstone
     double area = 0., kept = 0., given = 0.;
     /** The kept area in the reference state. */
     double reference = 0.;
+    /** How far other pairs cover the rest of the node, from 0 to 1, or 1 if its parts of faces are
+     * kept or given as a whole in any case, as those of tied rows are. */
+    double shared = 0.;
     /** Integrals of gap and normal with psi'_k. */
     dealii::Tensor<1, dim> gap, normal;
     /** The integral of the displacement of the slave relative to the master with psi'_k, area times

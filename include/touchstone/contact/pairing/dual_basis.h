@@ -38,14 +38,14 @@ namespace Touchstone
      * @param areas     a, area.
      * @param basis     Of a face with hanging nodes, or null.
      * @param whole     The integrals of the N~ over the whole face in the reference state, area.
-     * @param gradual   Of CoverShares.
+     * @param at_once   Of CoverShares.
      * @param with_derivative share_derivative() will be called.
      */
     DualBasis(const dealii::FullMatrix<double> &mass,
               const Values                     &areas,
               const TraceBasis                 *basis,
               const Values                     &whole,
-              bool                              gradual,
+              const CoverShares::Whole         &at_once,
               bool                              with_derivative);
 
     /** @brief a~, area. */

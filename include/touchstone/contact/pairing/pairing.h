@@ -32,7 +32,11 @@ namespace Touchstone
     /** Farthest distance at which partners are looked for, length; zero lets the pairing
      * choose it from the size of the faces. */
     double search_distance = 0.;
+    /** There are other pairs, which may cover what this one does not. */
+    bool one_of_several = false;
   };
+
+  struct CoverOfNodes;
 
   /** @brief What a slave node meets, where that is known without a search. */
   struct PointContact
@@ -169,6 +173,23 @@ namespace Touchstone
     virtual void
     set_free_motion(const ToolMotion &)
     {
+    }
+
+    /** @brief What the pair covers of the surfaces since the last update(), if rows depend on it;
+     * or null. */
+    virtual const CoverOfNodes *
+    cover() const
+    {
+      return nullptr;
+    }
+
+    /** @brief From the next update() on, how far other pairs cover the rest of slave nodes of which
+     * this one covers a part, see cover_by_other_pairs().
+     * @param part With ghosts; null: nowhere. @return Whether rows change by that. */
+    virtual bool
+    set_cover_by_others(const Vector * /*part*/)
+    {
+      return false;
     }
 
     /** @brief Amount of work of its searches so far; zero without any. */

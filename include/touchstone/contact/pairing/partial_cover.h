@@ -30,25 +30,49 @@ namespace Touchstone
    */
   struct CoverShares
   {
+    /** How far nodes keep or give their parts as a whole, and not smoothly with their cover: so do
+     * tied rows, and those beside which other pairs cover the rest. */
+    struct Whole
+    {
+      /** From 0 to 1, no unit. */
+      std::array<double, Face::max_nodes> part{};
+      /** Whether nodes kept theirs in the committed state, 1 or 0, or -1 without one. Where the
+       * present cover leaves it open this decides: rows that came and went with the iterates of
+       * Newton's method would find no solution. */
+      std::array<int, Face::max_nodes> before;
+
+      Whole()
+      {
+        before.fill(-1);
+      }
+    };
+
+
     /** Whether any beta_i is not one. */
     bool partial = false;
+    /** Cover theta_i over its mean, no unit. */
+    std::array<double, Face::max_nodes> cover{};
     /** T_ki a_i: [k][i], area. */
     std::array<std::array<double, Face::max_nodes>, Face::max_nodes> share;
     /** Its derivative with respect to a_l: [k][i][l], no unit. */
     std::array<std::array<std::array<double, Face::max_nodes>, Face::max_nodes>, Face::max_nodes>
       derivative;
 
+    /** @brief Whether a node keeps its part as a whole.
+     * @param cover Of the node, CoverShares::cover. @param before Whole::before. */
+    static bool
+    keeps(double cover, int before);
+
     /**
      * @param n               Number of basis functions.
      * @param covered         a_i of the n basis functions.
      * @param whole           A_i in the reference state; infinite: the node gives all that it has.
-     * @param gradual         beta changes smoothly, and not at once.
      * @param with_derivative Compute `derivative`, too.
      */
     CoverShares(unsigned int                               n,
                 const std::array<double, Face::max_nodes> &covered,
                 const std::array<double, Face::max_nodes> &whole,
-                bool                                       gradual,
+                const Whole                               &at_once,
                 bool                                       with_derivative);
   };
 } // namespace Touchstone

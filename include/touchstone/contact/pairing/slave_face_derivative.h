@@ -30,12 +30,12 @@ namespace Touchstone
     /**
      * @param slave The face, and @p basis its TraceBasis or null; must live as long.
      * @param parts Must live as long; their areas must not all be zero.
-     * @param gradual Of CoverShares.
+     * @param at_once Of CoverShares.
      */
-    SlaveFaceDerivative(const FaceGeometry &slave,
-                        const TraceBasis   *basis,
-                        const Parts        &parts,
-                        bool                gradual);
+    SlaveFaceDerivative(const FaceGeometry       &slave,
+                        const TraceBasis         *basis,
+                        const Parts              &parts,
+                        const CoverShares::Whole &at_once);
 
     const FaceGeometry &slave;
     const Parts        &parts;

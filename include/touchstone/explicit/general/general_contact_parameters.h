@@ -4,6 +4,7 @@
 #define touchstone_explicit_general_general_contact_parameters_h
 
 #include <touchstone/base/choice.h>
+#include <touchstone/base/keyword.h>
 #include <touchstone/collision/broad_phase.h>
 #include <touchstone/contact/friction/friction_law.h>
 
