@@ -12,7 +12,8 @@ from touchstone_test import below, check, contact_gives, finish, folder, run
 import crossings  # of tests/, which touchstone_test finds
 from hexahedra import box
 
-MORE = sys.argv[4:]
+# Beside the arguments of all checks, by hand: CELLS TRAVEL STEPS HEIGHT.
+MORE = [word for word in sys.argv[4:] if word.replace(".", "").isdigit()]
 CELLS, TRAVEL, STEPS, HEIGHT = map(float, (MORE + ["60", "25", "20", "4"][len(MORE):]))
 CELLS, STEPS = int(CELLS), int(STEPS)
 LENGTH, THICKNESS, WIDTH, SPEED = CELLS / 2, 0.3, 1, 1
