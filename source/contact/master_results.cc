@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/algebra/nodal_value.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/results.h>
 
@@ -29,17 +30,6 @@ namespace Touchstone
 
     /** Three numbers at a node. */
     using Triple = Tensor<1, dim>;
-
-    Triple
-    at(const Vector &field, const Index node)
-    {
-      Triple result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = field(dim * node + d);
-      return result;
-    }
-
-
 
     void
     add(const ContactRow    &row,
@@ -107,11 +97,11 @@ namespace Touchstone
               point.pair               = p;
               point.node               = node.node;
               point.reference_position = node.reference;
-              point.displacement       = at(u, node.node);
+              point.displacement       = nodal_value(u, node.node);
               point.normal             = master->normal(node.node);
-              point.force              = at(sums.force, node.node);
+              point.force              = nodal_value(sums.force, node.node);
               point.status             = ContactStatus::no_partner;
-              const Triple means       = at(sums.means, node.node);
+              const Triple means       = nodal_value(sums.means, node.node);
               // No row, or, with weights of either sign, rows that leave nothing.
               if (means[0] > 1e-6 * node.area)
                 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/algebra/nodal_value.h>
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/contact_checks.h>
@@ -27,17 +28,6 @@ namespace Touchstone
      * four what its neighbours and it carry together. */
     using Pulled = std::array<double, dim + 1>;
 
-    Tensor<1, dim>
-    force_on(const Index node, const Vector &forces)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = forces(dim * node + d);
-      return result;
-    }
-
-
-
     /** The largest of a pair, zero without one. Collective. */
     Pulled
     pulled_most(const Contact &contact, const ContactPair &pair)
@@ -46,17 +36,17 @@ namespace Touchstone
       const Vector forces = normal_forces(contact, pair);
       double       sum    = 0.;
       for (const SurfaceNode &node : pair.slave().owned_nodes())
-        sum += force_on(node.node, forces).norm();
+        sum += nodal_value(forces, node.node).norm();
       sum = Utilities::MPI::sum(sum, solid.communicator);
       std::vector<Pulled> found;
       for (const SurfaceNode &node : pair.slave().owned_nodes())
         {
-          if (force_on(node.node, forces).norm() == 0.)
+          if (nodal_value(forces, node.node).norm() == 0.)
             continue;
           const SurfaceCone cone(pair.slave(), node.node);
           Tensor<1, dim>    around;
           for (const Index other : cone.nodes())
-            around += force_on(other, forces);
+            around += nodal_value(forces, other);
           // No normal is within a right angle of the direction in which the surface presses.
           if (around.norm() >= Tolerances::small_force * sum && around.norm() > 0. &&
               cone.distance(-1. * around / around.norm()) > 1. - right_angle)

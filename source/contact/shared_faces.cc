@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/algebra/nodal_value.h>
 #include <touchstone/contact/pairing/cover_of_nodes.h>
 #include <touchstone/contact/pairing/smooth_step.h>
 #include <touchstone/contact/shared_faces.h>
@@ -40,15 +41,6 @@ namespace Touchstone
              std::any_of(cover->whole.begin(), cover->whole.end(), [cover](const auto &entry) {
                return is_partial(*cover, entry.first, entry.second);
              });
-    }
-
-    Tensor<1, dim>
-    value(const Vector &field, const Index node)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = field(dim * node + d);
-      return result;
     }
 
     /** What a pair covers, at the nodes of all ranks. Collective. */
@@ -94,8 +86,8 @@ namespace Touchstone
           for (const auto &[node, whole] : cover->whole)
             if (is_partial(*cover, node, whole))
               {
-                const double all    = part_of(value(sum, node), whole),
-                             others = all - part_of(value(of_pairs[p], node), whole);
+                const double all    = part_of(nodal_value(sum, node), whole),
+                             others = all - part_of(nodal_value(of_pairs[p], node), whole);
                 const double part =
                   smooth_step(all, Tolerances::shared_from, Tolerances::shared_to) *
                   smooth_step(others, 0., 1. - Tolerances::shared_to);

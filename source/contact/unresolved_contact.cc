@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/algebra/nodal_value.h>
 #include <touchstone/base/exchange.h>
 #include <touchstone/contact/geometry/deformed_cells.h>
 #include <touchstone/contact/geometry/edge_crossing.h>
@@ -43,15 +44,6 @@ namespace Touchstone
       return Box(positions);
     }
 
-    Tensor<1, dim>
-    force_on(const Index node, const Vector &forces)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = forces(dim * node + d);
-      return result;
-    }
-
     /** Whether no node of a slave face carries a force. */
     bool
     idle(const Surface &slave, const Face &face, const Vector &forces)
@@ -59,7 +51,7 @@ namespace Touchstone
       // A hanging node has no row; the force is on the nodes that it follows.
       const TraceBasis *basis = slave.trace(face);
       for (unsigned int m = 0; m < face.n_nodes(); ++m)
-        if (force_on(basis ? basis->nodes[m] : face.nodes[m], forces).norm() > 0.)
+        if (nodal_value(forces, basis ? basis->nodes[m] : face.nodes[m]).norm() > 0.)
           return false;
       return true;
     }
@@ -307,13 +299,13 @@ namespace Touchstone
     double sum = 0.;
     // Forces on hanging nodes are on those that they follow, so owned nodes have all of the force.
     for (const SurfaceNode &node : slave.owned_nodes())
-      sum += force_on(node.node, forces).norm();
+      sum += nodal_value(forces, node.node).norm();
     // Scale for what is a small force: the sum of the magnitudes over the pair.
     sum = Utilities::MPI::sum(sum, solid.communicator);
     std::vector<Located> oblique;
     for (const SurfaceNode &node : slave.owned_nodes())
       {
-        const double size = force_on(node.node, forces).norm();
+        const double size = nodal_value(forces, node.node).norm();
         if (size == 0.)
           continue;
         // Forces of neighbours are summed: on both sides of a sharp edge of the master each
@@ -323,8 +315,8 @@ namespace Touchstone
         bool              largest = true;
         for (const Index other : cone.nodes())
           {
-            around += force_on(other, forces);
-            largest = largest && force_on(other, forces).norm() <= size;
+            around += nodal_value(forces, other);
+            largest = largest && nodal_value(forces, other).norm() <= size;
           }
         // On a plane of symmetry what the mirrored half has is part of the sum, and cancels it
         // across the plane.

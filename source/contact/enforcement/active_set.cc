@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/first_of_ranks.h>
+#include <touchstone/base/orthogonal.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/friction/friction_response.h>
@@ -61,10 +62,8 @@ namespace Touchstone
     Tensor<1, dim>
     forced_slip(const ContactRow &row, const RowState &state)
     {
-      Tensor<1, dim> forced;
-      for (const Tensor<1, dim> &tangent : state.friction.held)
-        forced += (row.friction->kinematics.slip * tangent) * tangent;
-      return forced;
+      const Tensor<1, dim> &slip = row.friction->kinematics.slip;
+      return slip - orthogonal_part(slip, state.friction.held);
     }
 
 
@@ -79,7 +78,7 @@ namespace Touchstone
       const Tensor<1, dim> &slip = row.friction->kinematics.slip;
       const double          size = slip.norm();
       if (state.status == ContactStatus::stick)
-        return (slip - forced_slip(row, state)).norm();
+        return orthogonal_part(slip, f.held).norm();
       if (state.status != ContactStatus::slip || size == 0.)
         return 0.;
       const double across = (slip - (slip * f.direction) * f.direction).norm();
