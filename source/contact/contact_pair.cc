@@ -2,11 +2,13 @@
 
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/contact_pair.h>
+#include <touchstone/contact/friction/shared_symmetry.h>
 #include <touchstone/contact/geometry/edge_crossing.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <iterator>
 
 // A contact pair: its surfaces, its pairing, and one row for each slave node (doc/theory.md 4). It
 // is the only writer of rows beside its pairing; see pair_update.cc.
@@ -162,13 +164,21 @@ namespace Touchstone
     if (!input.parameters.friction)
       return result;
     const std::vector<std::array<Stencil, 2>> tangents = slave_surface->material_tangents();
+    const std::vector<SurfaceNode>           &nodes    = slave_surface->owned_nodes();
+    const SharedSymmetry                      symmetry =
+      master_surface ? SharedSymmetry(*master_surface, mirrors, input.solid.communicator)
+                                          : SharedSymmetry(*pairing_method, *input.obstacle, input.run_end);
     for (std::size_t k = 0; k < result.size(); ++k)
       {
         FrictionRow &row = result[k];
         row.law          = input.parameters.friction.get();
-        if (const auto found = mirrors.find(present[k].slave); found != mirrors.end())
-          row.mirrors = found->second;
         // Rows between nodes follow those of the nodes.
+        const SurfaceNode &node = nodes[k % nodes.size()];
+        if (const auto found = mirrors.find(node.node); found != mirrors.end())
+          std::copy_if(found->second.begin(),
+                       found->second.end(),
+                       std::back_inserter(row.mirrors),
+                       [&](const Tensor<1, dim> &plane) { return symmetry.holds(node, plane); });
         row.material_tangents = tangents[k % tangents.size()];
         row.small             = small;
         row.exact             = (contact.friction == ContactParameters::Stick::exact);

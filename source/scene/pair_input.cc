@@ -20,6 +20,7 @@ namespace Touchstone
     // Young's modulus of the softer body scales contact forces: c = E A/h, doc/theory.md 5.
     input.modulus  = scene.bodies[input.slave_body].material.young_modulus;
     input.end_time = parameters.ramp_end > 0. ? parameters.ramp_end : scene.load_stepping.end_time;
+    input.run_end  = scene.load_stepping.end_time;
     // Explicit steps know of edges by their own search, see GeneralContact.
     input.in_cycles = scene.time_integration.runs_in_cycles();
     input.edges     = !input.in_cycles;

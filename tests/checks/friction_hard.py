@@ -38,6 +38,19 @@ for enforcement in EXACT_ENFORCEMENTS:
         below(f"forced slip {size}, {enforcement}, force {force} differs from {answer}",
               relative(force, answer), 1e-3 if size > 2e-7 else 1e-6)
 
+# Planes of symmetry that the master does not have are rollers: friction acts across them as where a displacement is
+# prescribed. The normal of the table is exact.
+rollers = checks / "friction_rollers.prm"
+prescribed = {"Body sleeve/Symmetry": "first cut, second cut", "Body sleeve/Boundary end/Displacement z": "0"}
+for pairing in "averaged", "pointwise":
+    settings = {"Contact pair fit/Pairing": pairing}
+    answer = run(f"prescribed_{pairing}", rollers, {**settings, **prescribed})
+    for enforcement in EXACT_ENFORCEMENTS:
+        result = run(f"rollers_{pairing}_{enforcement}", rollers, {**settings, ENFORCEMENT: enforcement})
+        below(f"{result}, block", relative(result.force("rest")[0], 6.0), 1e-8)
+        below(f"{result}, sleeve", relative(result.force("fit")[2], answer.force("fit")[2]), 1e-6)
+same(answer, run("rollers_2_ranks", rollers, {**settings, **prescribed}, ranks=2), 1e-8)
+
 # Supports hold 13 slave nodes of a ring that stick, on 7 master nodes: no solution, and the log says
 # why.
 ring = run("ring", checks / "friction_ring.prm", fails=True)

@@ -23,6 +23,7 @@ import sys
 sys.dont_write_bytecode = True  # no folders __pycache__ among the sources
 program, source, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path[:0] = str(source / "contrib"), str(source / "tests")
+import forked  # pylint: disable=wrong-import-position
 from processors import processors  # pylint: disable=wrong-import-position
 tests, checks, prm = source / "tests", source / "tests/checks", source / "prm"
 folder.mkdir(parents=True, exist_ok=True)
@@ -84,9 +85,11 @@ def settings_options(settings):
 
 def launch(*arguments, ranks=1, timeout=None):
     """Start the program; returns subprocess.CompletedProcess with all that it says in stdout."""
-    command = ["mpirun", "--oversubscribe", "-n", str(ranks)] if ranks > 1 else []
     with processors(ranks):
-        return subprocess.run([*command, program, *map(str, arguments)], stdout=subprocess.PIPE,
+        if ranks == 1:
+            return forked.run(program, arguments, timeout)
+        return subprocess.run(["mpirun", "--oversubscribe", "-n", str(ranks), program,
+                               *map(str, arguments)], stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, text=True, check=False, timeout=timeout)
 
 

@@ -36,6 +36,8 @@ namespace Touchstone
     double modulus = 1.;
     /** Time at which an initial overlap that grows ("ramp") has reached its full size. */
     double end_time = 1.;
+    /** Time at the end of the run. */
+    double run_end = 1.;
     /** Edges and vertices that touch between nodes get rows of their own. */
     bool edges = true;
     /** In explicit dynamics. */
@@ -205,7 +207,7 @@ namespace Touchstone
     using Mirrors = std::map<Index, std::vector<dealii::Tensor<1, dim>>>;
 
     /** @brief The constants of the friction of each row.
-     * @param mirrors Of owned nodes, by node. */
+     * @param mirrors Of owned nodes, by node. Collective. */
     std::vector<FrictionRow>
     friction_rows(const Mirrors &mirrors, const ContactParameters &contact) const;
 
