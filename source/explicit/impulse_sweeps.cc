@@ -36,12 +36,11 @@ namespace Touchstone
       return Tensor<1, dim>();
     const double         p_n    = std::max(0., from * row.normal - excess / m.normal);
     const Tensor<1, dim> normal = p_n * row.normal;
-    if (!row.friction || p_n == 0. || !(m.tangential > 0.))
+    if (!row.friction || p_n == 0.)
       return normal;
 
-    const Tensor<1, dim> trial = row.tangential * (from - w / m.tangential);
-    const double         size  = trial.norm();
-    const double         slip  = (row.tangential * w).norm();
+    const Tensor<1, dim> along = row.tangential * w;
+    const double         slip  = along.norm();
     const auto           limit = [&](const bool sliding) {
       FrictionInput input;
       input.normal_force = p_n / control.step;
@@ -52,6 +51,16 @@ namespace Touchstone
       input.sliding      = sliding;
       return row.friction->law->limit(input).force * control.step;
     };
+    const bool           free  = m.tangential > 0.;
+    const Tensor<1, dim> trial = row.tangential * (free ? from - w / m.tangential : from);
+    const double         size  = trial.norm();
+    // Where supports determine the motion of both sides nothing takes back a slip: any is sliding,
+    // with the whole force of the cone, as in doc/theory.md 6.
+    if (!free && slip > immobile * speed(row))
+      {
+        row.sliding = true;
+        return normal - (limit(true) / slip) * along;
+      }
     double radius = limit(row.sliding);
     if (!row.sliding && size > radius)
       {
@@ -60,6 +69,17 @@ namespace Touchstone
         radius      = limit(true);
       }
     return size > radius ? normal + (radius / size) * trial : normal + trial;
+  }
+
+
+
+  double
+  ImpulseSolver::speed(const ImpulseRow &row) const
+  {
+    double result = row.drive.norm();
+    for (std::size_t s = row.first; s < row.first + row.n_nodes; ++s)
+      result = std::max(result, velocity[nodes.node(s)].norm());
+    return result;
   }
 
 

@@ -180,6 +180,13 @@ for name, scene, several, settings in (
           (one.folder / "statistics").read_text(encoding="utf-8"),
           f"{name}: other results after a restart")
 
+# Supports and the table determine how slave nodes slip: the force is on the cone, whatever holds them.
+held = run("held_nodes", checks / "explicit_held_nodes.prm")
+for time, along, across in zip(*(held.column(title) for title in
+                                 ("time", "rest: force x", "rest: force z"))):
+    if time > 0:
+        below(f"held nodes at {time}, F_x / F_z differs from mu", relative(along / across, 0.3), 1e-3)
+
 # Plates that part have no rows any more as soon as rows would be made anew: there are planes between them.
 SMALL = {f"Body {body}/Geometry/{key}": value for body, key, value in (
     ("upper", "Cells", "8, 8, 1"), ("upper", "Upper corner", "8.004, 8.003, 1.00001"),

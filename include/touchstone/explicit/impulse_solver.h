@@ -218,6 +218,9 @@ namespace Touchstone
             const Metric                 &m,
             const dealii::Tensor<1, dim> &from,
             const ImpulseControl         &control) const;
+    /** Of the nodes of a row and the obstacle, the largest: the scale of round-off. */
+    double
+    speed(const ImpulseRow &row) const;
     double
     violation(const ImpulseRow &row, const dealii::Tensor<1, dim> &w) const;
     bool

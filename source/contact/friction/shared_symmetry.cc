@@ -12,8 +12,11 @@ namespace Touchstone
 
   namespace
   {
-    /** Beyond round-off of coordinates, by the size of a face; and of directions. */
-    constexpr double same_place = 1e-6, same_direction = 1e-8;
+    /** Of planes, distance by the size of a face and sine of the angle: coordinates in mesh files
+     * may have six digits. */
+    constexpr double same_place = 1e-3, same_direction = 1e-3;
+    /** Of motions by formulas, by the size of a face: beyond round-off. */
+    constexpr double no_motion = 1e-6;
     /** At so many times formulas for the motion of an obstacle are looked at. */
     constexpr unsigned int n_times = 256;
   } // namespace
@@ -89,7 +92,7 @@ namespace Touchstone
       }
     return std::all_of(motions.begin(), motions.end(), [&](const RigidMotion &motion) {
       return std::abs(motion.since(motions.front(), slave.reference) * normal) <
-             same_place * slave.size;
+             no_motion * slave.size;
     });
   }
 } // namespace Touchstone
