@@ -81,11 +81,18 @@ SMALL_STEPS = 16  # times as many as the scene has
 
 def compare(scene, default, own, result, variant, program, folder, time_limit):
     """Findings from a run with default settings and one of a variant. Where friction or
-    plasticity makes the result depend on the steps and a run has cut some of them, one with
-    small steps decides."""
+    plasticity makes the result depend on the steps and a run has cut some of them, the variant is
+    run with the steps of the other; if it cuts these, too, one with small steps decides."""
     found = list(agreement.compare(scene, default, own, result, variant))
     if not found or not agreement.path_dependent(scene) or agreement.same_times(default, result):
         return found
+    if variant.exact:
+        ends = tuple(row["time"] for row in default.rows if row["time"] > 0)
+        same = dataclasses.replace(own, ends=ends)
+        again = runs.run(program, same, runs.folder_of(folder, variant.name + ", same steps"),
+                         variant.settings, variant.ranks, time_limit)
+        if again.converged() and agreement.same_times(default, again):
+            return list(agreement.compare(scene, default, same, again, variant))
     fine = dataclasses.replace(scene, steps=SMALL_STEPS * scene.steps)
     reference = runs.run(program, fine, runs.folder_of(folder, "small steps"), (), 1,
                          SMALL_STEPS * time_limit)

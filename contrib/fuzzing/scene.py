@@ -108,6 +108,7 @@ class Scene:
     end_time: float
     steps: int
     settings: tuple = ()  # ("Section/Key", value)
+    ends: tuple = ()  # of the steps, if they are not equal
     # The smallest distance of the shapes that are placed; negative: their overlap. None if the
     # scene does not know it.
     clearance: float = None

@@ -52,6 +52,15 @@ def _pair(pair, scene):
     return _section(f"Contact pair {pair.name}", lines)
 
 
+def _load_stepping(scene):
+    if not scene.ends:
+        return _set({"End time": number(scene.end_time), "Steps": str(scene.steps)})
+    lines = _set({"Phases": ", ".join(f"to {i}" for i in range(len(scene.ends)))})
+    for i, end in enumerate(scene.ends):
+        lines += _section(f"Phase to {i}", _set({"End time": repr(end)}))
+    return lines
+
+
 def write(scene, head=()):
     """The scene file; lines of @p head become comments on top."""
     parts = [[f"# {line}".rstrip() for line in head]]
@@ -61,7 +70,8 @@ def write(scene, head=()):
     parts += [_body(b) for b in scene.bodies]
     parts += [_obstacle(o) for o in scene.obstacles]
     parts += [_pair(p, scene) for p in scene.pairs]
-    sections = {"Load stepping": {"End time": number(scene.end_time), "Steps": str(scene.steps)}}
+    parts.append(_section("Load stepping", _load_stepping(scene)))
+    sections = {}
     for key, value in scene.settings:
         section, name = key.split("/")
         sections.setdefault(section, {})[name] = value

@@ -217,17 +217,25 @@ namespace Touchstone
 
 
 
+  std::string
+  StartCheck::slave_boundaries() const
+  {
+    std::string names;
+    for (const std::string &name : parameters.slave_boundaries)
+      names += (names.empty() ? "" : ", ") + name;
+    return names;
+  }
+
+
+
   void
   StartCheck::throw_if_all_look_away(const bool looks_here, const std::string &what) const
   {
     if (Utilities::MPI::max(static_cast<int>(looks_here), solid.communicator) == 1)
       return;
-    std::string names;
-    for (const std::string &name : parameters.slave_boundaries)
-      names += (names.empty() ? "" : ", ") + name;
     throw InputError(parameters.section(),
                      "Slave boundaries",
-                     names,
+                     slave_boundaries(),
                      "every node of the slave boundaries faces away from " + what +
                        ": the bodies would pass through each other",
                      "name the boundaries of '" + parameters.slave_body + "' that face it");
@@ -261,6 +269,15 @@ namespace Touchstone
     if (!nothing && asked == 0.)
       return;
     const double depth = depth_of_overlap();
+    if (nothing && asked == 0. && depth > 0.)
+      // The search reaches beyond this overlap (ContactPair::check_start()), but from no node.
+      throw InputError(parameters.section(),
+                       "Slave boundaries",
+                       slave_boundaries(),
+                       "the bodies overlap between slave nodes, none of which finds a master face: "
+                       "the slave faces are larger than the master surface",
+                       "exchange slave and master, refine the slave surface, or name the "
+                       "boundaries that meet");
     if (nothing ? depth > 0. : depth > asked)
       throw InputError(parameters.section(),
                        "Search distance",

@@ -11,9 +11,12 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <vector>
 
 // The steps of a run: each is made, committed or cut, until the end time is reached or a failure
 // repeats itself. Steps that are to end where bodies meet are shortened (doc/time_integration.md).
+// Cut or not, steps end where those of the input end: loads turn there, and a run that passed such
+// a time over would be another one.
 namespace Touchstone
 {
   using namespace dealii;
@@ -37,15 +40,16 @@ namespace Touchstone
     // The tolerance stands for the round-off of summing up step sizes.
     while (at.time < end * (1. - 1e-12))
       {
-        // The last step of a phase ends exactly at its end: neither beyond it, nor just before it,
-        // which would leave a step of the size of round-off.
-        const double stop_at = plan.phase_end(at.time), nominal = plan.nominal_step(at.time);
+        // A step of the plan ends exactly at its end: neither beyond it, nor just before it, which
+        // would leave a step of the size of round-off.
+        const double stop_at = step_end(at.time), nominal = plan.nominal_step(at.time);
         at.size = std::min(at.size, stop_at - at.time);
         const double next =
           stop_at - at.time - part * at.size < 1e-9 * nominal ? stop_at : at.time + part * at.size;
         // Number of steps in all if none is cut from here on, for the display only.
         const unsigned int expected =
           at.step - 1 + static_cast<unsigned int>(std::ceil((stop_at - at.time) / at.size - 1e-9)) +
+          static_cast<unsigned int>((plan.phase_end(at.time) - stop_at) / nominal + 0.5) +
           plan.steps_after_phase(at.time);
         progress.begin_step(at.step,
                             expected,
@@ -101,6 +105,31 @@ namespace Touchstone
 
 
 
+  bool
+  Simulation::keeps_step_ends() const
+  {
+    return !(scene.time_integration.dynamic() && scene.time_integration.adapts_to_impacts());
+  }
+
+
+
+  double
+  Simulation::step_end(const double time) const
+  {
+    const LoadSteppingParameters &plan = scene.load_stepping;
+    const double                  end  = plan.phase_end(time);
+    if (!keeps_step_ends())
+      return end;
+    const std::vector<LoadPhase> phases = plan.all_phases();
+    const unsigned int           phase  = plan.phase_at(time);
+    const double                 begin  = phase == 0 ? 0. : phases[phase - 1].end_time;
+    // The tolerance is that of summing up step sizes.
+    const double n = 1. + std::floor((time - begin) / plan.nominal_step(time) + 1e-9);
+    return n >= phases[phase].steps ? end : begin + (end - begin) * n / phases[phase].steps;
+  }
+
+
+
   double
   Simulation::make_step(Position &at, const double next)
   {
@@ -149,19 +178,16 @@ namespace Touchstone
     log.check();
     summary.steps = at.step;
     ++at.step;
-    // Each converged step undoes one cut: the difficulty is often local in time, and the size
-    // returns to the user's.
-    if (at.cuts > 0)
-      {
-        at.size *= 2.;
-        --at.cuts;
-      }
+    // The difficulty is often local in time, and the size returns to the user's: a cut is undone
+    // where a step of twice the size ends at a time at which it would have ended without any cut.
+    const double twice = std::ldexp(nominal, 1 - static_cast<int>(at.cuts)),
+                 left  = (step_end(at.time) - at.time) / twice;
+    if (at.cuts > 0 && (!keeps_step_ends() || std::abs(left - std::round(left)) < 1e-6))
+      --at.cuts;
     // A new phase begins with steps of its own.
     if (plan.phase_at(at.time) != phase)
-      {
-        at.size = plan.nominal_step(at.time);
-        at.cuts = 0;
-      }
+      at.cuts = 0;
+    at.size = std::ldexp(plan.nominal_step(at.time), -static_cast<int>(at.cuts));
     if (checkpoint_due(at))
       write_checkpoint(at);
     return 1.;

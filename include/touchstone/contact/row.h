@@ -11,6 +11,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -127,6 +128,9 @@ namespace Touchstone
     /** How far its point at the contact point of a row between nodes has moved since the step
      * began, length. */
     dealii::Tensor<1, dim> moved;
+    /** Of a point inside a slave face: two material vectors there, see
+     * Surface::material_tangents(); null: those of the node. */
+    std::shared_ptr<const std::array<Stencil, 2>> tangents;
     /** @} */
 
     /** @brief The fields that a step begins with: the one list of what checkpoints hold of a

@@ -61,6 +61,9 @@ namespace Touchstone
     /** Over all ranks: no row has a partner. */
     bool
     nothing_found() const;
+    /** Their names, as a list. */
+    std::string
+    slave_boundaries() const;
     void
     throw_if_all_look_away(bool looks_here, const std::string &what) const;
   };

@@ -182,6 +182,14 @@ namespace Touchstone
     picture_series();
     void
     load_stepping();
+    /** Whether all steps of the input end where they do without cuts. Those that impacts shorten
+     * move all later ones. */
+    bool
+    keeps_step_ends() const;
+    /** Time that a step from @p time does not pass: the end of the step of the input in which it
+     * lies, or else of the phase. */
+    double
+    step_end(double time) const;
     /**
      * Solve the step from @p at to the time @p next and keep it; @p at moves on. @return 1, or the
      * part of the step size that is to be made instead. @throws NonConvergence, InputError

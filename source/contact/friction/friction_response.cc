@@ -2,6 +2,7 @@
 
 #include <touchstone/contact/friction/friction.h>
 #include <touchstone/contact/friction/friction_response.h>
+#include <touchstone/contact/friction/slip_kinematics.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -88,8 +89,11 @@ namespace Touchstone
   {
     state.friction.constrained = false;
     state.friction.carried     = true;
-    state.friction.c           = row.friction->alpha;
-    state.friction.base        = row.friction->kinematics.start;
+    // Force and slip of the row of a point are 1 / share and share times those of the point, whose
+    // spring must not depend on which of its nodes has the row.
+    const double share  = share_of_point(row);
+    state.friction.c    = row.friction->alpha / (share * share);
+    state.friction.base = row.friction->kinematics.start;
   }
 
 

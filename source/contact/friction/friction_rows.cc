@@ -54,8 +54,8 @@ namespace Touchstone
     for (const ContactRow &row : rows)
       for (const Stencil *stencil : {&row.stencil,
                                      &row.friction->history.anchor,
-                                     &row.friction->material_tangents[0],
-                                     &row.friction->material_tangents[1]})
+                                     &material_tangents(row)[0],
+                                     &material_tangents(row)[1]})
         for (const StencilEntry &entry : *stencil)
           if (!needed.is_element(dim * entry.node))
             needed.add_range(dim * entry.node, dim * entry.node + dim);
@@ -151,8 +151,9 @@ namespace Touchstone
     if (state.active())
       {
         const Tensor<1, dim> force = state.force - state.lambda * row.normal;
-        // Kept in components of the frame, so that the force turns with the surface.
-        history.traction = k.components(force);
+        // Kept in components of the frame, so that the force turns with the surface. Of a point
+        // inside a face it is that of the point: in the next step its row can have another share.
+        history.traction = k.components(share_of_point(row) * force);
         if (state.status == ContactStatus::slip)
           {
             // Friction opposes the slip, so the dissipated work -t.s_p is positive. An open node or

@@ -33,6 +33,14 @@ namespace Touchstone
 
 
 
+  const std::array<Stencil, 2> &
+  material_tangents(const ContactRow &row)
+  {
+    return row.tangents ? *row.tangents : row.friction->material_tangents;
+  }
+
+
+
   namespace
   {
     /** The master is rigid: it has no nodes, and other nodes in the stencil are of the slave. */
@@ -130,7 +138,7 @@ namespace Touchstone
     {
       Tensor<1, dim> q[2];
       for (unsigned int a = 0; a < 2; ++a)
-        for (const StencilEntry &entry : row.friction->material_tangents[a])
+        for (const StencilEntry &entry : material_tangents(row)[a])
           q[a] += entry.weight * positions.at(entry.node);
       // The rotation in the polar decomposition of the surface's deformation in the plane of the
       // normal, doc/theory.md, section 6.2. A surface that faces away from the master surface has
@@ -156,7 +164,7 @@ namespace Touchstone
     k.frame[1]                       = cross_product_3d(row.normal, k.frame[0]);
     find_tangents(row.friction->mirrors, row.normal, k);
     // t_b of regularised friction: the force at the end of the last step, turned with the surface.
-    k.start = k.tangential * k.carry(history.traction);
+    k.start = k.tangential * k.carry(history.traction) / share_of_point(row);
     k.area  = row.area;
     k.time  = time;
     k.step  = step;
@@ -215,7 +223,7 @@ namespace Touchstone
     // The frame turns with the direction q = T q_1 + q_2 x n: omega = e_2 . dq / |q|.
     Vec q[2];
     for (unsigned int a = 0; a < 2; ++a)
-      for (const StencilEntry &entry : row.friction->material_tangents[a])
+      for (const StencilEntry &entry : material_tangents(row)[a])
         {
           q[a] += entry.weight * positions.at(entry.node);
           spin[entry.node] += (a == 0 ? entry.weight * k.frame[1] : -entry.weight * k.frame[0]);

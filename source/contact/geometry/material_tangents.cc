@@ -13,16 +13,16 @@ namespace Touchstone
   using namespace dealii;
 
   std::array<Stencil, 2>
-  Surface::material_tangents_at(const CornersOfFaces &list) const
+  Surface::material_tangents_at(const PointOnFaces &list) const
   {
-    // Tangents of the faces at the node in the reference state.
+    // Tangents of the faces at the point in the reference state.
     std::vector<std::array<Tensor<1, dim>, 2>> tangents;
     Tensor<1, dim>                             normal;
-    for (const auto &[face, corner] : list)
+    for (const auto &[face, xi] : list)
       {
-        // The frame of the node: its mean normal in the reference state and two directions
+        // The frame of the point: its mean normal in the reference state and two directions
         // perpendicular to it.
-        const FaceShapes              shapes(face->degree, node_coordinates(*face, corner));
+        const FaceShapes              shapes(face->degree, xi);
         std::array<Tensor<1, dim>, 2> t;
         for (unsigned int m = 0; m < face->n_nodes(); ++m)
           for (unsigned int b = 0; b < 2; ++b)
@@ -49,9 +49,9 @@ namespace Touchstone
     std::array<std::map<Index, double>, 2> sum;
     for (std::size_t f = 0; f < list.size(); ++f)
       {
-        const auto &[face, corner] = list[f];
-        const auto      &t         = tangents[f];
-        const FaceShapes shapes(face->degree, node_coordinates(*face, corner));
+        const auto &[face, xi] = list[f];
+        const auto      &t     = tangents[f];
+        const FaceShapes shapes(face->degree, xi);
         const double     g00 = t[0] * t[0], g01 = t[0] * t[1], g11 = t[1] * t[1];
         const double     area = std::sqrt(g00 * g11 - g01 * g01);
         for (unsigned int a = 0; a < 2; ++a)
@@ -99,7 +99,20 @@ namespace Touchstone
 
     std::vector<std::array<Stencil, 2>> result;
     for (const SurfaceNode &node : nodes)
-      result.push_back(material_tangents_at(around.at(node.node)));
+      {
+        PointOnFaces at_node;
+        for (const auto &[face, corner] : around.at(node.node))
+          at_node.emplace_back(face, node_coordinates(*face, corner));
+        result.push_back(material_tangents_at(at_node));
+      }
     return result;
+  }
+
+
+
+  std::array<Stencil, 2>
+  Surface::material_tangents(const Face &face, const std::array<double, 2> &xi) const
+  {
+    return material_tangents_at({{&face, xi}});
   }
 } // namespace Touchstone

@@ -53,7 +53,12 @@ namespace Touchstone
         faces[face.key] = &face;
     for (const MaterialPoint &point : all)
       if (const auto k = numbers.find(point.nodes[point.slave]); k != numbers.end())
-        own.push_back({&point, faces.at(point.face), numbers.size() + k->second});
+        {
+          const Face &face     = *faces.at(point.face);
+          const auto  tangents = std::make_shared<const std::array<Stencil, 2>>(
+            input.slave->material_tangents(face, point.xi));
+          own.push_back({&point, &face, numbers.size() + k->second, tangents});
+        }
   }
 
 
@@ -95,6 +100,8 @@ namespace Touchstone
     // A point has no area, and there is no pressure.
     row.area = 0.;
     row.away = 0.;
+    // Which of the nodes has the row must not matter to what turns with the surface.
+    row.tangents = point.tangents;
   }
 
 
@@ -116,6 +123,7 @@ namespace Touchstone
       {
         ContactRow &row = rows[k];
         row.motion      = of_nodes.motion(time);
+        row.tangents.reset();
         if (with_edges)
           continue;
         row.has_partner = false;

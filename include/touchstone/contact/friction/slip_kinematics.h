@@ -30,6 +30,18 @@ namespace Touchstone
                             const FrictionHistory &history,
                             const NodePositions   &positions);
 
+  /** @brief Two material vectors of the slave surface where the row is. */
+  const std::array<Stencil, 2> &
+  material_tangents(const ContactRow &row);
+
+  /** @brief ContactRow::share of a point inside a slave face, which the slip of its row is times
+   * that of the point, and the force a part of that of the point; 1 of other rows. */
+  inline double
+  share_of_point(const ContactRow &row)
+  {
+    return row.tangents ? row.share : 1.;
+  }
+
   /** @brief Slip and frame of a row with a partner, doc/theory.md 6.2: a function of the
    * history and of present positions alone. @param step Length of the step in time. */
   SlipKinematics

@@ -119,6 +119,10 @@ namespace Touchstone
     std::vector<std::array<Stencil, 2>>
     material_tangents() const;
 
+    /** @brief The same at a point inside a face. */
+    std::array<Stencil, 2>
+    material_tangents(const Face &face, const std::array<double, 2> &xi) const;
+
     /** @brief Current position of an owned node. */
     dealii::Point<dim>
     position(const SurfaceNode &node, const Vector &u) const;
@@ -191,8 +195,10 @@ namespace Touchstone
      * two halves. */
     using SplitEdge = std::pair<Edge, std::array<Edge, 2>>;
 
+    /** Faces, each with the coordinates of one point that they share. */
+    using PointOnFaces = std::vector<std::pair<const Face *, std::array<double, 2>>>;
     std::array<Stencil, 2>
-    material_tangents_at(const CornersOfFaces &around) const;
+    material_tangents_at(const PointOnFaces &list) const;
     /** @throws ExcInternalError if no face of this rank has the node. */
     const NodeOfFaces &
     node_of_faces(Index node) const;

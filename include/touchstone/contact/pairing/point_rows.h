@@ -69,6 +69,8 @@ namespace Touchstone
       const Face          *face;
       /** Of the row among those of the pair. */
       std::size_t row;
+      /** See ContactRow::tangents. */
+      std::shared_ptr<const std::array<Stencil, 2>> tangents;
       /** It has a partner. */
       bool                          present = false;
       dealii::Point<dim>            x{};
