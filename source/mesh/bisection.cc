@@ -35,6 +35,8 @@ namespace Touchstone
       Point<dim>   center;
       double       work;
       unsigned int number;
+      /** Items of different kinds are done one kind after the other. */
+      unsigned int kind;
     };
 
     /** What the ranks of a lower half compute of the upper one, all cells that share a vertex with
@@ -274,7 +276,8 @@ namespace Touchstone
         items.push_back({cell->center(),
                          cell_work(cell) + faces_of_cell * contact_weight * contact_work(cell) /
                                              ContactWork::slave_face,
-                         cell->active_cell_index()});
+                         cell->active_cell_index(),
+                         computes_ghosts ? 0 : cell_work(cell)});
         if (computes_ghosts)
           {
             ghosts.vertices.emplace_back();
@@ -283,7 +286,20 @@ namespace Touchstone
           }
       }
     std::vector<unsigned int> rank(items.size());
-    bisect(items.begin(), items.end(), 0, n_ranks, ghosts, rank);
+    // All ranks integrate the cells that change before any of them goes on to the solution, to
+    // which all cells count alike: each kind is cut for itself. Explicit runs compute cells in one
+    // pass.
+    std::stable_sort(items.begin(), items.end(), [](const Item &a, const Item &b) {
+      return a.kind < b.kind;
+    });
+    for (auto begin = items.begin(); begin != items.end();)
+      {
+        const auto end = std::find_if(begin, items.end(), [&](const Item &item) {
+          return item.kind != begin->kind;
+        });
+        bisect(begin, end, 0, n_ranks, ghosts, rank);
+        begin = end;
+      }
 
     TriangulationDescription::Description<dim, dim> description;
     const auto describe = [&](Triangulation<dim> &triangulation, const auto &rank_of) {

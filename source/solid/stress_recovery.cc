@@ -14,13 +14,16 @@ namespace Touchstone
     : solid(solid)
     , fe(solid.fe.degree)
     , numbers(solid.dof_handler.get_triangulation())
+    , vertices(solid.dof_handler.get_triangulation())
     , values(solid.mapping,
              fe,
              QGauss<dim>(solid.fe.degree + 1),
              update_values | update_quadrature_points | update_JxW_values)
   {
     numbers.distribute_dofs(fe);
+    vertices.distribute_dofs(FE_Q<dim>(1));
     DoFTools::extract_locally_relevant_dofs(numbers, relevant);
+    DoFTools::extract_locally_relevant_dofs(vertices, relevant_vertices);
     hanging.reinit(relevant);
     DoFTools::make_hanging_node_constraints(numbers, hanging);
     hanging.close();
@@ -123,7 +126,7 @@ namespace Touchstone
     StressField            result;
     for (unsigned int k = 0; k <= corrections; ++k)
       {
-        StressField found = fe.degree == 1 ? patches(points) : averages(points);
+        StressField found = patches(points);
         subtract(found, points);
         if (k == 0)
           result = std::move(found);

@@ -30,9 +30,9 @@ def judge(result, pair, exact):
     return estimate
 
 
-def press_fit(name, inner, outer, pairing="averaged", ranks=1):
+def press_fit(name, inner, outer, pairing="averaged", ranks=1, degree=1):
     return judge(run(f"press_fit_{name}", prm / "press_fit.prm",
-                     {"Body inner tube/Geometry/Cells": inner, DEGREE: 1,
+                     {"Body inner tube/Geometry/Cells": inner, DEGREE: degree,
                       "Body outer tube/Geometry/Cells": outer, "Contact pair fit/Pairing": pairing,
                       **FORCE}, ranks), "fit", PRESS_FIT)
 
@@ -42,6 +42,12 @@ one = press_fit("24", "8, 24, 2", "8, 24, 2")
 press_fit("24_pointwise", "8, 24, 2", "8, 24, 2", "pointwise")
 press_fit("18_24", "6, 18, 1", "8, 24, 1")
 two = press_fit("24_ranks", "8, 24, 2", "8, 24, 2", ranks=2)
+check(relative(two, one) < 1e-6, f"two ranks estimate {two}, one {one}")
+# Degree 2 converges with the fourth power of the cell size: stresses are recovered by quadratic fits.
+one = press_fit("quadratic_12", "4, 12, 1", "4, 12, 1", degree=2)
+press_fit("quadratic_24", "8, 24, 1", "8, 24, 1", degree=2)
+press_fit("quadratic_9_12", "3, 9, 1", "4, 12, 1", degree=2)
+two = press_fit("quadratic_12_ranks", "4, 12, 1", "4, 12, 1", ranks=2, degree=2)
 check(relative(two, one) < 1e-6, f"two ranks estimate {two}, one {one}")
 
 # The error falls with the square of the cell size.

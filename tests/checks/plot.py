@@ -56,6 +56,11 @@ for name in "one", "two":
     nodes = plot.surface(folder / name)
     check(len(x) == 4 and x == sorted(x), f"line at {x}")
     check(max(p) == max(node.pressure for node in nodes) > 0, f"pressures {p}")
+# On a curved surface the line is a plane cut of it.
+bore = [argparse.Namespace(position=(2 * math.cos(a / 8), 2 * math.sin(a / 8), z), pressure=a + (z == 1))
+        for a in range(9) for z in (0, 1, 2)]
+for axis, count in ((0, 9), (1, 9), (2, 3)):
+    check(len(plot.cut(bore, axis, 1e-3)) == count, f"line along axis {axis} on a cylinder")
 check(len({node.position for node in plot.surface(folder / "two")}) == 16, "surface of two ranks")
 
 # The module that reads runs.

@@ -51,13 +51,14 @@ namespace Touchstone
     StressField
     averages(const PointStresses &points);
 
-    /** @brief Values at the vertices of the linear fields that fit the means of the cells around
-     * them best, and at boundaries those of the fits of the next vertices inward. Zienkiewicz and
-     * Zhu (1992), Int. J. Numer. Meth. Engng 33. Degree 1 only. */
+    /** @brief Values at the nodes of the polynomials of the element's degree that fit the stresses
+     * of the cells around the vertices best where these are most accurate, and at boundaries those
+     * of the fits of the next vertices inward. Zienkiewicz and Zhu (1992), Int. J. Numer. Meth.
+     * Engng 33. */
     StressField
     patches(const PointStresses &points) const;
 
-    /** @brief The most accurate of both, whose own recovered errors have been taken away. */
+    /** @brief Fits by patches(), whose own recovered errors have been taken away. */
     StressField
     corrected(PointStresses points);
 
@@ -76,7 +77,9 @@ namespace Touchstone
     const Solid            &solid;
     const dealii::FE_Q<dim> fe;
     dealii::DoFHandler<dim> numbers;
-    dealii::IndexSet        relevant;
+    /** Of the cells, one number each; for degree 1 the nodes. */
+    dealii::DoFHandler<dim> vertices;
+    dealii::IndexSet        relevant, relevant_vertices;
     dealii::FEValues<dim>   values;
     /** Hanging nodes. */
     dealii::AffineConstraints<double> hanging;
