@@ -3,8 +3,9 @@
 // arithmetic; and what moves together is told apart however much it turns.
 
 #include <touchstone/collision/first_crossing.h>
-#include <touchstone/explicit/general/moving_points.h>
+#include <touchstone/explicit/general/moving_faces.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <random>
@@ -89,6 +90,85 @@ namespace
     std::cout << "faces that turn together: told apart " << told_apart
               << " of 1000, by a direction at rest " << at_rest << std::endl;
   }
+
+  /** Four corners of a face that is not quite plane, and where they go. */
+  MovingCorners
+  random_face(const double way)
+  {
+    std::array<Point<dim>, 4> from, to;
+    for (unsigned int a = 0; a < 4; ++a)
+      {
+        const Point<dim> corner((a + 1) % 4 > 1 ? 1. : -1., a > 1 ? 1. : -1., 0.);
+        from[a] = corner + 0.3 * random_point();
+        to[a]   = from[a] + way * random_point();
+      }
+    MovingCorners face;
+    face.set(from, to, 1.);
+    return face;
+  }
+
+  /** No triangle of a face that a node crosses is out of reach. */
+  void
+  triangles()
+  {
+    unsigned int n_apart = 0, missed = 0;
+    for (unsigned int i = 0; i < 20000; ++i)
+      {
+        const double        way  = std::pow(10., -1.5 + 1.5 * real());
+        const MovingCorners face = random_face(way);
+        Point<dim>          from(real(), real(), 0.5 * way * real());
+        const Point<dim>    to = from + way * random_point();
+        Point<dim>          middle[2];
+        for (unsigned int a = 0; a < 4; ++a)
+          for (const bool at_end : {false, true})
+            middle[at_end] += 0.25 * dealii::Tensor<1, dim>(face.corner(a, at_end));
+        const unsigned int in_reach =
+          NodeAndFace{from, to, face}.triangles_in_reach(middle[0], middle[1], margin);
+        for (unsigned int t = 0; t < 4; ++t)
+          if (!(in_reach >> t & 1U))
+            {
+              ++n_apart;
+              const unsigned int next = (t + 1) % 4;
+              missed += first_crossing_node_triangle(
+                          {{from, face.corner(t, false), face.corner(next, false), middle[0]}},
+                          {{to, face.corner(t, true), face.corner(next, true), middle[1]}})
+                          .has_value();
+            }
+      }
+    std::cout << "triangles of a face: more than four fifths are out of reach: "
+              << (n_apart > 64000) << ", missed crossings: " << missed << std::endl;
+  }
+
+  /** Of faces the same distances as of groups of points. */
+  void
+  same_distances()
+  {
+    unsigned int differ = 0;
+    for (unsigned int i = 0; i < 2000; ++i)
+      {
+        const MovingCorners       one = random_face(0.1), other = random_face(0.1);
+        std::array<Point<dim>, 8> from, to;
+        std::array<Point<dim>, 5> node_from, node_to;
+        for (unsigned int k = 0; k < 8; ++k)
+          {
+            const MovingCorners &face = k < 4 ? one : other;
+            from[k]                   = face.corner(k % 4, false);
+            to[k]                     = face.corner(k % 4, true);
+          }
+        std::copy_n(from.begin() + 3, 5, node_from.begin());
+        std::copy_n(to.begin() + 3, 5, node_to.begin());
+        const TurningDirection direction{random_point(), random_point()};
+        const auto             same = [&](const double a, const double b) {
+          return std::abs(a - b) < 1e-12 && (a > 0.) == (b > 0.);
+        };
+        differ += !same(TwoFaces{one, other}.distance_in_front(direction, margin),
+                        distance_in_front<4>(from, to, direction, margin));
+        differ += !same(NodeAndFace{from[3], to[3], other}.distance_in_front(direction, margin),
+                        distance_in_front<1>(node_from, node_to, direction, margin));
+      }
+    std::cout << "distances of faces that differ from those of their points: " << differ
+              << std::endl;
+  }
 } // namespace
 
 int
@@ -97,5 +177,7 @@ main()
   never_miss<1>("node and triangle", first_crossing_node_triangle);
   never_miss<2>("two edges", first_crossing_edge_edge);
   turn_together();
+  triangles();
+  same_distances();
   return 0;
 }

@@ -49,12 +49,33 @@ namespace Touchstone
   bool
   CellStiffness::reinit(const Hexahedron::Corners &positions)
   {
+    return assemble(positions, nullptr);
+  }
+
+
+
+  bool
+  CellStiffness::reinit(const Hexahedron::Corners &positions, const Hexahedron::Corners &of_energy)
+  {
+    reference.reinit(of_energy);
+    std::array<double, Hexahedron::n_points> volumes;
+    for (unsigned int q = 0; q < Hexahedron::n_points; ++q)
+      volumes[q] = reference.weight(q);
+    return assemble(positions, &volumes);
+  }
+
+
+
+  bool
+  CellStiffness::assemble(const Hexahedron::Corners                      &positions,
+                          const std::array<double, Hexahedron::n_points> *volumes)
+  {
     // False for what is not a number, too.
     if (!(shapes.reinit(positions) > 0.))
       return false;
     for (unsigned int q = 0; q < Hexahedron::n_points; ++q)
       {
-        const double factor = std::sqrt(shapes.weight(q));
+        const double factor = std::sqrt(volumes ? (*volumes)[q] : shapes.weight(q));
         for (unsigned int i = 0; i < dim; ++i)
           {
             for (unsigned int a = 0; a < Hexahedron::n_nodes; ++a)

@@ -71,11 +71,14 @@ namespace Touchstone
         GaussKernels::deform(blocks[b], numbers_of(u), f_bar, points);
         bool inverted = false;
         for (unsigned int lane = 0; lane < n_used; ++lane)
-          if (!(points.smallest[lane] > 0.))
-            {
-              failed   = std::min(failed, first + lane);
-              inverted = true;
-            }
+          {
+            smallest_ratio[first + lane] = points.smallest[lane];
+            if (!(points.smallest[lane] > 0.))
+              {
+                failed   = std::min(failed, first + lane);
+                inverted = true;
+              }
+          }
         if (inverted) // the run ends
           continue;
         for (unsigned int q = 0; q < GaussBlock::n_points; ++q)

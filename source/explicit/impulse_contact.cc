@@ -98,6 +98,8 @@ namespace Touchstone
 
 
 
+  // Where impulses move nodes farther than candidates have been found for, more are found: a cycle
+  // that is halved would change the energy.
   bool
   ImpulseContact::project(const NodeField &u,
                           const NodeField &before,
@@ -106,6 +108,31 @@ namespace Touchstone
                           const double     step,
                           const double     acting)
   {
+    constexpr double farthest = 8.;
+    for (double reach = 1.;; reach *= 2.)
+      {
+        const auto found = project_within(reach, u, before, v, time, step, acting);
+        if (found == GeneralContact::Crossings::none)
+          return true;
+        if (found == GeneralContact::Crossings::rows || reach == farthest)
+          break;
+      }
+    ++counted.halvings;
+    return false;
+  }
+
+
+
+  GeneralContact::Crossings
+  ImpulseContact::project_within(const double     reach,
+                                 const NodeField &u,
+                                 const NodeField &before,
+                                 NodeField       &v,
+                                 const double     time,
+                                 const double     step,
+                                 const double     acting)
+  {
+    using Crossings = GeneralContact::Crossings;
     check_obstacles(time, step);
     if (surfaces.needed())
       {
@@ -119,7 +146,7 @@ namespace Touchstone
     fastest   = std::max(fastest, speeds_before.apart);
     // Forces act from the middle of the cycle before; the first cycle has none before it.
     if (general)
-      general->begin_cycle(u, before, time > 0. ? 2. * acting - step : 0., v, step);
+      general->begin_cycle(u, before, time > 0. ? 2. * acting - step : 0., v, step, false, reach);
     const bool imported = bring_rows(u, before, v, time, step);
     if (general && general->must_lay_out())
       lay_out(u);
@@ -129,18 +156,16 @@ namespace Touchstone
         ++counted.cycles;
         end_of_action();
         untouched = true;
-        return true;
+        return Crossings::none;
       }
     if (!imported || general)
       import(u, before, v);
     set_geometry(time, step);
     ImpulseCounts counts =
       rule.springs() ? push(time, step, acting > 0. ? acting : step) : solve(time, step);
-    if (general && !keep_apart(u, before, v, time, step, counts))
-      {
-        ++counted.halvings;
-        return false;
-      }
+    if (general)
+      if (const auto found = keep_apart(u, before, v, time, step, counts); found != Crossings::none)
+        return found;
     if (counts.rounds > 0 && !rule.springs())
       check_feasible(step, counts.converged || rule.method == ImpulseRule::Method::one_sweep);
     keep_drives();
@@ -161,7 +186,7 @@ namespace Touchstone
               all_asleep_until = std::min(all_asleep_until, until);
             all_asleep_until = Utilities::MPI::min(all_asleep_until, nodes.communicator());
           }
-        return true;
+        return Crossings::none;
       }
     acted            = true;
     all_asleep_until = 0.;
@@ -169,7 +194,7 @@ namespace Touchstone
     keep_results(step);
     if (rule.springs())
       keep_springs(step);
-    return true;
+    return Crossings::none;
   }
 
 
@@ -187,7 +212,7 @@ namespace Touchstone
 
 
   // Rows that keep surfaces from crossing change the motion of others: until none crosses.
-  bool
+  GeneralContact::Crossings
   ImpulseContact::keep_apart(const NodeField &u,
                              const NodeField &before,
                              NodeField       &v,
@@ -195,7 +220,7 @@ namespace Touchstone
                              const double     step,
                              ImpulseCounts   &counts)
   {
-    constexpr unsigned int most_rounds = 10;
+    constexpr unsigned int most_rounds = 40;
     for (unsigned int round = 1; general->any(); ++round)
       {
         for (unsigned int node = 0; node < local.size(); ++node)
@@ -212,7 +237,7 @@ namespace Touchstone
         for (unsigned int node = 0; node < local.size(); ++node)
           v[local[node]] = v_free[node];
         if (found == GeneralContact::Crossings::too_far || round == most_rounds)
-          return false;
+          return found;
         if (general->must_lay_out())
           lay_out(u);
         import(u, before, v);
@@ -223,7 +248,7 @@ namespace Touchstone
         counts.rounds += more.rounds;
         counts.converged = more.converged;
       }
-    return true;
+    return GeneralContact::Crossings::none;
   }
 
 

@@ -42,6 +42,7 @@ namespace Touchstone
     : CellForces(map, cells, body)
     , kernel(make_kernel(body))
     , states(cells.size(), kernel->material().get(), kernel->n_quadrature_points())
+    , smallest_ratio(cells.size(), 1.)
     , elastic(counterpart(body.element()), body.material)
     , before(states.size())
   {
@@ -78,11 +79,14 @@ namespace Touchstone
     kernel->set_step_length(step);
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
-        if (!(go_to(c, u) > 0.))
+        const double smallest = go_to(c, u);
+        if (!(smallest > 0.))
           {
             failed = std::min(failed, c);
             continue;
           }
+        if (body.material.finite_strain())
+          smallest_ratio[c] = smallest;
         subtract(nodes(c), kernel->force(), force);
         if (!kernel->solved())
           failed = std::min(failed, c);
@@ -118,23 +122,29 @@ namespace Touchstone
   {
     // The tangent of a law without history; with history, where cells that flow or relax are softer
     // than when they unload, the elastic stiffness of the present shape. It is costly, and scaled
-    // by an estimate from the shape alone until that has changed by this part.
+    // by an estimate from the shape alone until that has changed by this part, or the volume at a
+    // point has, which mean gradients do not see.
     constexpr double change = 0.02;
     set_one_point_frequencies(u, result);
     if (exact.empty())
       {
         exact.resize(cells.size());
         estimate.assign(cells.size(), 0.);
+        ratio_then.assign(cells.size(), 1.);
       }
     for (unsigned int c = 0; c < cells.size(); ++c)
       {
         const bool   small = !body.material.finite_strain();
         const double now   = result[c];
-        if (!(std::abs(now / estimate[c] - 1.) < change))
+        if (!(std::abs(now / estimate[c] - 1.) < change &&
+              std::abs(smallest_ratio[c] / ratio_then[c] - 1.) < change))
           {
             if (kernel->material()->stiffest_at_rest())
               {
-                elastic.reinit(corners(map, nodes(c), small ? nullptr : &u));
+                if (body.element() == ElementType::f_bar)
+                  elastic.reinit(corners(map, nodes(c), &u), corners(map, nodes(c)));
+                else
+                  elastic.reinit(corners(map, nodes(c), small ? nullptr : &u));
                 exact[c] = largest_eigenvalue([&](const unsigned int i,
                                                   const unsigned int j) { return elastic(i, j); },
                                               masses(c));
@@ -147,7 +157,8 @@ namespace Touchstone
                                          const unsigned int j) { return K[n_unknowns * i + j]; },
                                      masses(c));
               }
-            estimate[c] = now;
+            estimate[c]   = now;
+            ratio_then[c] = smallest_ratio[c];
           }
         result[c] = exact[c] * (now / estimate[c]);
       }

@@ -16,13 +16,13 @@ namespace Touchstone
     using Four = Simd<double, 4>::type;
 
     __attribute__((always_inline)) inline Four
-    load(const NormalRows::Vector &values)
+    load_four(const NormalRows::Vector &values)
     {
       return *reinterpret_cast<const Four *>(values.c);
     }
 
     __attribute__((always_inline)) inline void
-    store(const Four &values, NormalRows::Vector &to)
+    store_four(const Four &values, NormalRows::Vector &to)
     {
       *reinterpret_cast<Four *>(to.c) = values;
     }
@@ -141,14 +141,14 @@ namespace Touchstone
     const unsigned int *const end  = node + nodes.size();
     const Four                zero = {};
     for (std::size_t i = 0; i < sums.size(); ++i)
-      store(zero, at[i]);
+      store_four(zero, at[i]);
     for (const unsigned int *next; node != end; ++row)
       {
         const double p = row->*impulse;
         for (next = nodes.data() + row[1].first; node != next; ++node, ++of)
           {
-            const Four product = p * load(*of);
-            store(load(at[*node]) + product, at[*node]);
+            const Four product = p * load_four(*of);
+            store_four(load_four(at[*node]) + product, at[*node]);
           }
       }
   }
@@ -159,7 +159,7 @@ namespace Touchstone
   NormalRows::move(const unsigned int n)
   {
     for (unsigned int i = 0; i < n; ++i)
-      store(load(free[i]) + load(mobility[i]) * load(sums[i]), velocity[i]);
+      store_four(load_four(free[i]) + load_four(mobility[i]) * load_four(sums[i]), velocity[i]);
     if (any_oblique)
       for (unsigned int i = 0; i < n; ++i)
         {
@@ -177,7 +177,7 @@ namespace Touchstone
   {
     Four sum = {};
     for (std::size_t e = rows[i].first; e < rows[i + 1].first; ++e)
-      sum += load(entries[e]) * load(velocity[nodes[e]]);
+      sum += load_four(entries[e]) * load_four(velocity[nodes[e]]);
     return sum[0] + sum[1] + sum[2];
   }
 
@@ -196,7 +196,7 @@ namespace Touchstone
         Four sum = {};
         for (const unsigned int *const next = nodes.data() + rows[i + 1].first; node != next;
              ++node, ++of)
-          sum += load(*of) * load(v[*node]);
+          sum += load_four(*of) * load_four(v[*node]);
         const double excess = row.allowed - row.drive + (sum[0] + sum[1] + sum[2]);
         row.impulse =
           row.mobility > 0. ? std::max(0., row.extrapolated - excess / row.mobility) : 0.;

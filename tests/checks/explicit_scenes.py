@@ -185,4 +185,9 @@ for name, (_, _, _, allowed, steps) in SCENES.items():
     below(f"{name}, turned", max((abs(a - b) for body in velocities if body in ways
                                   for a, b in zip(TURNED(velocities[body]), ways[body])), default=1),
           TURNS_TO.get(name, 1e-8))
+
+# Tips that meet edges and inner edges of several faces: each row is on one rank.
+SOONER = {"Load stepping/End time": .25, "Load stepping/Steps": 8}
+ranks = [run(f"ranks_{n}", folder / "spike_spike.prm", SOONER, n).summary.get("motion") for n in (1, 2)]
+check(ranks[0] and ranks[0] == ranks[1], "spike_spike: one and two ranks differ")
 finish()

@@ -21,6 +21,11 @@ namespace Touchstone
     /** @brief Set the cell. @return whether it is not inverted. */
     bool
     reinit(const Hexahedron::Corners &positions);
+    /** @brief The same of a cell that had its energy by volume with other positions of its corners,
+     * as F-bar has: a point that has become thin has gradients that are as steep, but not as little
+     * to say. */
+    bool
+    reinit(const Hexahedron::Corners &positions, const Hexahedron::Corners &reference);
 
     double
     operator()(const unsigned int i, const unsigned int j) const
@@ -29,9 +34,14 @@ namespace Touchstone
     }
 
   private:
+    /** Points count by these volumes. */
+    bool
+    assemble(const Hexahedron::Corners                      &positions,
+             const std::array<double, Hexahedron::n_points> *volumes);
+
     const bool          averaged;
     const unsigned int  n_modes;
-    Hexahedron          shapes;
+    Hexahedron          shapes, reference;
     ElementStiffness<1> stiffness;
   };
 

@@ -342,8 +342,18 @@ namespace Touchstone
     all_asleep(double time, double step) const;
     void
     end_of_action();
-    /** Solve again until no surfaces of general contact cross. @return false if they do. */
-    bool
+    /** The same as project(), with candidates of general contact for so many times of the motion
+     * that impulses may make at first. @return why it failed, or none. */
+    GeneralContact::Crossings
+    project_within(double           reach,
+                   const NodeField &u,
+                   const NodeField &before,
+                   NodeField       &v,
+                   double           time,
+                   double           step,
+                   double           acting);
+    /** Solve again until no surfaces of general contact cross. @return what they did last. */
+    GeneralContact::Crossings
     keep_apart(const NodeField &u,
                const NodeField &before,
                NodeField       &v,

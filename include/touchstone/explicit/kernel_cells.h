@@ -64,14 +64,18 @@ namespace Touchstone
 
   protected:
     CellStates states;
+    /** By cell: the smallest ratio of a present to a reference volume in a point, when forces were
+     * evaluated last, at finite strain. */
+    std::vector<double> smallest_ratio;
 
   private:
     /** Of the isotropic elasticity at small strain. */
     CellStiffness elastic;
     /** History of a cell. */
     std::vector<double> before;
-    /** By cell: the frequency that was computed last, and the estimate beside it. */
-    std::vector<double> exact, estimate;
+    /** By cell: the frequency that was computed last, the estimate beside it, and the
+     * #smallest_ratio of then. */
+    std::vector<double> exact, estimate, ratio_then;
 
     /** @return the smallest determinant. */
     double

@@ -61,6 +61,59 @@ namespace Touchstone
         result[d] = std::max(a.lower[d], b.lower[d]);
       return result;
     }
+
+
+
+    /** An edge by the keys of its ends, in ascending order. */
+    using EdgeKey = std::pair<std::uint64_t, std::uint64_t>;
+
+    bool
+    of_one_cell(const EdgeKey &edge, const ImpactFace &face)
+    {
+      return face.of_cell(edge.first) && face.of_cell(edge.second);
+    }
+
+
+
+    template <class Faces>
+    std::uint64_t
+    slot_key(const Faces &all, const std::size_t slot)
+    {
+      return all[slot / 4].face.nodes[slot % 4];
+    }
+
+
+
+    template <class Faces>
+    EdgeKey
+    edge_key(const Faces &all, const std::size_t slot)
+    {
+      return std::minmax({slot_key(all, slot), slot_key(all, ContactCandidates::next(slot))});
+    }
+
+
+
+    /** Boxes of faces, which the search wants as well, and by slot of nodes and edges. */
+    struct GrownBoxes
+    {
+      std::vector<BoundingBox<dim>> of_faces;
+      std::vector<Corners>          faces, nodes, edges;
+
+      template <class Faces>
+      GrownBoxes(const Faces &all, const double grown)
+      {
+        for (const auto &moving : all)
+          {
+            of_faces.push_back(moving.box(grown));
+            faces.emplace_back(of_faces.back());
+            for (unsigned int a = 0; a < 4; ++a)
+              {
+                nodes.emplace_back(moving.box(a, grown));
+                edges.emplace_back(moving.edge_box(a, grown));
+              }
+          }
+      }
+    };
   } // namespace
 
 
@@ -126,7 +179,7 @@ namespace Touchstone
     find_pairs(all, margin, neighbours_as_well);
     const std::uint64_t n_inner =
       std::count_if(face_pairs.begin(), face_pairs.end(), [](const FacePair &pair) {
-        return pair.inner_edges;
+        return pair.inner[of_both];
       });
     work.candidates =
       Utilities::MPI::sum<std::uint64_t>(node_faces.size() + edge_pairs.size() + n_inner,
@@ -195,6 +248,8 @@ namespace Touchstone
 
 
 
+  // An edge and the inner edges of a face are where the lower corner of what their boxes share is,
+  // as two edges are: so all pairs of faces that have the edge find them on the same rank.
   void
   ContactCandidates::find_pairs(const std::vector<MovingFace> &all,
                                 const double                   margin,
@@ -202,70 +257,72 @@ namespace Touchstone
   {
     node_faces.clear();
     edge_pairs.clear();
+    inner_edges.clear();
     face_pairs.clear();
-    const unsigned int            me    = Utilities::MPI::this_mpi_process(nodes.communicator());
-    const double                  grown = 0.5 * margin;
-    std::vector<BoundingBox<dim>> of_faces;
-    std::vector<Corners>          boxes, node_boxes, edge_boxes;
-    for (const MovingFace &moving : all)
-      {
-        of_faces.push_back(moving.box(grown));
-        boxes.emplace_back(of_faces.back());
-        for (unsigned int a = 0; a < 4; ++a)
-          {
-            node_boxes.emplace_back(moving.box(a, grown));
-            edge_boxes.emplace_back(moving.edge_box(a, grown));
-          }
-      }
-    const auto slot_key = [&](const std::size_t slot) {
-      return all[slot / 4].face.nodes[slot % 4];
-    };
-    const auto edge_key = [&](const std::size_t slot) {
-      return std::minmax({slot_key(slot), slot_key(next(slot))});
-    };
+    const unsigned int me = Utilities::MPI::this_mpi_process(nodes.communicator());
+    const GrownBoxes   boxes(all, 0.5 * margin);
     const auto mine     = [&](const Point<dim> &corner) { return partition.owner(corner) == me; };
-    const auto add_node = [&](const unsigned int of, const unsigned int a, const unsigned int f) {
-      const Corners &box = node_boxes[4 * std::size_t(of) + a];
-      if (overlap(box, boxes[f]) && !all[f].face.of_cell(all[of].face.nodes[a]) && mine(box.lower))
-        node_faces.push_back({4 * std::size_t(of) + a, f, unsigned(face_pairs.size())});
+    const auto add_node = [&](const std::size_t slot, const unsigned int f) {
+      if (overlap(boxes.nodes[slot], boxes.faces[f]) && !all[f].face.of_cell(slot_key(all, slot)) &&
+          mine(boxes.nodes[slot].lower))
+        node_faces.push_back({slot, f, unsigned(face_pairs.size())});
     };
-    const auto of_one_cell = [&](const std::size_t edge, const ImpactFace &face) {
-      return face.of_cell(slot_key(edge)) && face.of_cell(slot_key(next(edge)));
+    const auto add_edges = [&](const std::size_t one, const std::size_t other) {
+      const Corners &p = boxes.edges[one], &q = boxes.edges[other];
+      if (!overlap(p, q))
+        return;
+      const EdgeKey k = edge_key(all, one), l = edge_key(all, other);
+      if (k.first == l.first || k.first == l.second || k.second == l.first ||
+          k.second == l.second || of_one_cell(k, all[other / 4].face) ||
+          of_one_cell(l, all[one / 4].face))
+        return;
+      if (mine(lower_corner(p, q)))
+        edge_pairs.push_back(
+          {k < l ? one : other, k < l ? other : one, unsigned(face_pairs.size())});
     };
-    for (const auto &[i, j] : broad_phase->find(of_faces))
+    const auto add_inner =
+      [&](const std::size_t edge, const unsigned int f, const unsigned int bit) {
+        if (overlap(boxes.edges[edge], boxes.faces[f]) &&
+            mine(lower_corner(boxes.edges[edge], boxes.faces[f])))
+          inner_edges.push_back({edge, f, unsigned(face_pairs.size()), bit});
+      };
+    const auto n = [&] { return node_faces.size() + edge_pairs.size() + inner_edges.size(); };
+    for (const auto &[i, j] : broad_phase->find(boxes.of_faces))
       {
         const ImpactFace &a = all[i].face, &b = all[j].face;
         if (!surface.may_meet(a.boundary, b.boundary))
           continue;
-        const std::size_t before = node_faces.size() + edge_pairs.size();
+        const std::size_t before = n(), first = 4 * std::size_t(i), other = 4 * std::size_t(j);
+        FacePair          pair{i, j, a.shares_node(b), {}};
+        // Inner edges of neighbours meet nothing of each other before the faces have folded.
+        const bool inner = (neighbours_as_well || !pair.share_node) && a.key >> 3 != b.key >> 3;
         for (unsigned int c = 0; c < 4; ++c)
           {
-            add_node(i, c, j);
-            add_node(j, c, i);
+            add_node(first + c, j);
+            add_node(other + c, i);
+            for (unsigned int d = 0; d < 4; ++d)
+              add_edges(first + c, other + d);
+            if (inner)
+              {
+                add_inner(first + c, j, c);
+                add_inner(other + c, i, 4 + c);
+              }
           }
-        for (unsigned int c = 0; c < 4; ++c)
-          for (unsigned int d = 0; d < 4; ++d)
-            {
-              const std::size_t one = 4 * std::size_t(i) + c, other = 4 * std::size_t(j) + d;
-              const Corners    &p = edge_boxes[one], &q = edge_boxes[other];
-              if (!overlap(p, q))
-                continue;
-              const auto k = edge_key(one), l = edge_key(other);
-              if (k.first == l.first || k.first == l.second || k.second == l.first ||
-                  k.second == l.second || of_one_cell(one, b) || of_one_cell(other, a))
-                continue;
-              if (mine(lower_corner(p, q)))
-                edge_pairs.push_back(
-                  {k < l ? one : other, k < l ? other : one, unsigned(face_pairs.size())});
-            }
-        // Inner edges of neighbours meet nothing of each other before the faces have folded.
-        const bool share_node = a.shares_node(b);
-        const bool inner      = (neighbours_as_well || !share_node) && a.key >> 3 != b.key >> 3 &&
-                           mine(lower_corner(boxes[i], boxes[j]));
-        if (inner || node_faces.size() + edge_pairs.size() > before)
-          face_pairs.push_back({i, j, share_node, inner});
+        pair.inner[of_both] = inner && mine(lower_corner(boxes.faces[i], boxes.faces[j]));
+        if (pair.inner.any() || n() > before)
+          face_pairs.push_back(pair);
       }
-    // Nodes and edges belong to several faces. Keys are sorted, not the faces that have them.
+    keep_each_once(all);
+    for (const InnerEdge &pair : inner_edges)
+      face_pairs[pair.of_faces].inner.set(pair.bit);
+  }
+
+
+
+  // Keys are sorted, not the faces that have them.
+  void
+  ContactCandidates::keep_each_once(const std::vector<MovingFace> &all)
+  {
     const auto unify = [](auto &pairs, const auto &key) {
       std::vector<std::pair<decltype(key(pairs[0])), std::size_t>> keyed;
       for (const auto &pair : pairs)
@@ -278,11 +335,13 @@ namespace Touchstone
       pairs.swap(unique);
     };
     unify(node_faces, [&](const NodeFace &p) {
-      return std::make_pair(slot_key(p.node), all[p.face].face.key);
+      return std::make_pair(slot_key(all, p.node), all[p.face].face.key);
     });
     unify(edge_pairs, [&](const EdgePair &p) {
-      return std::make_pair(std::pair<std::uint64_t, std::uint64_t>(edge_key(p.one)),
-                            std::pair<std::uint64_t, std::uint64_t>(edge_key(p.other)));
+      return std::make_pair(edge_key(all, p.one), edge_key(all, p.other));
+    });
+    unify(inner_edges, [&](const InnerEdge &p) {
+      return std::make_pair(edge_key(all, p.edge), all[p.face].face.key);
     });
   }
 

@@ -17,9 +17,10 @@ namespace Touchstone
   namespace
   {
     /** The margin beyond the present cycle: the motion of so many cycles, up to this part of the
-     * smallest face. A cycle whose impulses make more than so many times of its motion is halved.
+     * smallest face. A cycle whose impulses make more than so many times of its motion begins anew
+     * with candidates for that.
      */
-    constexpr double cycles_ahead = 80., most_margin = 0.5, of_impulses = 2.2;
+    constexpr double cycles_ahead = 160., most_margin = 0.5, of_impulses = 2.2;
 
     /** Where many places touch, one or the other always asks for an earlier kind of rows: after so
      * many rounds none waits for others. */
@@ -88,76 +89,59 @@ namespace Touchstone
 
 
   // Two nodes have come no nearer to each other, along an axis, than by the range of what all have
-  // moved.
+  // moved. Comparisons do not see what is not finite.
+  template <class Motion>
   GeneralContact::Range
-  GeneralContact::range(const NodeField &u, const NodeField &v, const double step) const
+  GeneralContact::range(const Motion &motion) const
   {
-    // Largest motions along the axes and against them: since the candidates were made, since the
-    // cycle before began, and in the cycle.
-    std::array<double, 6 * dim> most, all;
-    most.fill(-std::numeric_limits<double>::max());
-    const auto widen = [&](const unsigned int i, const double motion) {
-      most[i]       = std::max(most[i], motion);
-      most[i + dim] = std::max(most[i + dim], -motion);
-    };
-    const NodeField &before = begun ? begun_at : u;
+    constexpr double largest = std::numeric_limits<double>::max();
+    double lower[3] = {largest, largest, largest}, upper[3] = {-largest, -largest, -largest};
+    double none = 0.;
     for (const unsigned int node : surface.owned_nodes())
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          widen(d, u[node][d] - made_at[node][d]);
-          widen(2 * dim + d, u[node][d] - before[node][d]);
-          widen(4 * dim + d, step * v[node][d]);
-          // Comparisons do not see it.
-          if (!std::isfinite(v[node][d]))
-            most[4 * dim + d] = std::numeric_limits<double>::infinity();
-        }
+      {
+        const Tensor<1, dim> x = motion(node);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            lower[d] = x[d] < lower[d] ? x[d] : lower[d];
+            upper[d] = x[d] > upper[d] ? x[d] : upper[d];
+            none += 0. * x[d];
+          }
+      }
+    std::array<double, 2 * dim> most, all;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        most[d]       = none == 0. ? upper[d] : std::numeric_limits<double>::infinity();
+        most[dim + d] = -lower[d];
+      }
     Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
                         nodes.communicator(),
                         ArrayView<double>(all.data(), all.size()));
-    Range          result{0., 0., 0., 0.};
-    Tensor<1, dim> before_cycle, in_cycle;
+    Range          result{{}, 0., 0.};
+    Tensor<1, dim> distance;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        before_cycle[d] = all[2 * dim + d] + all[3 * dim + d];
-        in_cycle[d]     = all[4 * dim + d] + all[5 * dim + d];
-        result.before   = std::max(result.before, all[d] + all[dim + d]);
-        result.in_cycle = std::max(result.in_cycle, in_cycle[d]);
+        result.along[d] = distance[d] = all[d] + all[dim + d];
+        result.largest                = std::max(result.largest, result.along[d]);
       }
-    result.far_before   = above_round_off * before_cycle.norm();
-    result.far_in_cycle = above_round_off * in_cycle.norm();
+    result.distance = above_round_off * distance.norm();
     return result;
   }
 
 
 
-  GeneralContact::Range
-  GeneralContact::range(const NodeField &v, const double step) const
+  // What nodes have moved in cycles one after the other is a bound, and mostly enough.
+  bool
+  GeneralContact::candidates_hold(const NodeField &u, const Range &moved)
   {
-    std::array<double, 2 * dim> most, all;
-    most.fill(-std::numeric_limits<double>::max());
-    double none = 0.; // or not a number, which comparisons do not see
-    for (const unsigned int node : surface.owned_nodes())
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double motion = step * v[node][d];
-          most[d]             = std::max(most[d], motion);
-          most[dim + d]       = std::max(most[dim + d], -motion);
-          none += 0. * motion;
-        }
-    if (!(none == 0.))
-      most[0] = std::numeric_limits<double>::infinity();
-    Utilities::MPI::max(ArrayView<const double>(most.data(), most.size()),
-                        nodes.communicator(),
-                        ArrayView<double>(all.data(), all.size()));
-    Range          result{0., 0., 0., 0.};
-    Tensor<1, dim> in_cycle;
+    const auto hold = [&] {
+      return *std::max_element(since_made.begin(), since_made.end()) + most_in_cycle <= margin;
+    };
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        in_cycle[d]     = all[d] + all[dim + d];
-        result.in_cycle = std::max(result.in_cycle, in_cycle[d]);
-      }
-    result.far_in_cycle = above_round_off * in_cycle.norm();
-    return result;
+      since_made[d] += above_round_off * moved.along[d];
+    if (hold())
+      return true;
+    since_made = range([&](const unsigned int n) { return u[n] - made_at[n]; }).along;
+    return hold();
   }
 
 
@@ -172,6 +156,7 @@ namespace Touchstone
     const auto pressing = pressing_nodes();
     const auto last     = pressed_rows();
     made_at             = u;
+    since_made.fill(0.);
     const double wanted = parameters.margin_length();
     const double automatic =
       std::clamp(cycles_ahead * in_cycle, least_margin * smallest, most_margin * smallest);
@@ -304,7 +289,7 @@ namespace Touchstone
       {
         inset_before[of] =
           insets_of[of] + 1 == insets_now ? inset_now[of] : surface.inset(of, begun_before);
-        inset_now[of] = surface.inset(of, begun_at);
+        inset_now[of] = surface.inset(of, begun_at, face_areas, insets_now);
         insets_of[of] = insets_now;
       }
     motion[node] = {surface.position(of, u),
@@ -369,19 +354,22 @@ namespace Touchstone
                               const double     step_before,
                               const NodeField &v,
                               const double     step,
-                              const bool       only_touching)
+                              const bool       only_touching,
+                              const double     reach)
   {
     for (Row &row : rows)
       row.used = false;
-    const Range moved = range(u, v, step);
-    if (!std::isfinite(moved.in_cycle))
+    const Range moves = range([&](const unsigned int n) { return step * v[n]; });
+    if (!std::isfinite(moves.largest))
       return; // what is wrong with the velocities is told where the cycle is checked
-    travelled += moved.far_before;
-    travels = moved.far_in_cycle;
+    const NodeField &before = begun ? begun_at : u;
+    const Range      moved  = range([&](const unsigned int n) { return u[n] - before[n]; });
+    travelled += moved.distance;
+    travels = moves.distance;
     // What impulses may make of the motion: of the state alone, not of when candidates were made.
-    most_in_cycle = std::max(of_impulses * moved.in_cycle, least_margin * smallest);
-    if (renew || moved.before + most_in_cycle > margin)
-      renew_candidates(u, v, step, moved.in_cycle);
+    most_in_cycle = std::max(reach * of_impulses * moves.largest, least_margin * smallest);
+    if (renew || !candidates_hold(u, moved))
+      renew_candidates(u, v, step, moves.largest);
     cycle = step;
     ++cycles;
     follow_insets(u, v_before, step_before);
@@ -406,12 +394,12 @@ namespace Touchstone
                                  const double       step,
                                  const unsigned int round)
   {
-    const Range moves = range(v, step);
-    if (!candidates.any() || !std::isfinite(moves.in_cycle))
+    const Range moves = range([&](const unsigned int n) { return step * v[n]; });
+    if (!candidates.any() || !std::isfinite(moves.largest))
       return Crossings::none;
-    if (moves.in_cycle > most_in_cycle)
+    if (moves.largest > most_in_cycle)
       return Crossings::too_far;
-    travels = moves.far_in_cycle;
+    travels = moves.distance;
     find_near();
     import(u, v);
     return check_motion(/*ahead=*/false, round <= rounds_in_order) ? Crossings::rows

@@ -2,7 +2,6 @@
 
 #include <touchstone/collision/first_crossing.h>
 #include <touchstone/explicit/general/general_contact.h>
-#include <touchstone/explicit/general/moving_points.h>
 
 #include <cmath>
 #include <limits>
@@ -36,20 +35,6 @@ namespace Touchstone
      * along which their motion is round-off. */
     constexpr double nothing = 1e-12;
 
-    /** Whether a node stays on one side of a triangle, by the normal of that. */
-    bool
-    on_one_side(const FourPoints &from, const FourPoints &to)
-    {
-      const auto normal = [](const FourPoints &x) {
-        return cross_product_3d(x[2] - x[1], x[3] - x[1]);
-      };
-      const double side = normal(from) * (from[0] - from[1]) < 0. ? -1. : 1.;
-      return distance_in_front<1>(from, to, {side * normal(from), side * normal(to)}, enlarged) >
-             0.;
-    }
-
-
-
     Point<dim>
     between(const Point<dim> &from, const Point<dim> &to, const double part)
     {
@@ -61,37 +46,34 @@ namespace Touchstone
 
   // Groups of points are mostly told apart by the direction that has done so before, as it turns
   // with the faces; otherwise by their shortest difference at the start, and that at the end.
-  template <std::size_t m, std::size_t n>
+  template <class Groups>
   bool
-  GeneralContact::stay_apart(const std::array<Point<dim>, n> &from,
-                             const std::array<Point<dim>, n> &to,
-                             const TurningFrame              &frame,
-                             const double                     size,
-                             const unsigned int               patience,
-                             Separation                      &known) const
+  GeneralContact::stay_apart(const Groups       &groups,
+                             const TurningFrame &frame,
+                             const double        size,
+                             const unsigned int  patience,
+                             Separation         &known) const
   {
     double distance = -1.;
     if (known.known)
-      distance = distance_in_front<m>(from, to, frame.turning(known.direction), enlarged);
+      distance = groups.distance_in_front(frame.turning(known.direction), enlarged);
     // With free velocities what is pressed together crosses: that says nothing of its direction.
     if (!(distance > 0.) && !(looks_ahead && known.known))
       {
-        if (known.hopeless > 0)
+        if (unsigned int &looks = known.hopeless[looks_ahead]; looks > 0)
           {
-            --known.hopeless;
+            --looks;
             return false;
           }
-        const Tensor<1, dim> shortest = shortest_difference(from.data(), m, n);
+        const Tensor<1, dim> shortest = groups.shortest_difference(false);
         known.direction               = frame.components(shortest);
-        distance = distance_in_front<m>(from, to, frame.turning(known.direction), enlarged);
+        distance = groups.distance_in_front(frame.turning(known.direction), enlarged);
         if (!(distance > 0.))
-          distance = distance_in_front<m>(from,
-                                          to,
-                                          {shortest, shortest_difference(to.data(), m, n)},
-                                          enlarged);
+          distance =
+            groups.distance_in_front({shortest, groups.shortest_difference(true)}, enlarged);
         known.known = distance > 0.;
-        if (!known.known && !looks_ahead)
-          known.hopeless = patience;
+        if (!known.known)
+          known.hopeless[looks_ahead] = patience;
       }
     if (!(distance > 0.))
       return false;
@@ -105,22 +87,14 @@ namespace Touchstone
   GeneralContact::find_open_faces()
   {
     open_faces.clear();
-    std::array<Point<dim>, 8> from, to;
     for (const unsigned int number : near_pairs)
       {
         const ContactCandidates::FacePair &pair = candidates.face_pairs[number];
-        double                             size = 0.;
-        for (unsigned int i = 0; i < 8; ++i)
-          {
-            const SurfacePoint point = corner(i < 4 ? pair.one : pair.other, i % 4);
-            from[i]                  = inner_position(point, false);
-            to[i]                    = inner_position(point, true);
-            size                     = std::max(size, this->size(point));
-          }
-        const TurningFrame frame(from.data(), to.data());
+        const MovingCorners &one = inner_corners[pair.one], &other = inner_corners[pair.other];
+        const double         size = std::max(one.size, other.size);
         if (pair.share_node ||
-            !stay_apart<4>(from, to, frame, size, some_patience, apart_faces[number]))
-          open_faces.push_back({number, size, frame});
+            !stay_apart(TwoFaces{one, other}, one.frame, size, some_patience, apart_faces[number]))
+          open_faces.push_back({number, size, one.frame});
         else
           face_limits.set(number, apart_faces[number].until);
       }
@@ -143,8 +117,8 @@ namespace Touchstone
       each(candidates.edges_by_faces, apart_edges, [&](const unsigned int i, Separation &known) {
         check_edges(ends_of(candidates.edge_pairs[i]), faces, known, i);
       });
-    else if (kind == Kind::inner && pair.inner_edges)
-      check_inner_edges(pair.one, pair.other, faces);
+    else if (kind == Kind::inner && pair.inner.any())
+      check_inner_edges(pair, faces);
     else if (kind == Kind::slave_node || kind == Kind::node)
       each(candidates.nodes_by_faces, apart_nodes, [&](const unsigned int i, Separation &known) {
         const ContactCandidates::NodeFace &one = candidates.node_faces[i];
@@ -160,7 +134,7 @@ namespace Touchstone
   void
   GeneralContact::keep_until(const OpenFaces &faces)
   {
-    if (candidates.face_pairs[faces.pair].inner_edges)
+    if (candidates.face_pairs[faces.pair].inner.any())
       return;
     double     until = std::numeric_limits<double>::max();
     const auto least = [&](const ContactCandidates::ByFaces &by_faces,
@@ -198,16 +172,23 @@ namespace Touchstone
       }
     middle_from.resize(candidates.faces.size());
     middle_to.resize(candidates.faces.size());
+    inner_corners.resize(candidates.faces.size());
+    std::array<Point<dim>, 4> x, y;
     for (const unsigned int face : near_faces)
       {
         Tensor<1, dim> from, to;
+        double         largest = 0.;
         for (unsigned int a = 0; a < 4; ++a)
           {
-            from += 0.25 * inner_position(corner(face, a), false);
-            to += 0.25 * inner_position(corner(face, a), true);
+            x[a] = inner_position(corner(face, a), false);
+            y[a] = inner_position(corner(face, a), true);
+            from += 0.25 * x[a];
+            to += 0.25 * y[a];
+            largest = std::max(largest, size(corner(face, a)));
           }
         middle_from[face] = Point<dim>(from);
         middle_to[face]   = Point<dim>(to);
+        inner_corners[face].set(x, y, largest);
       }
   }
 
@@ -219,30 +200,25 @@ namespace Touchstone
                              const OpenFaces    &faces,
                              Separation         &known)
   {
-    std::array<Point<dim>, 5> from, to;
-    for (unsigned int i = 0; i < 5; ++i)
-      {
-        const SurfacePoint point = i == 0 ? node : corner(face, i - 1);
-        from[i]                  = inner_position(point, false);
-        to[i]                    = inner_position(point, true);
-      }
-    if (stay_apart<1>(from, to, faces.frame, faces.size, some_patience, known))
+    const NodeAndFace both{inner_position(node, false),
+                           inner_position(node, true),
+                           inner_corners[face]};
+    if (stay_apart(both, faces.frame, faces.size, some_patience, known))
       return;
+    const unsigned int in_reach =
+      both.triangles_in_reach(middle_from[face], middle_to[face], enlarged);
     // Where several triangles are crossed at once, as on the line between them, each has its row:
     // otherwise round-off would choose.
     std::array<std::optional<Crossing>, 4> crossed;
     double                                 first = std::numeric_limits<double>::max();
     for (unsigned int t = 0; t < 4; ++t)
-      {
-        const FourPoints a = node_and_triangle(node, face, t, false),
-                         b = node_and_triangle(node, face, t, true);
-        Separation unknown;
-        if (on_one_side(a, b) || stay_apart<1>(a, b, faces.frame, 0., 0, unknown))
-          continue;
-        crossed[t] = first_crossing_node_triangle(a, b);
-        if (crossed[t])
-          first = std::min(first, crossed[t]->time);
-      }
+      if (in_reach >> t & 1U)
+        {
+          crossed[t] = first_crossing_node_triangle(node_and_triangle(node, face, t, false),
+                                                    node_and_triangle(node, face, t, true));
+          if (crossed[t])
+            first = std::min(first, crossed[t]->time);
+        }
     for (unsigned int t = 0; t < 4; ++t)
       if (crossed[t] && crossed[t]->time <= first + tie)
         keep_out(node, face, t, *crossed[t]);
@@ -314,7 +290,7 @@ namespace Touchstone
           (*x)[side + 1]  = edge[1];
         }
     // Edges that rest on each other are never far apart, and what is bisected takes long.
-    if (stay_apart<2>(a, b, faces.frame, faces.size, 0, known))
+    if (stay_apart(PointGroups<2, 4>{a, b}, faces.frame, faces.size, 0, known))
       return;
     const auto crossing = first_crossing_edge_edge(a, b);
     if (!crossing)

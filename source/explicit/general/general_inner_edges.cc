@@ -30,16 +30,35 @@ namespace Touchstone
 
 
 
+  // What another pair of faces looks at is left alone.
+  std::vector<GeneralContact::Separation>
+  GeneralContact::separations_of_inner_edges(const ContactCandidates::FacePair &pair) const
+  {
+    Separation never;
+    never.until = std::numeric_limits<double>::max();
+    std::vector<Separation> result;
+    for (unsigned int e = 0; e < 8; ++e)
+      for (unsigned int f = e < 4 ? 4 : 0; f < 8; ++f)
+        {
+          const unsigned int bit = e < 4 ? e : f < 4 ? 4 + f : ContactCandidates::of_both;
+          result.push_back(pair.inner[bit] ? Separation() : never);
+        }
+    result.resize(result.size() + 2, pair.inner[ContactCandidates::of_both] ? Separation() : never);
+    return result;
+  }
+
+
+
   // The middle of a warped face can reach further than its edges, and so can the edges from there
   // to the corners. Of a plane face nothing meets them before it meets the face or its edges.
   void
-  GeneralContact::check_inner_edges(const unsigned int one,
-                                    const unsigned int other,
-                                    const OpenFaces   &faces)
+  GeneralContact::check_inner_edges(const ContactCandidates::FacePair &pair, const OpenFaces &faces)
   {
+    const unsigned int one = pair.one, other = pair.other;
     // What is known of each of three kinds of 16 pairs, and of the middles.
     std::vector<Separation> &known = apart_inner[faces.pair];
-    known.resize(3 * 16 + 2);
+    if (known.empty())
+      known = separations_of_inner_edges(pair);
     const auto far_apart = [&](const Separation &of) { return of.until > travelled + travels; };
     if (std::all_of(known.begin(), known.end(), far_apart))
       return;

@@ -82,7 +82,7 @@ namespace Touchstone
         }
     };
     for (const ContactCandidates::FacePair &pair : candidates.face_pairs)
-      if (pair.inner_edges)
+      if (pair.inner[ContactCandidates::of_both])
         {
           check(pair.one, pair.other);
           check(pair.other, pair.one);

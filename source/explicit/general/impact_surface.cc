@@ -108,6 +108,7 @@ namespace Touchstone
       {
         if (one.owned)
           own.push_back(one.face);
+        corners.push_back(one.local);
         for (const unsigned int node : one.local)
           if (node < nodes.n_owned())
             {
@@ -117,15 +118,15 @@ namespace Touchstone
                   around.emplace_back();
                   surface_nodes.push_back(node);
                 }
-              around[place[node]].push_back(one.local);
+              around[place[node]].push_back(corners.size() - 1);
             }
       }
     const auto reference = [&](const unsigned int n) { return nodes.positions()[n]; };
     for (const auto &faces : around)
       {
         double area = 0.;
-        for (const auto &face : faces)
-          area += area_vector(face, reference).norm();
+        for (const unsigned int face : faces)
+          area += area_vector(corners[face], reference).norm();
         sizes.push_back(std::sqrt(area / faces.size()));
       }
     n_global = Utilities::MPI::sum<std::uint64_t>(own.size(), nodes.communicator());
@@ -133,15 +134,15 @@ namespace Touchstone
 
 
 
+  template <class Area>
   ImpactSurface::Inset
-  ImpactSurface::inset(const unsigned int node, const NodeField &u) const
+  ImpactSurface::inset_of(const unsigned int node, const Area &area) const
   {
-    const auto     x = [&](const unsigned int n) { return nodes.positions()[n] + u[n]; };
     Tensor<1, dim> sum;
     double         smallest = std::numeric_limits<double>::max();
-    for (const auto &face : around[place[node]])
+    for (const unsigned int face : around[place[node]])
       {
-        const Tensor<1, dim> of_face = area_vector(face, x);
+        const Tensor<1, dim> of_face = area(face);
         sum += of_face;
         smallest = std::min(smallest, of_face.norm_square());
       }
@@ -151,6 +152,36 @@ namespace Touchstone
       result.normal = sum / length;
     result.depth = std::min(size(node), slender * std::sqrt(std::sqrt(smallest)));
     return result;
+  }
+
+
+
+  ImpactSurface::Inset
+  ImpactSurface::inset(const unsigned int node, const NodeField &u) const
+  {
+    const auto x = [&](const unsigned int n) { return nodes.positions()[n] + u[n]; };
+    return inset_of(node, [&](const unsigned int face) { return area_vector(corners[face], x); });
+  }
+
+
+
+  ImpactSurface::Inset
+  ImpactSurface::inset(const unsigned int  node,
+                       const NodeField    &u,
+                       FaceAreas          &known,
+                       const std::uint64_t positions) const
+  {
+    const auto x = [&](const unsigned int n) { return nodes.positions()[n] + u[n]; };
+    known.areas.resize(corners.size());
+    known.positions.resize(corners.size(), 0);
+    return inset_of(node, [&](const unsigned int face) -> const Tensor<1, dim> & {
+      if (known.positions[face] != positions)
+        {
+          known.areas[face]     = area_vector(corners[face], x);
+          known.positions[face] = positions;
+        }
+      return known.areas[face];
+    });
   }
 
 

@@ -9,6 +9,7 @@
 #include <touchstone/explicit/impulse_work.h>
 #include <touchstone/explicit/row_nodes.h>
 
+#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -52,8 +53,8 @@ namespace Touchstone
          double           margin,
          bool             neighbours_as_well = false);
 
-    /** Pairs by slots, each sorted by keys: a node and a face; and two edges. Each belongs to one
-     * of #face_pairs. */
+    /** Pairs by slots, each sorted by keys: a node and a face; two edges; and an edge and a face
+     * that it may meet inner edges of. Each belongs to one of #face_pairs. */
     struct NodeFace
     {
       std::size_t  node;
@@ -65,15 +66,26 @@ namespace Touchstone
       unsigned int of_faces;
     };
     /** Two faces that pairs of nodes and edges belong to, or whose inner edges, from corners to the
-     * middle, may meet those of the other. */
+     * middle, may meet what the other has. */
     struct FacePair
     {
       unsigned int one, other;
-      bool         share_node, inner_edges;
+      bool         share_node;
+      /** What belongs to the pair of that: edge a of the first face with inner edges of the other
+       * (bit a), edge a of the other with those of the first (bit 4 + a), inner edges of both and
+       * their middles (#of_both). An edge of two faces belongs to one pair, on one rank. */
+      std::bitset<9> inner;
     };
-    std::vector<NodeFace> node_faces;
-    std::vector<EdgePair> edge_pairs;
-    std::vector<FacePair> face_pairs;
+    static constexpr unsigned int of_both = 8;
+    struct InnerEdge
+    {
+      std::size_t  edge;
+      unsigned int face, of_faces, bit;
+    };
+    std::vector<NodeFace>  node_faces;
+    std::vector<EdgePair>  edge_pairs;
+    std::vector<InnerEdge> inner_edges;
+    std::vector<FacePair>  face_pairs;
     /** Numbers of #node_faces and of #edge_pairs by the pair of faces that they belong to, and
      * where those of each begin. */
     struct ByFaces
@@ -161,6 +173,9 @@ namespace Touchstone
     exchange_faces(const NodeField &u, const NodeField &v, double step, double margin);
     void
     find_pairs(const std::vector<MovingFace> &all, double margin, bool neighbours_as_well);
+    /** Nodes and edges belong to several faces: each pair of @p all once, by keys. */
+    void
+    keep_each_once(const std::vector<MovingFace> &all);
     void
     keep_used_faces(const std::vector<MovingFace> &all);
     void

@@ -8,7 +8,7 @@
 #include <touchstone/explicit/general/contact_candidates.h>
 #include <touchstone/explicit/general/general_contact_parameters.h>
 #include <touchstone/explicit/general/general_results.h>
-#include <touchstone/explicit/general/moving_points.h>
+#include <touchstone/explicit/general/moving_faces.h>
 #include <touchstone/explicit/general/travel_limits.h>
 #include <touchstone/explicit/impulse_solver.h>
 
@@ -91,6 +91,7 @@ namespace Touchstone
      * if motion demands it, and the rows of what touches and of what would cross. Collective.
      * @param v_before,step_before Velocities and length of the cycle before; length 0: there was
      *                             none. @param only_touching Without what would cross.
+     * @param reach Impulses may move nodes by so many times of what they may at first.
      */
     void
     begin_cycle(const NodeField &u,
@@ -98,7 +99,8 @@ namespace Touchstone
                 double           step_before,
                 const NodeField &v,
                 double           step,
-                bool             only_touching = false);
+                bool             only_touching = false,
+                double           reach         = 1.);
 
     /** @brief What a look at the motion to the end of a cycle has found. */
     enum class Crossings
@@ -268,6 +270,8 @@ namespace Touchstone
     /** Positions of nodes and of middles of faces on surfaces that are moved inwards, at the start
      * and at the end; of #near_faces. */
     std::vector<dealii::Point<dim>> inner_from, inner_to, middle_from, middle_to;
+    /** The corners there by face. */
+    std::vector<MovingCorners> inner_corners;
     /** What is known of a candidate from earlier looks: that nothing of it crosses or touches
      * before nodes have #travelled so far, length, and the direction that told its points apart, in
      * the TurningFrame of the first of the pair of faces that it belongs to, if one did. */
@@ -276,8 +280,9 @@ namespace Touchstone
       double                 until = -std::numeric_limits<double>::max();
       dealii::Tensor<1, dim> direction;
       bool                   known = false;
-      /** It is not worth to look for a direction in so many further looks. */
-      unsigned int hopeless = 0;
+      /** It is not worth to look for a direction in so many further looks; and in so many with
+       * free velocities. */
+      std::array<unsigned int, 2> hopeless{};
     };
     /** By pair of faces, by pair of a node and a face, and of edges; and by pair of faces, those of
      * inner edges that have been looked at. */
@@ -367,18 +372,23 @@ namespace Touchstone
     void
     keep_totals();
 
-    /** By how much nodes have moved relative to each other since the candidates were made, and do
-     * so in the cycle, along an axis, length. The latter is infinite if a velocity is not finite.
-     * And bounds of the distances: since the cycle before began, and in the cycle. Collective. */
+    /** Motion of nodes relative to each other, of all ranks: by axis, and the largest of these, and
+     * a bound of the distances; length. Infinite if a motion is not finite. */
     struct Range
     {
-      double before, in_cycle, far_before, far_in_cycle;
+      std::array<double, dim> along;
+      double                  largest, distance;
     };
+    /** @param motion Of an owned node. Collective. */
+    template <class Motion>
     Range
-    range(const NodeField &u, const NodeField &v, double step) const;
-    /** The same in the cycle alone. */
-    Range
-    range(const NodeField &v, double step) const;
+    range(const Motion &motion) const;
+    /** Whether candidates hold through the cycle at the beginning of which it stands like this,
+     * after what nodes have @p moved since the cycle before began. Collective. */
+    bool
+    candidates_hold(const NodeField &u, const Range &moved);
+    /** Bounds of what they have moved since the candidates were made, by axis, length. */
+    std::array<double, dim> since_made{};
     void
     renew_candidates(const NodeField &u, const NodeField &v, double step, double in_cycle);
     /** Nothing is known of new candidates. */
@@ -400,6 +410,7 @@ namespace Touchstone
      * the number of the cycle that they are of. */
     std::vector<ImpactSurface::Inset> inset_now, inset_before;
     std::vector<std::uint64_t>        insets_of;
+    ImpactSurface::FaceAreas          face_areas;
     std::uint64_t                     insets_now = 2;
     /** Take what is known of the cycle before to the ranks that have the rows now. */
     void
@@ -551,9 +562,9 @@ namespace Touchstone
      * larger one, length, and the frame of the first. */
     struct OpenFaces
     {
-      unsigned int pair;
-      double       size;
-      TurningFrame frame;
+      unsigned int        pair;
+      double              size;
+      const TurningFrame &frame;
     };
     std::vector<OpenFaces> open_faces;
     /** The motion that is checked is that of free velocities. */
@@ -573,14 +584,14 @@ namespace Touchstone
     check_faces(const OpenFaces &faces, Kind kind);
     void
     keep_until(const OpenFaces &faces);
-    template <std::size_t m, std::size_t n>
+    /** @tparam Groups PointGroups, or what has its functions. */
+    template <class Groups>
     bool
-    stay_apart(const std::array<dealii::Point<dim>, n> &from,
-               const std::array<dealii::Point<dim>, n> &to,
-               const TurningFrame                      &frame,
-               double                                   size,
-               unsigned int                             patience,
-               Separation                              &known) const;
+    stay_apart(const Groups       &groups,
+               const TurningFrame &frame,
+               double              size,
+               unsigned int        patience,
+               Separation         &known) const;
     void
     check_node(const SurfacePoint &node,
                unsigned int        face,
@@ -602,7 +613,10 @@ namespace Touchstone
                 Separation      &known,
                 std::size_t      pair = std::numeric_limits<std::size_t>::max());
     void
-    check_inner_edges(unsigned int one, unsigned int other, const OpenFaces &faces);
+    check_inner_edges(const ContactCandidates::FacePair &pair, const OpenFaces &faces);
+    /** What is known of inner edges that have not been looked at. */
+    std::vector<Separation>
+    separations_of_inner_edges(const ContactCandidates::FacePair &pair) const;
     bool
     is_warped(unsigned int face) const;
     dealii::Tensor<1, dim>

@@ -87,6 +87,17 @@ namespace Touchstone
     /** @brief That of an owned node in the positions @p u. */
     Inset
     inset(unsigned int node, const NodeField &u) const;
+    /** @brief Areas times normals of faces, length squared, and the number of the positions that
+     * they are of. */
+    struct FaceAreas
+    {
+      std::vector<dealii::Tensor<1, dim>> areas;
+      std::vector<std::uint64_t>          positions;
+    };
+    /** @brief The same as that, with areas of faces that are known from other nodes.
+     * @param positions Number of @p u, not zero. */
+    Inset
+    inset(unsigned int node, const NodeField &u, FaceAreas &known, std::uint64_t positions) const;
 
     /** @brief Size of the faces around an owned node of the surface as the bodies were placed,
      * length. */
@@ -129,8 +140,14 @@ namespace Touchstone
     /** By local node: where it stands among those of the surface. */
     std::vector<unsigned int> place, surface_nodes;
     std::vector<double>       sizes;
-    /** By place: the faces around the node, in the order of their keys, by local nodes. */
-    std::vector<std::vector<std::array<unsigned int, 4>>> around;
+    /** Local nodes of the faces at owned nodes, in the order of their keys; and by place the
+     * numbers of those around the node. */
+    std::vector<std::array<unsigned int, 4>> corners;
+    std::vector<std::vector<unsigned int>>   around;
+
+    template <class Area>
+    Inset
+    inset_of(unsigned int node, const Area &area) const;
   };
 } // namespace Touchstone
 

@@ -64,11 +64,19 @@ namespace Touchstone
   class TurningFrame
   {
   public:
+    TurningFrame() = default;
+
     /** @param from,to Corners of the face at the start and the end. */
     TurningFrame(const dealii::Point<dim> *from, const dealii::Point<dim> *to)
-      : start(tangents(from))
-      , end(tangents(to))
     {
+      set(from, to);
+    }
+
+    void
+    set(const dealii::Point<dim> *from, const dealii::Point<dim> *to)
+    {
+      set_tangents(from, start);
+      set_tangents(to, end);
     }
 
     /** @brief The direction with these components. */
@@ -99,11 +107,12 @@ namespace Touchstone
   private:
     std::array<dealii::Tensor<1, dim>, dim> start, end;
 
-    static std::array<dealii::Tensor<1, dim>, dim>
-    tangents(const dealii::Point<dim> *const x)
+    static void
+    set_tangents(const dealii::Point<dim> *const x, std::array<dealii::Tensor<1, dim>, dim> &of)
     {
-      const dealii::Tensor<1, dim> p = x[2] - x[0], q = x[3] - x[1];
-      return {{p, q, cross_product_3d(p, q)}};
+      of[0] = x[2] - x[0];
+      of[1] = x[3] - x[1];
+      of[2] = cross_product_3d(of[0], of[1]);
     }
   };
 
@@ -162,6 +171,27 @@ namespace Touchstone
    * @param x The points, @p n in all. */
   dealii::Tensor<1, dim>
   shortest_difference(const dealii::Point<dim> *x, std::size_t m, std::size_t n);
+
+
+
+  /** @brief The first @p m of some points on straight paths, and the others. */
+  template <std::size_t m, std::size_t n>
+  struct PointGroups
+  {
+    const std::array<dealii::Point<dim>, n> &from, &to;
+
+    double
+    distance_in_front(const TurningDirection &direction, const double margin) const
+    {
+      return Touchstone::distance_in_front<m>(from, to, direction, margin);
+    }
+
+    dealii::Tensor<1, dim>
+    shortest_difference(const bool at_end) const
+    {
+      return Touchstone::shortest_difference((at_end ? to : from).data(), m, n);
+    }
+  };
 } // namespace Touchstone
 
 #endif
