@@ -5,7 +5,7 @@ pairing, and a ball on a rigid plane, whose force is extrapolated from two meshe
 
 import math
 
-from touchstone_test import DEGREE, FACTOR, check, finish, prm, relative, run
+from touchstone_test import CG, DEGREE, FACTOR, check, finish, prm, relative, run
 
 FORCE = {"Refinement/Estimator": "contact force", "Refinement/Cycles": 0}
 # Lame's tubes, plane strain: force per angle and length, theory.md, section 10.
@@ -54,6 +54,10 @@ check(relative(two, one) < 1e-6, f"two ranks estimate {two}, one {one}")
 planes = [run(f"plane_{factor}", prm / "hertz_rigid_plane.prm", {FACTOR: factor, **FORCE})
           for factor in (0.5, 1)]
 coarse, fine = (math.hypot(*plane.force("contact")) for plane in planes)
+# An iterative solver finds the response to the motion of the supports as well as Newton's increments.
+iterated = run("plane_iterated", prm / "hertz_rigid_plane.prm", {FACTOR: 0.5, **FORCE, **CG})
+one, two = (result.contact("contact", "estimated_force_error") for result in (planes[0], iterated))
+check(relative(two, one) < 1e-3, f"conjugate gradients estimate {two}, MUMPS {one}")
 for plane in planes:
     judge(plane, "contact", fine - (coarse - fine) / 3)
 finish()
