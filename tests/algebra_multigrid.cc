@@ -201,6 +201,7 @@ namespace
       blocks, [&] { return given; }, body, group, largest);
     smooth.initialize_coarse_vector(coarse);
     smooth.initialize_coarse_vector(gathered);
+    const int n_ranks = Utilities::MPI::sum(coarse.locally_owned_size() > 0 ? 1 : 0, communicator);
     const VectorType inverse = blocks.inverse_diagonal();
     double           wrong = 0., size = 0.;
     for (int d = 0; d < motions.NumVectors(); ++d)
@@ -254,7 +255,8 @@ namespace
                         std::abs(energy - of_whole) < 1e-12 * energy
                       ? "of the same energy"
                       : "WRONG")
-                << std::endl;
+                << ", of " << (coarse.size() < 1000 ? "few" : "many") << " unknowns, on " << n_ranks
+                << " rank(s)" << std::endl;
     if (group == 1)
       test_prolongation(*product,
                         *whole_product,

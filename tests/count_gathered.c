@@ -1,21 +1,32 @@
 /* SPDX-License-Identifier: LGPL-2.1-or-later */
 /* Counts what a run sends from each rank to all, or from all to one, by the interface that MPI offers
- * for that: the largest piece that a rank gives, and that it has of all in the end. Loaded before
- * the program, see tests/checks/scaling.py. Where a piece has as many bytes as TRACE_GATHERED says,
- * the places in the program go to the error output. */
+ * for that: the largest piece that a rank gives, how often the program itself, not its libraries, asks
+ * for lists of all ranks, and how many sums and maxima there are. Loaded before the program, see
+ * tests/checks/scaling.py. Where a piece has as many bytes as TRACE_GATHERED says, the places in the
+ * program go to the error output. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
 #include <execinfo.h>
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-static long largest = 0, calls = 0;
+static long largest = 0, lists = 0, reductions = 0;
+
+/* Whether code of the program calls; templates of deal.II that it uses belong to it. */
+static int
+of_program(const void *const caller)
+{
+  Dl_info info;
+  return dladdr(caller, &info) != 0 && strstr(info.dli_fname, "touchstone") != NULL;
+}
 
 static void
 count(long n, MPI_Datatype type)
 {
   int size = 0;
   PMPI_Type_size(type, &size);
-  ++calls;
   if (n * size > largest)
     largest = n * size;
   const char *const trace = getenv("TRACE_GATHERED");
@@ -36,6 +47,7 @@ MPI_Allgather(const void  *from,
               MPI_Datatype type_to,
               MPI_Comm     communicator)
 {
+  lists += of_program(__builtin_return_address(0));
   if (from == MPI_IN_PLACE)
     count(number, type_to);
   else
@@ -55,6 +67,7 @@ MPI_Allgatherv(const void  *from,
 {
   int rank = 0;
   MPI_Comm_rank(communicator, &rank);
+  lists += of_program(__builtin_return_address(0));
   if (from == MPI_IN_PLACE)
     count(numbers[rank], type_to);
   else
@@ -102,6 +115,7 @@ MPI_Allreduce(const void  *from,
               MPI_Comm     communicator)
 {
   count(n, type);
+  ++reductions;
   return PMPI_Allreduce(from, to, n, type, operation, communicator);
 }
 
@@ -119,7 +133,7 @@ MPI_Finalize(void)
       file = fopen(path, "w");
       if (file != NULL)
         {
-          fprintf(file, "%ld %ld\n", largest, calls);
+          fprintf(file, "%ld %ld %ld\n", largest, lists, reductions);
           fclose(file);
         }
     }

@@ -3,8 +3,9 @@
 #include <touchstone/algebra/condensation.h>
 #include <touchstone/base/exchange.h>
 
+#include <deal.II/base/index_set.h>
+
 #include <algorithm>
-#include <iterator>
 #include <map>
 
 // Rows of the condensed system that belong to other ranks: summed up, sent to their owners, and
@@ -33,39 +34,21 @@ namespace Touchstone
 
 
 
-  // Displacements and multipliers are two ranges of numbers, each distributed over the ranks in
-  // ascending order: the owner of a dof is the last rank whose first number is not greater. A rank
-  // without nodes gets a first number behind all others, and one without multipliers that of the
-  // next rank, so that neither is taken for the owner.
+  // Displacements and multipliers are two ranges of numbers, of each of which a rank has a piece.
   std::vector<unsigned int>
   Condensation::owners(const std::vector<Index> &of_dofs) const
   {
-    struct First
-    {
-      Index displacement, extra;
-    };
-    const Index n     = system.rhs.size();
-    const Index first = system.stiffness->n_nodes() > 0 ? static_cast<Index>(dofs.GID(0)) : n;
-    const auto  all   = gather_records(std::vector<First>{{first, system.first_extra}},
-                                    system.rhs.get_mpi_communicator());
-    // By first numbers: the last rank of those that begin with the same one has it.
-    std::vector<std::pair<Index, unsigned int>> displacements, extras;
-    for (unsigned int rank = 0; rank < all.size(); ++rank)
-      {
-        displacements.emplace_back(all[rank][0].displacement, rank);
-        extras.emplace_back(all[rank][0].extra, rank);
-      }
-    std::sort(displacements.begin(), displacements.end());
-    std::sort(extras.begin(), extras.end());
+    IndexSet owned(dofs.NumGlobalElements()), asked(owned.size());
+    owned.add_indices(system.rhs.locally_owned_elements());
+    owned.add_range(system.first_extra, system.first_extra + system.n_extra);
+    std::vector<Index> sorted = of_dofs;
+    std::sort(sorted.begin(), sorted.end());
+    asked.add_indices(sorted.begin(), std::unique(sorted.begin(), sorted.end()));
+    const std::vector<unsigned int> owner =
+      Utilities::MPI::compute_index_owner(owned, asked, system.rhs.get_mpi_communicator());
     std::vector<unsigned int> result;
     for (const Index dof : of_dofs)
-      {
-        const auto &firsts = dof >= n ? extras : displacements;
-        const auto  above  = std::upper_bound(firsts.begin(),
-                                            firsts.end(),
-                                            std::make_pair(dof, numbers::invalid_unsigned_int));
-        result.push_back(above == firsts.begin() ? 0 : std::prev(above)->second);
-      }
+      result.push_back(owner[asked.index_within_set(dof)]);
     return result;
   }
 

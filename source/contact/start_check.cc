@@ -14,6 +14,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 // Checks of a contact pair before the first step, for mistakes of the input that would let bodies
 // pass through each other without a message: surfaces that face away from each other, and an
@@ -115,6 +116,64 @@ namespace Touchstone
         result.push_back(places[k]);
       return result;
     }
+
+    /** Whether the closest of the @p others, of all ranks, to any of these places opposes it. The
+     * others go round the ranks, piece by piece, so that none holds all of them. Collective. */
+    bool
+    any_faces_closest(const std::vector<Place> &places,
+                      std::vector<Place>        others,
+                      const MPI_Comm            communicator)
+    {
+      // Of several at the same distance one that opposes the place: the first one that is met would
+      // depend on the ranks.
+      std::vector<std::pair<double, double>> closest(places.size(),
+                                                     {std::numeric_limits<double>::max(),
+                                                      std::numeric_limits<double>::max()});
+      const int n_ranks = static_cast<int>(Utilities::MPI::n_mpi_processes(communicator)),
+                me      = static_cast<int>(Utilities::MPI::this_mpi_process(communicator)),
+                next = (me + 1) % n_ranks, previous = (me + n_ranks - 1) % n_ranks;
+      for (int piece = 0; piece < n_ranks; ++piece)
+        {
+          for (std::size_t k = 0; k < places.size(); ++k)
+            for (const Place &other : others)
+              closest[k] = std::min(closest[k],
+                                    {position(places[k]).distance_square(position(other)),
+                                     normal(places[k]) * normal(other)});
+          const int n          = static_cast<int>(2 * dim * others.size());
+          int       n_received = 0;
+          MPI_Sendrecv(&n,
+                       1,
+                       MPI_INT,
+                       next,
+                       0,
+                       &n_received,
+                       1,
+                       MPI_INT,
+                       previous,
+                       0,
+                       communicator,
+                       MPI_STATUS_IGNORE);
+          std::vector<Place> received(n_received / (2 * dim));
+          MPI_Sendrecv(others.data(),
+                       n,
+                       MPI_DOUBLE,
+                       next,
+                       1,
+                       received.data(),
+                       n_received,
+                       MPI_DOUBLE,
+                       previous,
+                       1,
+                       communicator,
+                       MPI_STATUS_IGNORE);
+          others.swap(received);
+        }
+      return std::any_of(closest.begin(), closest.end(), [](const auto &one) {
+        return one.second < Tolerances::perpendicular_cosine;
+      });
+    }
+
+
 
     /** Of the positions in @p places that lie within a body the largest distance to the closest of
      * the @p others whose normal opposes theirs, both of all ranks; length. Zero if no position
@@ -298,17 +357,9 @@ namespace Touchstone
                        "they may be tied");
     // No node is within reach, as with bodies that are brought together later. At least one slave
     // node must face the master node closest to it.
-    const std::vector<Place> masters = gather_all(own_places(*master, u), solid.communicator);
-    for (const SurfaceNode &node : slave.owned_nodes())
-      {
-        const Place mine = place(slave, node, u);
-        const auto  closest =
-          std::min_element(masters.begin(), masters.end(), [&](const Place &a, const Place &b) {
-            return position(a).distance_square(position(mine)) <
-                   position(b).distance_square(position(mine));
-          });
-        looks = looks || normal(mine) * normal(*closest) < Tolerances::perpendicular_cosine;
-      }
-    throw_if_all_look_away(looks, "the master boundaries of '" + parameters.master_body + "'");
+    throw_if_all_look_away(any_faces_closest(own_places(slave, u),
+                                             own_places(*master, u),
+                                             solid.communicator),
+                           "the master boundaries of '" + parameters.master_body + "'");
   }
 } // namespace Touchstone

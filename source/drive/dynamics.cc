@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/base/reduction.h>
 #include <touchstone/drive/dynamics.h>
 #include <touchstone/solid/bodies.h>
 
@@ -129,8 +130,8 @@ namespace Touchstone
     acceleration.add(alpha_m, a);
     mass.multiply(acceleration, inertial);
     // One of the forces that the residual is compared with when convergence is judged.
-    inertial_force = inertial.l2_norm();
-    sum            = external;
+    inertial_force_squared = squared_on_rank(inertial);
+    sum                    = external;
     sum -= internal;
     sum *= 1. - alpha_f;
     sum.add(alpha_f, old.external, -alpha_f, old.internal);
@@ -178,7 +179,7 @@ namespace Touchstone
 
 
   double
-  Dynamics::round_off(const Vector &u) const
+  Dynamics::round_off_squared(const Vector &u) const
   {
     // The acceleration is a difference of displacements divided by beta h^2: the round-off of |u_1|
     // + |u_0| + h |v_0| is divided by h^2 as well, and for short steps dominates all other
@@ -188,7 +189,8 @@ namespace Touchstone
       size.begin()[i] =
         std::abs(u.begin()[i]) + std::abs(committed_u.begin()[i]) + step * std::abs(v.begin()[i]);
     mass.multiply(size, inertial);
-    return std::numeric_limits<double>::epsilon() * (1. - scheme.alpha_m) /
-           (scheme.beta * step * step) * inertial.l2_norm();
+    const double factor =
+      std::numeric_limits<double>::epsilon() * (1. - scheme.alpha_m) / (scheme.beta * step * step);
+    return factor * factor * squared_on_rank(inertial);
   }
 } // namespace Touchstone

@@ -209,6 +209,10 @@ namespace Touchstone
   Pretension::rollback()
   {
     present = committed;
+    // What is reported, too: a run that ends here shows its last state that converged.
+    for (unsigned int c = 0; c < cuts.size(); ++c)
+      if (const auto of_cut = found.find(cuts[c].name); of_cut != found.end())
+        of_cut->second = {committed.shortening[c], committed.tension[c]};
     apply();
   }
 

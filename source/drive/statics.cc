@@ -76,13 +76,13 @@ namespace Touchstone
       }
 
       double
-      inertia() const override
+      inertia_squared() const override
       {
         return 0.;
       }
 
       double
-      round_off(const Vector &) const override
+      round_off_squared(const Vector &) const override
       {
         return 0.;
       }

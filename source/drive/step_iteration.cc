@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/non_convergence.h>
+#include <touchstone/base/reduction.h>
 #include <touchstone/drive/step_problem.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +21,7 @@ namespace Touchstone
   {
     NewtonState state;
     update_geometry(state);
-    Vector without_contact(solid.owned, solid.communicator);
+    Vector without_contact(internal); // the layout: to make one takes messages
     balance(without_contact);
     contact.enforcement().recover(contact, without_contact, system->conditions());
     judge_balance(without_contact, state);
@@ -79,7 +78,8 @@ namespace Touchstone
   {
     // Relative residual, equation (13): the scale is the largest of internal, external, contact and
     // inertial forces.
-    Vector contact_force(solid.owned, solid.communicator);
+    Vector contact_force(internal);
+    contact_force = 0.;
     contact.add_forces(contact_force);
     unbalanced = without_contact;
     unbalanced += contact_force;
@@ -87,17 +87,23 @@ namespace Touchstone
     // Forces along prescribed directions are reactions of the supports and no residual.
     Vector free(unbalanced);
     system->remove_supported(free);
-    const double present = std::max(
-      {internal.l2_norm(), external.l2_norm(), contact_force.l2_norm(), integration->inertia()});
-    double round_off =
-      solid.round_off(u) + integration->round_off(u) +
-      std::sqrt(Utilities::MPI::sum(contact.enforcement().round_off_squared(contact.rows(), extent),
-                                    solid.communicator));
+    // Squares of this rank, then sums over all.
+    const Enforcement &enforcement = contact.enforcement();
+    double             of_bodies = squared_on_rank(internal), of_loads = squared_on_rank(external),
+           of_contact = squared_on_rank(contact_force), inertia = integration->inertia_squared(),
+           left = squared_on_rank(free), motion = integration->round_off_squared(u),
+           springs = enforcement.round_off_squared(contact.rows(), extent),
+           gaps    = enforcement.round_off_of_gaps_squared(contact.rows(), extent);
+    Reduction all;
+    for (double *const square :
+         {&of_bodies, &of_loads, &of_contact, &inertia, &left, &motion, &springs, &gaps})
+      all.sum(*square);
+    all.over(solid.communicator);
+    const double present   = std::sqrt(std::max({of_bodies, of_loads, of_contact, inertia}));
+    double       round_off = solid.round_off(u) + std::sqrt(motion) + std::sqrt(springs);
     // Bodies that only touch, at rest or pushed along, have the forces that round-off makes of
     // their gaps. How exactly a linear solver meets these says nothing.
-    const double of_gaps = std::sqrt(
-      Utilities::MPI::sum(contact.enforcement().round_off_of_gaps_squared(contact.rows(), extent),
-                          solid.communicator));
+    const double of_gaps = std::sqrt(gaps);
     if (present <= of_gaps)
       round_off = std::max(round_off, of_gaps);
     // Where forces vanish, at the end of contact for example, the present forces are round-off and
@@ -107,7 +113,7 @@ namespace Touchstone
     constexpr double small_force = 1e-3, largest_round_off = 1e-6;
     force_scale        = largest_round_off * present > round_off ? present : 0.;
     const double scale = std::max(present, small_force * largest_force_scale);
-    state.force        = free.l2_norm();
+    state.force        = std::sqrt(left);
     state.residual     = scale > 0. ? state.force / scale : 0.;
     state.round_off    = scale > 0. ? round_off / scale : 0.;
     // A large round-off is plausible only before the first forces act. Later on it must not hide a

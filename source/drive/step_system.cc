@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/base/input_error.h>
+#include <touchstone/base/reduction.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/enforcement/row_terms.h>
 #include <touchstone/drive/step_system.h>
@@ -113,10 +114,9 @@ namespace Touchstone
   void
   StepSystem::begin(const State &state)
   {
-    system            = std::make_unique<LinearSystem>();
-    system->stiffness = &parts.integration.stiffness();
-    system->rhs.reinit(parts.solid.owned, parts.solid.communicator);
-    system->rhs               = state.applied;
+    system                    = std::make_unique<LinearSystem>();
+    system->stiffness         = &parts.integration.stiffness();
+    system->rhs               = Vector(state.applied); // its layout without a message
     system->first_extra       = system->rhs.size();
     system->tolerance         = state.tolerance;
     system->keep_symmetric    = solver->symmetric_only();
@@ -185,15 +185,18 @@ namespace Touchstone
       graph.constraints(parts.solid.hanging, parts.solid.owned, needed, parts.solid.communicator);
     // Friction in slip and consistent linearisation: test functions that do no work against the
     // forces of the conditions, doc/theory.md 6.3, equation (22).
-    if (!everywhere(graph.symmetric()))
-      {
-        system->test_constraints = graph.test_constraints(parts.solid.hanging,
-                                                          parts.solid.owned,
-                                                          needed,
-                                                          parts.solid.communicator);
-        system->symmetric        = false;
-      }
-    system->symmetric = everywhere(system->symmetric);
+    double unsymmetric_graph = graph.symmetric() ? 0. : 1.,
+           unsymmetric       = system->symmetric ? 0. : 1.;
+    Reduction all;
+    all.max(unsymmetric_graph);
+    all.max(unsymmetric);
+    all.over(parts.solid.communicator);
+    system->symmetric = unsymmetric_graph + unsymmetric == 0.;
+    if (unsymmetric_graph > 0.)
+      system->test_constraints = graph.test_constraints(parts.solid.hanging,
+                                                        parts.solid.owned,
+                                                        needed,
+                                                        parts.solid.communicator);
   }
 
 
@@ -277,9 +280,9 @@ namespace Touchstone
     // stiffness of the contact forces, relative to the stiffness about pressure over Young's
     // modulus, which the tangent lacks; otherwise the iterates would oscillate about the
     // equilibrium.
-    double       distance = std::numeric_limits<double>::max();
-    double       size     = 0.;
-    unsigned int active   = 0;
+    double        distance = std::numeric_limits<double>::max();
+    double        size     = 0.;
+    std::uint64_t active   = 0;
     for (const ContactRow &row : parts.contact.rows())
       if (row.has_partner)
         {
@@ -289,9 +292,13 @@ namespace Touchstone
           if (!is_active && row.gap > 0.)
             distance = std::min(distance, row.gap);
         }
-    distance = Utilities::MPI::min(distance, parts.solid.communicator);
-    size     = Utilities::MPI::max(size, parts.solid.communicator);
-    active   = Utilities::MPI::sum(active, parts.solid.communicator);
+    distance = -distance; // its minimum
+    Reduction all;
+    all.max(distance);
+    all.max(size);
+    all.sum(active);
+    all.over(parts.solid.communicator);
+    distance = -distance;
     // No row has a partner yet.
     if (size == 0.)
       size = length;

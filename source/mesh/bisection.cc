@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 // Partition of meshes that never change by recursive bisection of the coordinates: parts are
@@ -37,6 +39,8 @@ namespace Touchstone
       unsigned int number;
       /** Items of different kinds are done one kind after the other. */
       unsigned int kind;
+      /** Along the axis that is cut, rounded. */
+      double place = 0.;
     };
 
     /** What the ranks of a lower half compute of the upper one, all cells that share a vertex with
@@ -74,20 +78,64 @@ namespace Touchstone
 
 
 
+    /** Ranks of items, as far as this rank needs them: of its own and of those that it asks for
+     * once it knows these. */
+    struct Ranks
+    {
+      unsigned int here;
+      /** By item; those that are not needed have none. */
+      std::vector<unsigned int> of_item;
+      /** Which items are needed, by number, from those of this rank, which are marked. */
+      std::function<void(std::vector<char> &)> add_needed;
+      std::vector<char>                        needed;
+
+      /** Whether this rank is one of @p n_ranks from @p first on. */
+      bool
+      among(const unsigned int first, const unsigned int n_ranks) const
+      {
+        return here >= first && here < first + n_ranks;
+      }
+
+      /** Give items to rank @p first; of several ranks only if there are none to be given. */
+      void
+      give(const std::vector<Item>::iterator begin,
+           const std::vector<Item>::iterator end,
+           const unsigned int                first,
+           const unsigned int                n_ranks)
+      {
+        for (auto item = begin; item != end; ++item)
+          of_item[item->number] = first;
+        if (!among(first, n_ranks))
+          return;
+        for (auto item = begin; item != end; ++item)
+          needed[item->number] = 1;
+        add_needed(needed);
+      }
+
+      bool
+      any_needed(const std::vector<Item>::iterator begin,
+                 const std::vector<Item>::iterator end) const
+      {
+        return std::any_of(begin, end, [this](const Item &item) { return needed[item.number]; });
+      }
+    };
+
+
+
     /** Give the items from @p begin to @p end to @p n_ranks ranks from @p first on: cut across
-     * the longest side of what they fill, and go on with the halves. */
+     * the longest side of what they fill, and go on with the halves, first with that of this rank,
+     * and with the other only if something in it is needed. */
     void
     bisect(const std::vector<Item>::iterator begin,
            const std::vector<Item>::iterator end,
            const unsigned int                first,
            const unsigned int                n_ranks,
            const Ghosts                     &ghosts,
-           std::vector<unsigned int>        &rank)
+           Ranks                            &ranks)
     {
       if (n_ranks == 1 || begin == end)
         {
-          for (auto item = begin; item != end; ++item)
-            rank[item->number] = first;
+          ranks.give(begin, end, first, n_ranks);
           return;
         }
       std::vector<Point<dim>> centers;
@@ -102,12 +150,12 @@ namespace Touchstone
           axis = d;
       // Positions are rounded, so that round-off does not decide the order within a layer of cells
       // and all layers but one stay in one part.
-      const double unit  = std::max(1e-6 * box.side_length(axis), 1e-300);
-      const auto   place = [&](const Item &item) {
-        return std::make_pair(std::round((item.center[axis] - box.lower_bound(axis)) / unit),
-                              item.number);
-      };
-      std::sort(begin, end, [&](const Item &a, const Item &b) { return place(a) < place(b); });
+      const double unit = std::max(1e-6 * box.side_length(axis), 1e-300);
+      for (auto item = begin; item != end; ++item)
+        item->place = std::round((item->center[axis] - box.lower_bound(axis)) / unit);
+      std::sort(begin, end, [](const Item &a, const Item &b) {
+        return std::tie(a.place, a.number) < std::tie(b.place, b.number);
+      });
       double total = 0.;
       for (auto item = begin; item != end; ++item)
         total += item->work;
@@ -126,8 +174,19 @@ namespace Touchstone
       if (const std::ptrdiff_t n_items = end - begin; n_items >= n_ranks)
         middle = begin +
                  std::clamp<std::ptrdiff_t>(middle - begin, n_lower, n_items - (n_ranks - n_lower));
-      bisect(begin, middle, first, n_lower, ghosts, rank);
-      bisect(middle, end, first + n_lower, n_ranks - n_lower, ghosts, rank);
+      const bool here = ranks.among(first, n_ranks), upper = ranks.here >= first + n_lower;
+      const auto follow = [&](const bool of_upper) {
+        if (of_upper)
+          bisect(middle, end, first + n_lower, n_ranks - n_lower, ghosts, ranks);
+        else
+          bisect(begin, middle, first, n_lower, ghosts, ranks);
+      };
+      if (here)
+        follow(upper);
+      for (const bool other : {false, true})
+        if (!(here && other == upper) &&
+            (other ? ranks.any_needed(middle, end) : ranks.any_needed(begin, middle)))
+          follow(other);
     }
 
 
@@ -259,7 +318,8 @@ namespace Touchstone
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator),
                        here    = Utilities::MPI::this_mpi_process(communicator);
     constexpr auto smoothing   = Triangulation<dim>::limit_level_difference_at_vertices;
-    // All ranks find the same ranks for all items, without a message.
+    // Each rank finds the ranks of its own items and of those around, without a message: it cuts
+    // what its own are in, and sorts twice as many items as there are instead of all at each cut.
     Triangulation<dim> whole(smoothing);
     create_triangulation(mesh, whole);
     const bool coarse_cells = whole.n_active_cells() >= enough * n_ranks;
@@ -285,20 +345,41 @@ namespace Touchstone
               ghosts.vertices.back()[v] = cell->vertex_index(v);
           }
       }
-    std::vector<unsigned int> rank(items.size());
     // All ranks integrate the cells that change before any of them goes on to the solution, to
     // which all cells count alike: each kind is cut for itself. Explicit runs compute cells in one
     // pass.
     std::stable_sort(items.begin(), items.end(), [](const Item &a, const Item &b) {
       return a.kind < b.kind;
     });
+    const bool of_several_kinds = !items.empty() && items.front().kind != items.back().kind;
+    // Of coarse cells a second layer of neighbours is needed for the first one to know which of its
+    // faces are at the boundary of the body; a refined mesh is described as a whole. Neighbours of
+    // another kind may have been cut before: then all are needed.
+    Ranks ranks{here,
+                std::vector<unsigned int>(items.size(), numbers::invalid_unsigned_int),
+                [&](std::vector<char> &needed) {
+                  if (!coarse_cells)
+                    needed.assign(needed.size(), 1);
+                  else
+                    for (unsigned int layer = 0; layer < 2; ++layer)
+                      add_neighbours(mesh, needed);
+                },
+                std::vector<char>(items.size(), of_several_kinds)};
     for (auto begin = items.begin(); begin != items.end();)
       {
         const auto end = std::find_if(begin, items.end(), [&](const Item &item) {
           return item.kind != begin->kind;
         });
-        bisect(begin, end, 0, n_ranks, ghosts, rank);
+        bisect(begin, end, 0, n_ranks, ghosts, ranks);
         begin = end;
+      }
+    if (of_several_kinds)
+      {
+        std::transform(ranks.of_item.begin(),
+                       ranks.of_item.end(),
+                       ranks.needed.begin(),
+                       [&](const unsigned int rank) { return rank == here; });
+        ranks.add_needed(ranks.needed);
       }
 
     TriangulationDescription::Description<dim, dim> description;
@@ -309,23 +390,16 @@ namespace Touchstone
         triangulation, communicator, TriangulationDescription::Settings::default_setting, here);
     };
     if (!coarse_cells)
-      describe(whole, [&](const auto &cell) { return rank[cell->active_cell_index()]; });
+      describe(whole, [&](const auto &cell) { return ranks.of_item[cell->active_cell_index()]; });
     else
       {
-        // A second layer of neighbours is needed for the first one to know which of its faces are
-        // at the boundary of the body.
-        std::vector<char> marked(mesh.cells.size());
-        for (unsigned int c = 0; c < marked.size(); ++c)
-          marked[c] = rank[c] == here;
-        for (unsigned int layer = 0; layer < 2; ++layer)
-          add_neighbours(mesh, marked);
         std::vector<unsigned int> cells;
-        for (unsigned int c = 0; c < marked.size(); ++c)
-          if (marked[c])
+        for (unsigned int c = 0; c < ranks.needed.size(); ++c)
+          if (ranks.needed[c])
             cells.push_back(c);
         Triangulation<dim> part(smoothing);
         create_triangulation(part_of(mesh, cells), part);
-        describe(part, [&](const auto &cell) { return rank[cells[cell->index()]]; });
+        describe(part, [&](const auto &cell) { return ranks.of_item[cells[cell->index()]]; });
         // Coarse cells by their numbers in the whole mesh.
         for (auto &id : description.coarse_cell_index_to_coarse_cell_id)
           id = cells[id];

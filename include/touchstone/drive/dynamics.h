@@ -61,12 +61,12 @@ namespace Touchstone
       return true;
     }
     double
-    inertia() const override
+    inertia_squared() const override
     {
-      return inertial_force;
+      return inertial_force_squared;
     }
     double
-    round_off(const Vector &u) const override;
+    round_off_squared(const Vector &u) const override;
     Energies
     end_step(const Vector &u, const StepForces &forces) override;
     void
@@ -120,7 +120,7 @@ namespace Touchstone
     /** Velocity, acceleration and forces of the committed state. */
     Vector      v, a;
     NodalForces old;
-    double      inertial_force = 0.;
+    double      inertial_force_squared = 0.;
     /** The same at the end of the step; contact forces are without what an impact has taken from
      * the acceleration. */
     Vector      end_v, end_a;

@@ -131,11 +131,11 @@ namespace Touchstone
     weight() const = 0;
 
     /** @brief Size of the inertial forces of the last balance(), and of what
-     * round-off makes of them at @p u; force. Collective. */
+     * round-off makes of them at @p u; force. Of this rank's dofs, squared. */
     virtual double
-    inertia() const = 0;
+    inertia_squared() const = 0;
     virtual double
-    round_off(const Vector &u) const = 0;
+    round_off_squared(const Vector &u) const = 0;
 
     /**
      * @brief Compute velocity, acceleration and energies at the end of the step if its displacement

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
 #include <touchstone/algebra/multigrid/aggregation.h>
+#include <touchstone/algebra/multigrid/fewer_ranks.h>
 #include <touchstone/algebra/multigrid/prolongation.h>
 #include <touchstone/algebra/multigrid/row_of_blocks.h>
 #include <touchstone/base/free_memory.h>
 #include <touchstone/base/vectorised.h>
 
+#include <Epetra_Import.h>
+#include <Epetra_IntVector.h>
 #include <algorithm>
 #include <cmath>
 
@@ -194,6 +197,7 @@ namespace Touchstone
     // Nothing is coupled, on any rank.
     if (coarse_kernel->GlobalLength() == 0)
       return;
+    move_to_fewer_ranks();
     exchange(tentative);
     smooth(rows, diagonal, tentative, 4. / 3. / largest);
   }
@@ -215,7 +219,11 @@ namespace Touchstone
                                 near_kernel.Comm());
     const auto       kernel = std::make_shared<Epetra_MultiVector>(coarse_map, n_modes);
     coarse_kernel           = kernel;
-    Tentative          result{std::vector<int>(n_nodes, -1), std::vector<float>(block * n_nodes)};
+    Tentative result{coarse_map.NumMyElements() > 0
+                       ? static_cast<Index>(coarse_map.MinMyGID()) / n_modes
+                       : 0,
+                     std::vector<int>(n_nodes, -1),
+                     std::vector<float>(block * n_nodes)};
     std::vector<Modes> q;
     for (std::size_t a = 0; a < nodes.size(); ++a)
       {
@@ -240,42 +248,66 @@ namespace Touchstone
 
 
 
+  // Numbers stay as they are, and so do the aggregates, whose nodes may then belong to other ranks
+  // than they do.
+  void
+  Prolongation::move_to_fewer_ranks()
+  {
+    const Epetra_BlockMap before = coarse_kernel->Map(), after = on_fewer_ranks(before);
+    if (after.SameAs(before))
+      return;
+    const Epetra_Import import(after, before);
+    const auto          kernel = std::make_shared<Epetra_MultiVector>(after, n_modes);
+    kernel->Import(*coarse_kernel, import, Insert);
+    Epetra_IntVector bodies_before(before), bodies(after);
+    for (int i = 0; i < before.NumMyElements(); ++i)
+      bodies_before[i] = static_cast<int>(body_of_aggregate[i / n_modes]);
+    bodies.Import(bodies_before, import, Insert);
+    coarse_kernel = kernel;
+    body_of_aggregate.resize(after.NumMyElements() / n_modes);
+    for (unsigned int a = 0; a < body_of_aggregate.size(); ++a)
+      body_of_aggregate[a] = bodies[static_cast<int>(n_modes * a)];
+  }
+
+
+
   // Aggregates and motions of ghost nodes, exchanged as vectors over the dofs, one after the other:
-  // the number of an aggregate travels as a double, which is exact. Aggregates met there are the
-  // ghosts of the coarse level.
+  // the number of an aggregate travels as a double, which is exact. Aggregates met there, and those
+  // of this rank's nodes that have moved to others, are the ghosts of the coarse level.
   void
   Prolongation::exchange(Tentative &tentative)
   {
     const Epetra_BlockMap &map    = coarse_kernel->Map();
     const unsigned int     n_dofs = fine->locally_owned_size(),
                        n_local    = n_dofs + fine->n_ghost_indices();
-    const Index first = map.NumMyElements() > 0 ? static_cast<Index>(map.MinMyGID()) / n_modes : 0;
     GhostedVector values(fine);
     fill_with_ghosts(values, [&](const unsigned int i) {
       const int aggregate = tentative.aggregate[i / dim];
-      return aggregate < 0 ? no_aggregate : static_cast<double>(first + aggregate);
+      return aggregate < 0 ? no_aggregate : static_cast<double>(tentative.first + aggregate);
     });
-    std::vector<double> of_ghost;
-    std::vector<Index>  far;
-    for (unsigned int i = n_dofs; i < n_local; i += dim)
-      {
-        of_ghost.push_back(values.local_element(i));
-        if (of_ghost.back() != no_aggregate)
-          for (unsigned int m = 0; m < n_modes; ++m)
-            far.push_back(n_modes * static_cast<Index>(of_ghost.back()) + m);
-      }
-    std::sort(far.begin(), far.end());
     IndexSet owned(map.NumGlobalElements()), ghosts(map.NumGlobalElements());
     if (map.NumMyElements() > 0)
       owned.add_range(map.MinMyGID(), map.MinMyGID() + map.NumMyElements());
-    ghosts.add_indices(far.begin(), far.end());
+    std::vector<Index> far;
+    for (unsigned int i = 0; i < n_local; i += dim)
+      if (const double aggregate = values.local_element(i); aggregate != no_aggregate)
+        if (const Index a = static_cast<Index>(aggregate); !owned.is_element(n_modes * a))
+          far.push_back(a);
+    std::sort(far.begin(), far.end());
+    far.erase(std::unique(far.begin(), far.end()), far.end());
+    for (const Index a : far)
+      ghosts.add_range(n_modes * a, n_modes * (a + 1));
     coarse = std::make_shared<Partitioner>(owned, ghosts, fine->get_mpi_communicator());
-    for (const double aggregate : of_ghost)
-      tentative.aggregate.push_back(
-        aggregate == no_aggregate
-          ? -1
-          : static_cast<int>(coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) /
-                             n_modes));
+    tentative.aggregate.resize(n_local / dim);
+    for (unsigned int i = 0; i < n_local; i += dim)
+      {
+        const double aggregate = values.local_element(i);
+        tentative.aggregate[i / dim] =
+          aggregate == no_aggregate
+            ? -1
+            : static_cast<int>(coarse->global_to_local(n_modes * static_cast<Index>(aggregate)) /
+                               n_modes);
+      }
 
     const bool          several = map.Comm().NumProc() > 1;
     std::vector<float> &blocks  = tentative.blocks;

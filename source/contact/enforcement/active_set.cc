@@ -2,6 +2,7 @@
 
 #include <touchstone/base/first_of_ranks.h>
 #include <touchstone/base/orthogonal.h>
+#include <touchstone/base/reduction.h>
 #include <touchstone/contact/contact.h>
 #include <touchstone/contact/enforcement/enforcement.h>
 #include <touchstone/contact/friction/friction_response.h>
@@ -315,11 +316,16 @@ namespace Touchstone
             result.signature += signature(row, state.status);
           }
       }
-    after_solve      = false;
-    result.gap       = Utilities::MPI::max(result.gap, communicator);
-    result.active    = Utilities::MPI::sum(result.active, communicator);
-    result.changes   = Utilities::MPI::sum(result.changes, communicator);
-    result.signature = Utilities::MPI::sum(result.signature, communicator);
+    after_solve          = false;
+    std::uint64_t active = result.active, changes = result.changes;
+    Reduction     all;
+    all.max(result.gap);
+    all.sum(active);
+    all.sum(changes);
+    all.sum(result.signature);
+    all.over(communicator);
+    result.active  = active;
+    result.changes = changes;
     return result;
   }
 } // namespace Touchstone

@@ -23,7 +23,8 @@ namespace Touchstone
    *
    * Three dofs make a node, on all levels. An aggregate() of the finer level has six
    * on the coarser one, its rigid motions: a pair of nodes there, which stay together. They
-   * are smoothed by one step of Jacobi's method. Entries are kept in single precision, those
+   * are smoothed by one step of Jacobi's method. If the coarser level is small, fewer ranks have it
+   * than the finer one. Entries are kept in single precision, those
    * of galerkin() are exact for them. The product A P is never stored: for linear cells it
    * is three times as large as A.
    *
@@ -104,7 +105,7 @@ namespace Touchstone
       return coarse_kernel;
     }
 
-    /** @brief Body of each aggregate of this rank. */
+    /** @brief Body of each aggregate that this rank has on the coarser level. */
     const std::vector<unsigned int> &
     coarse_body() const
     {
@@ -141,10 +142,12 @@ namespace Touchstone
     std::shared_ptr<const Epetra_MultiVector> coarse_kernel;
     std::vector<unsigned int>                 body_of_aggregate;
 
-    /** P_0 by nodes: the local number of the aggregate, or -1, and the block; two more numbers
-     * than there are entries, as in `entries`. */
+    /** P_0 by nodes: the aggregate, or -1, and the block; two more numbers than there are entries,
+     * as in `entries`. Aggregates are counted from the `first` one that was made on this rank,
+     * until exchange() gives them the local numbers of the coarse level. */
     struct Tentative
     {
+      Index              first = 0;
       std::vector<int>   aggregate;
       std::vector<float> blocks;
     };
@@ -154,6 +157,11 @@ namespace Touchstone
     Tentative
     restrict_to_aggregates(const Epetra_MultiVector                     &near_kernel,
                            const std::vector<std::vector<unsigned int>> &nodes);
+
+    /** @brief Hand the coarse level over to fewer ranks if it is small (on_fewer_ranks()).
+     * Collective. */
+    void
+    move_to_fewer_ranks();
 
     /** @brief Append the ghosts to P_0; makes the layout of the coarse level. Collective. */
     void

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Rolled back, a step leaves nothing: after it results are those before, to the last bit, and the
+// steps that follow are those that follow without it. Of each part with history a scene: contact
+// and friction, points inside slave faces, plasticity, an obstacle that a force moves, pretension.
+
+#include <touchstone/base/non_convergence.h>
+
+#include "drive_support.h"
+#include <fstream>
+#include <sstream>
+
+using namespace Touchstone;
+using namespace dealii;
+
+namespace
+{
+  std::string
+  scene_file(const std::string &name)
+  {
+    std::ifstream      in(SOURCE_DIR "/" + name + ".prm");
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+  }
+
+
+
+  /** All that is written of the present state, on this rank. */
+  std::vector<double>
+  figures(const Run &run)
+  {
+    const StepState     state = run.problem.state();
+    const auto         &u     = state.displacement;
+    std::vector<double> result(u.begin(), u.end());
+    for (const ContactPoint &point : contact_points(state.contact, u))
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            result.push_back(point.traction[d]);
+            result.push_back(point.slip[d]);
+          }
+        result.insert(result.end(),
+                      {point.pressure,
+                       point.gap,
+                       point.slip_length,
+                       point.friction_work,
+                       static_cast<double>(point.status)});
+      }
+    for (unsigned int p = 0; p < state.contact.n_pairs(); ++p)
+      if (state.contact.pair(p).takes_points())
+        for (const MaterialPoint &point : state.contact.pair(p).points())
+          result.insert(result.end(), {point.xi[0], point.xi[1], point.depth});
+    const auto plastic = state.solid.cell_plastic_strain();
+    result.insert(result.end(), plastic.begin(), plastic.end());
+    result.push_back(state.solid.dissipation());
+    for (const auto &[name, cut] : state.pretension)
+      result.insert(result.end(), {cut.first, cut.second});
+    for (const auto &[name, tool] : state.tools)
+      for (unsigned int d = 0; d < dim; ++d)
+        result.insert(result.end(), {tool.displacement[d], tool.rotation[d], tool.force[d]});
+    return result;
+  }
+
+
+
+  double
+  distance(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double result = a.size() == b.size() ? 0. : 1.;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+      result = std::max(result, std::abs(a[i] - b[i]));
+    return result;
+  }
+
+
+
+  /** Steps to @p times but the last, then one that is taken back, and the last. */
+  void
+  test(const std::string              &name,
+       const std::string              &text,
+       const std::vector<double>      &times,
+       const double                    in_vain,
+       const std::vector<std::string> &overrides = {})
+  {
+    std::vector<std::vector<double>> ends;
+    bool                             clean = true, moved = false;
+    for (const bool fails : {false, true})
+      {
+        Run run(text, overrides, MPI_COMM_WORLD);
+        for (const double time : times)
+          {
+            if (fails && time == times.back())
+              {
+                const std::vector<double> before = figures(run);
+                try
+                  {
+                    run.solve(run.scene.newton, in_vain);
+                  }
+                catch (const NonConvergence &)
+                  {
+                  }
+                moved = distance(figures(run), before) > 0.;
+                run.problem.rollback();
+                clean = figures(run) == before;
+              }
+            run.solve(run.scene.newton, time);
+            run.problem.commit();
+          }
+        ends.push_back(figures(run));
+      }
+    const double difference = Utilities::MPI::max(distance(ends[0], ends[1]), MPI_COMM_WORLD);
+    clean                   = Utilities::MPI::min(clean ? 1 : 0, MPI_COMM_WORLD) == 1;
+    moved                   = Utilities::MPI::max(moved ? 1 : 0, MPI_COMM_WORLD) == 1;
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        std::cout << name << ": " << (moved ? "" : "NOT MOVED, ")
+                  << "rolled back to the bit: " << (clean ? "yes" : "NO");
+        print_agreement(difference, 1e-6);
+      }
+  }
+} // namespace
+
+
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test("friction", blocks, {0.5, 1., 1.25}, 1.75);
+  test("yielding",
+       blocks,
+       {0.5, 1., 1.25},
+       1.75,
+       {"Body block/Material/Law=small-strain von Mises",
+        "Body block/Material/Plasticity/Hardening=linear",
+        "Body block/Material/Plasticity/Yield stress=5",
+        "Body block/Material/Plasticity/Hardening modulus=50"});
+  test("points", scene_file("small_obstacle_in_face"), {0.5, 0.75}, 1.);
+  test("moved by a force", scene_file("pressed_sphere"), {0.5, 0.75}, 1.);
+  test("pretension", scene_file("bolted_pretension"), {0.5, 0.75}, 1.);
+  return 0;
+}
