@@ -4,7 +4,6 @@
 #include <touchstone/contact/junctions.h>
 #include <touchstone/contact/pairing/sets_of_points.h>
 #include <touchstone/contact/shared_faces.h>
-#include <touchstone/contact/undetermined_forces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -356,10 +355,7 @@ namespace Touchstone
     // The history needs the forces and the geometry of the step that ends, so it is made before
     // anything is committed. Explicit steps follow it through their cycles: record_friction().
     if (!in_cycles)
-      {
-        divide_undetermined_forces(*this);
-        friction_rows.end_step(all_rows, method->states());
-      }
+      friction_rows.end_step(all_rows, method->states());
     for (Stateful *part : parts)
       part->commit();
   }
