@@ -2,7 +2,6 @@
 
 #include <touchstone/archive/archive.h>
 #include <touchstone/contact/contact.h>
-#include <touchstone/contact/undetermined_forces.h>
 
 // History of contact: pairs, friction and enforcement are Stateful and listed once, in `parts`.
 // What goes over to another mesh are fields at the nodes.
@@ -16,10 +15,7 @@ namespace Touchstone
     // The history needs the forces and the geometry of the step that ends, so it is made before
     // anything is committed. Explicit steps follow it through their cycles: record_friction().
     if (!in_cycles)
-      {
-        divide_undetermined_forces(*this);
-        friction_rows.end_step(all_rows, method->states());
-      }
+      friction_rows.end_step(all_rows, method->states());
     for (Stateful *part : parts)
       part->commit();
   }

@@ -25,10 +25,15 @@ namespace Touchstone
     {
       unsigned int pair;
       Index        slave, master;
+      double       weight;
     };
 
     /** Of smaller weights another node of the stencil is the partner. */
     constexpr double least_weight = 0.1;
+
+    /** More than half of what a row says is said by others: up to round-off, for nodes often lie
+     * in the middle between others. */
+    constexpr double most_of_it = 0.5 + 1e-6;
 
     /** Part of the weight of a stencil that must be free to meet a condition, as for
      * RefusedConditions. */
@@ -88,7 +93,7 @@ namespace Touchstone
               (row.tied || row.gap < row.size))
             for (const StencilEntry &entry : row.stencil)
               if (entry.weight > least_weight && nodes.count(entry.node) > 0)
-                mine.push_back({p, row.slave, entry.node});
+                mine.push_back({p, row.slave, entry.node, entry.weight});
       return gather_all(mine, communicator);
     }
   } // namespace
@@ -121,10 +126,14 @@ namespace Touchstone
           for (const Link &link : all)
             if (link.pair != p)
               joined.union_set(numbers.at(link.slave), numbers.at(link.master));
+          std::map<Index, double> part_joined;
           for (const Link &link : all)
             if (link.pair == p &&
                 joined.find_set(numbers.at(link.slave)) == joined.find_set(numbers.at(link.master)))
-              result[p].insert(link.slave);
+              part_joined[link.slave] += link.weight;
+          for (const auto &[slave, part] : part_joined)
+            if (part > most_of_it)
+              result[p].insert(slave);
         }
     return result;
   }

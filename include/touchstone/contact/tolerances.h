@@ -128,7 +128,9 @@ namespace Touchstone
      * all of its row. With two thirds of a face covered nodes beyond the edge of the cover have
      * 0.6. Where rows are kept or aggregated as a whole, as tied ones are and those beside which
      * another pair covers the rest, a third decides: two thirds of that which a node has on a face
-     * half of which is covered, so that round-off does not. */
+     * half of which is covered, so that round-off does not. Between the two limits, where the step
+     * S leaves the choice open, it remains that of the last step: below the first, rows of slivers
+     * would be left, above the second, nodes may receive parts of others. */
     constexpr double gives_all = 0.2, keeps_all = 0.6, keeps_if_at_once = 1. / 3.;
 
     /** Largest ratio r of the area that a node has given away to that which it keeps, beyond which
@@ -175,9 +177,9 @@ namespace Touchstone
     constexpr double flat_arch = 4e-4;
 
     /** The same at a node that is not covered: there a difference of gaps is made by the tilt
-     * between the surfaces as well, times the strain. Times hardly_curved it is the square of a
-     * strain of 1.4 %. */
-    constexpr double flat_arch_beside = 0.04;
+     * between the surfaces as well, times the strain. Times hardly_curved it is the difference of a
+     * tilt and a strain that are as large as the second of those limits. */
+    constexpr double flat_arch_beside = well_curved * well_curved / hardly_curved;
 
     /** One less the shape function of a node at the closest covered point, from the first to the
      * second of which the gap there ceases to count for that of its row. A node beyond an edge has
@@ -205,8 +207,9 @@ namespace Touchstone
     constexpr double mass_regularisation = 1e-14;
 
     /** Common parts of projected faces that are smaller by area are round-off, and so are corners
-     * that cut off less than the second. */
-    constexpr double sliver = 1e-12, flat_corner = 1e-9;
+     * that cut off less. Much less than what Newton's method resolves: where a corner of one face
+     * lies on a corner of another, what is left of it changes from one iterate to the next. */
+    constexpr double sliver = 1e-12;
 
     /** Areas, relative to each other, that are equal up to round-off. */
     constexpr double equal_areas = 1e-9;

@@ -83,8 +83,15 @@ namespace Touchstone
         add_components(row.slave, all, threshold, result.dofs);
       else
         result.dofs.push_back(dim * row.slave + largest_component(free));
+      // Other slave nodes whose functions are aggregated with this one repeat nothing that a master
+      // says: over a joint of two masters rows of both pairs have parts of the same nodes.
+      std::set<Index> aggregated;
       for (const StencilEntry &entry : row.stencil)
-        if (std::abs(entry.weight) > Tolerances::negligible_weight)
+        if (entry.weight < 0. && !row.between_nodes && !own_body)
+          aggregated.insert(entry.node);
+      for (const StencilEntry &entry : row.stencil)
+        if (std::abs(entry.weight) > Tolerances::negligible_weight &&
+            aggregated.count(entry.node) == 0)
           add_components(entry.node, fully ? all : row.normal, threshold, result.on);
       // Of its own body the stencil alone counts: what else the condition depends on is handled by
       // the enforcement, see Elimination::adjust().
@@ -93,10 +100,11 @@ namespace Touchstone
       // With consistent linearisation the gap depends on further nodes, over averaged normals.
       if (row.derivative)
         for (const auto &[node, coefficients] : gap_gradient(row))
-          add_components(node, coefficients, threshold, result.on);
+          if (aggregated.count(node) == 0)
+            add_components(node, coefficients, threshold, result.on);
       if (row.friction && fully)
         for (const auto &[node, matrix] : row.friction->kinematics.slip_gradient)
-          for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int d = 0; d < dim && aggregated.count(node) == 0; ++d)
             add_components(node, matrix[d], threshold, result.on);
       return result;
     }

@@ -4,8 +4,6 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <limits>
-
 // Areas of faces and of their nodes, int N_m, with derivatives: the measure of which part of a face
 // is covered (doc/theory.md 3.1), and the tributary areas by which forces become tractions.
 namespace Touchstone
@@ -69,18 +67,6 @@ namespace Touchstone
                         });
     // Integrals of N~ = C^T N are C^T times those of N (doc/theory.md 11).
     return basis ? basis->apply(result) : result;
-  }
-
-
-
-  std::array<double, Face::max_nodes>
-  areas_to_cover(const Face &face, const TraceBasis *basis)
-  {
-    std::array<double, Face::max_nodes> result = whole_areas(face, basis, /*reference=*/true);
-    for (unsigned int m = 0; m < face.n_nodes(); ++m)
-      if (face.without_row[m])
-        result[m] = std::numeric_limits<double>::infinity();
-    return result;
   }
 
 

@@ -66,17 +66,13 @@ namespace Touchstone
           for (const Face &face : *list)
             {
               const TraceBasis *const basis = input.slave->trace(face);
-              SlaveFace               slave{&face,
-                              basis,
-                              {},
-                              whole_areas(face, basis, /*reference=*/true),
-                              areas_to_cover(face, basis),
-                              {},
-                              {}};
+              SlaveFace               slave{
+                &face, basis, {}, whole_areas(face, basis, /*reference=*/true), {}, {}};
               slave.cover.fill(-1.);
               // Tied rows are made once and need not change smoothly.
               slave.at_once.part.fill(tied ? 1. : 0.);
-              bool any = false;
+              slave.at_once.gives = face.without_row;
+              bool any            = false;
               for (unsigned int m = 0; m < face.n_nodes(); ++m)
                 {
                   const auto found =
@@ -175,8 +171,8 @@ namespace Touchstone
         const Face                      *face;
         const TraceBasis                *basis;
         std::array<int, Face::max_nodes> row;
-        /** whole_areas() in the reference state, and areas_to_cover(). */
-        std::array<double, Face::max_nodes> whole, to_cover;
+        /** whole_areas() in the reference state. */
+        std::array<double, Face::max_nodes> whole;
         /** Of CoverShares. */
         CoverShares::Whole at_once;
         /** CoverShares::cover of the last update; negative: not covered. */
@@ -341,7 +337,7 @@ namespace Touchstone
       const DualBasis dual(total_mass<n>(parts),
                            areas,
                            face.basis,
-                           face.to_cover,
+                           face.whole,
                            face.at_once,
                            /*with_derivative=*/false);
       face.cover         = dual.shares.cover;

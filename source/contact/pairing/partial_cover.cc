@@ -18,6 +18,32 @@ namespace Touchstone
 
   namespace
   {
+    /** Whether nodes without rows give what they have to the others: not where none of these would
+     * keep its own part beside them. At the edge of a cover that begins there they have next to
+     * nothing. */
+    template <typename Number>
+    bool
+    gives_away(const unsigned int                         n,
+               const std::array<Number, Face::max_nodes> &covered,
+               const std::array<double, Face::max_nodes> &whole,
+               const CoverShares::Whole                  &at_once)
+    {
+      // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
+      double sum = 0., squares = 0., most = 0.;
+      int    before = -1;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double theta = whole[i] > 0. ? value_of(covered[i]) / whole[i] : 0.;
+          sum += theta * whole[i];
+          squares += theta * theta * whole[i];
+          if (!at_once.gives[i])
+            most = std::max(most, theta);
+          else if (at_once.before[i] >= 0)
+            before = (before == 0 || at_once.before[i] == 1) ? 0 : 1;
+        }
+      return CoverShares::keeps(most * sum / squares, before);
+    }
+
     /** beta_i and w_k of CoverShares. */
     template <typename Number>
     struct Division
@@ -30,27 +56,33 @@ namespace Touchstone
                const std::array<double, Face::max_nodes> &whole,
                const CoverShares::Whole                  &at_once)
       {
-        // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
-        Number sum = 0., squares = 0., receivers = 0.;
+        const bool leaves = gives_away(n, covered, whole, at_once);
+        Number     sum = 0., squares = 0., receivers = 0., most = 0.;
         for (unsigned int i = 0; i < n; ++i)
-          if (whole[i] > 0. && std::isfinite(whole[i]))
+          if (whole[i] > 0.)
             {
+              const Number theta = covered[i] / whole[i];
               sum += covered[i];
-              squares += covered[i] * covered[i] / whole[i];
+              squares += covered[i] * theta;
+              if (!at_once.gives[i] && theta > most)
+                most = theta;
             }
+        // The mean cover; the largest one of those that receive, where that is less.
+        Number mean = squares / sum;
+        if (leaves && most < mean)
+          mean = most;
         for (unsigned int i = 0; i < n; ++i)
           {
-            if (!std::isfinite(whole[i]))
+            if (leaves && at_once.gives[i])
               {
                 keep[i] = take[i] = 0.;
                 continue;
               }
             // A basis function of a face with hanging nodes may have an integral of zero or less:
             // it keeps its part.
-            const Number cover =
-              whole[i] > 0. ? Number(covered[i] / whole[i] * sum / squares) : Number(1.);
-            const double once = at_once.part[i];
-            at[i]             = value_of(cover);
+            const Number cover = whole[i] > 0. ? Number(covered[i] / whole[i] / mean) : Number(1.);
+            const double once  = at_once.part[i];
+            at[i]              = value_of(cover);
             keep[i] =
               (1. - once) * smooth_step(cover, Tolerances::gives_all, Tolerances::keeps_all) +
               (CoverShares::keeps(at[i], at_once.before[i]) ? once : 0.);
@@ -83,10 +115,8 @@ namespace Touchstone
   CoverShares::keeps(const double cover, const int before)
   {
     // Beyond these limits what was before is outdated, for the edge of the cover has moved by a
-    // good part of a face: rows of slivers, or nodes without their rows, would be left. Those
-    // that may receive parts of others keep their own.
-    constexpr double surely_gives = 0.1, surely_keeps = Tolerances::keeps_all;
-    if (before < 0 || cover < surely_gives || cover > surely_keeps)
+    // good part of a face.
+    if (before < 0 || cover < Tolerances::gives_all || cover > Tolerances::keeps_all)
       return cover >= Tolerances::keeps_if_at_once;
     return before == 1;
   }

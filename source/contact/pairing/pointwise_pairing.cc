@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 
+#include <touchstone/contact/pairing/aggregated_rows.h>
 #include <touchstone/contact/pairing/pairing.h>
 #include <touchstone/contact/pairing/pointwise_row.h>
 
@@ -28,6 +29,7 @@ namespace Touchstone
                  input.parameters->edge_tolerance,
                  input.parameters->master_normal,
                  input.solid->communicator)
+        , aggregated(input)
       {
         search.commit(nullptr);
         for (const SurfaceNode &node : input.slave->owned_nodes())
@@ -77,6 +79,8 @@ namespace Touchstone
 
     private:
       Search search;
+      /** Where nodes leave their rows to others. */
+      AggregatedRows aggregated;
       /** Of the last update, in the order of the rows. */
       std::vector<std::optional<ContactPartner>> partners;
       /** Keys of the faces that were the partners of the nodes in the last update. */
@@ -152,6 +156,7 @@ namespace Touchstone
           row.has_partner = true;
           set_pointwise_row(*partner, positions[k], row);
         }
+      aggregated.aggregate(rows);
     }
 
 
@@ -173,6 +178,7 @@ namespace Touchstone
             differentiate_pointwise_row(
               search, of_normals, *partners[k], input.slave->position(nodes[k], u), rows[k]);
         }
+      aggregated.differentiate(rows);
     }
   } // namespace
 } // namespace Touchstone

@@ -22,7 +22,7 @@ namespace Touchstone
     , dual(total_mass<n>(parts),
            total_areas<n>(parts),
            basis,
-           areas_to_cover(slave.face(), basis),
+           whole_areas(slave.face(), basis, /*reference=*/true),
            at_once,
            /*with_derivative=*/true)
     , basis(basis)

@@ -19,11 +19,6 @@ namespace Touchstone
   std::array<double, Face::max_nodes>
   whole_areas(const Face &face, const TraceBasis *basis, bool reference);
 
-  /** @brief whole_areas() in the reference state, by which CoverShares judges how much of a node is
-   * covered: infinite for nodes without rows, of which no cover is enough. */
-  std::array<double, Face::max_nodes>
-  areas_to_cover(const Face &face, const TraceBasis *basis);
-
   /** @brief The derivatives of whole_areas() in the present position: [m][e][k] is that of the
    * integral of shape function k with respect to component e of the position of node m, length. */
   std::array<std::array<std::array<double, Face::max_nodes>, dim>, Face::max_nodes>

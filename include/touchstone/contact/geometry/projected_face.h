@@ -261,7 +261,7 @@ namespace Touchstone
             Polygon<Number> common = clip(piece, window);
             if (common.size() < 3 || area(common) < Tolerances::sliver * whole)
               continue;
-            remove_flat_corners(common, Tolerances::flat_corner * whole);
+            remove_flat_corners(common, Tolerances::sliver * whole);
             internal::for_each_point(common, slave.face.degree, visit);
             for (const Point2<Number> &corner : common)
               visit(corner, Number(0.));

@@ -40,6 +40,9 @@ namespace Touchstone
        * present cover leaves it open this decides: rows that came and went with the iterates of
        * Newton's method would find no solution. */
       std::array<int, Face::max_nodes> before;
+      /** Nodes without rows (Face::without_row): they give all that they have, unless no other
+       * node of the face has enough of the cover to take it. */
+      std::array<bool, Face::max_nodes> gives{};
 
       Whole()
       {
@@ -66,7 +69,7 @@ namespace Touchstone
     /**
      * @param n               Number of basis functions.
      * @param covered         a_i of the n basis functions.
-     * @param whole           A_i in the reference state; infinite: the node gives all that it has.
+     * @param whole           A_i in the reference state.
      * @param with_derivative Compute `derivative`, too.
      */
     CoverShares(unsigned int                               n,
