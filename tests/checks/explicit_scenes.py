@@ -162,6 +162,8 @@ for name, (_, _, _, allowed, steps) in SCENES.items():
     for path in files if name != "inner_edges" else ():
         places = crossings.find(path)
         check(not places, f"{name}: {len(places)} crossings in {path.name}, the first at {places[:1]}")
+    if name == "spike_spike_exact":  # 679 if nodes that pressed are not remembered
+        below(f"{name}, looks at crossings", result.value("general_contact", "checks_of_crossings"), 300)
     motion = result.summary.get("motion", {})
     energies, velocities = motion.get("energies", {}), motion.get("velocities", {})
     initial = energies.get("initial", 0)
