@@ -21,7 +21,7 @@ CASES = {
     "multipliers": {**AVERAGED, **MULTIPLIERS},
     "augmented": {**POINTWISE, **AUGMENTED},
     "outer": {**AVERAGED, **AUGMENTED, "Contact/Augmentation": "outer"},
-    "regularised": {"Contact/Friction": "regularised", **CG},
+    "regularised": {**POINTWISE, "Contact/Friction": "regularised", **CG},
     "plastic": {**AVERAGED, **PLASTIC, DEGREE: 2},
     "plastic_augmented": {**POINTWISE, **PLASTIC, **AUGMENTED, **FINITE,
                           "Body block/Material/Law": "finite-strain von Mises"},
