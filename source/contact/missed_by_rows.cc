@@ -84,27 +84,28 @@ namespace Touchstone
       // The same on all ranks.
       if (held.empty() || !pair.master())
         return;
-      Search                          search(*pair.master(),
+      Search search(*pair.master(),
                     2. * std::max(pair.slave().largest_face(), pair.master()->largest_face()),
                     pair.parameters().edge_tolerance,
                     pair.parameters().master_normal,
                     contact.communicator());
-      std::vector<const ContactRow *> rows;
-      std::vector<Point<dim>>         positions;
-      double                          adjusted = 0.;
+      // Of each the row, and the area that it would have.
+      std::vector<std::pair<const ContactRow *, double>> rows;
+      std::vector<Point<dim>>                            positions;
+      double                                             adjusted = 0.;
       for (std::size_t k = 0; k < pair.rows().size(); ++k)
         {
           const ContactRow &row = pair.rows()[k];
           adjusted              = std::max(adjusted, -pair.overlap(k));
           if (row.has_partner || row.between_nodes || held.count(row.slave) == 0)
             continue;
-          rows.push_back(&row);
+          rows.emplace_back(&row, pair.slave().owned_nodes()[k].area);
           positions.push_back(row.position);
         }
       adjusted = Utilities::MPI::max(adjusted, contact.communicator()) *
                  pair.part_of_overlap(contact.time());
       search.update(positions);
-      for (const ContactRow *row : rows)
+      for (const auto &[row, area] : rows)
         {
           SlavePoint point;
           point.x = point.start = row->position;
@@ -112,7 +113,7 @@ namespace Touchstone
           if (const auto partner = search.find(point))
             if (const double depth = (partner->x - row->position) * partner->normal - adjusted;
                 depth > Tolerances::touching * row->size)
-              places.push_back({depth, row->position, row->size, row->area});
+              places.push_back({depth, row->position, row->size, area});
         }
     }
 
@@ -124,11 +125,16 @@ namespace Touchstone
     held_nodes(const Contact &contact, const ContactPair &pair, const std::set<Index> &without_rows)
     {
       std::vector<MissedContact::Place> mine;
-      for (const ContactRow &row : pair.rows())
-        if (const double depth = -row.gap / row.share;
-            row.has_partner && !row.between_nodes && contact.state(row).active() &&
-            contact.state(row).dropped() && depth > Tolerances::touching * row.size)
-          mine.push_back({depth, row.position, row.size, row.area});
+      const std::vector<SurfaceNode>   &nodes = pair.slave().owned_nodes();
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        {
+          // The area of the node: its row may have left a part of it to others.
+          const ContactRow &row = pair.rows()[k];
+          if (const double depth = -row.gap / row.share;
+              row.has_partner && contact.state(row).active() && contact.state(row).dropped() &&
+              depth > Tolerances::touching * row.size)
+            mine.push_back({depth, row.position, row.size, nodes[k].area});
+        }
       add_without_rows(contact, pair, without_rows, mine);
       std::vector<MissedContact::Place> all = gather_all(mine, contact.communicator());
       sort_by_depth(all, [](const MissedContact::Place &place) { return place; });

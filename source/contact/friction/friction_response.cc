@@ -273,8 +273,12 @@ namespace Touchstone
       }
     if (size <= nothing * row.stiffness * row.size)
       return Tensor<1, dim>();
+    // Closed in this iteration, and the friction that takes back its slip is within the cone: the
+    // row goes on to stick. A force on the cone would have the direction of what an iterative
+    // solver leaves of a slip, and stay where no condition can replace it.
+    const bool sticks_next = !f.carried && f.last_direction.norm() == 0. && f.excess < 0.;
     linearise_slip(row, lambda, limit, trial, f);
-    return limit.force * f.direction;
+    return sticks_next ? trial : limit.force * f.direction;
   }
 
 
