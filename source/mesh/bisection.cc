@@ -37,7 +37,8 @@ namespace Touchstone
       Point<dim>   center;
       double       work;
       unsigned int number;
-      /** Items of different kinds are done one kind after the other. */
+      /** Items of different kinds are done one kind after the other; explicit runs compute all
+       * cells in one pass. */
       unsigned int kind;
       /** Along the axis that is cut, rounded. */
       double place = 0.;
@@ -187,6 +188,37 @@ namespace Touchstone
         if (!(here && other == upper) &&
             (other ? ranks.any_needed(middle, end) : ranks.any_needed(begin, middle)))
           follow(other);
+    }
+
+
+
+    /** Give the items of each kind to the ranks for themselves: all ranks integrate the cells that
+     * change before any of them goes on to the solution, to which all cells count alike. */
+    void
+    bisect_kinds(std::vector<Item> &items,
+                 const unsigned int n_ranks,
+                 const Ghosts      &ghosts,
+                 Ranks             &ranks)
+    {
+      std::stable_sort(items.begin(), items.end(), [](const Item &a, const Item &b) {
+        return a.kind < b.kind;
+      });
+      // Neighbours of another kind may have been cut before: then all are needed until all are cut.
+      const bool several = !items.empty() && items.front().kind != items.back().kind;
+      ranks.needed.assign(items.size(), several);
+      for (auto begin = items.begin(); begin != items.end();)
+        {
+          const auto end = std::find_if(begin, items.end(), [&](const Item &item) {
+            return item.kind != begin->kind;
+          });
+          bisect(begin, end, 0, n_ranks, ghosts, ranks);
+          begin = end;
+        }
+      if (!several)
+        return;
+      for (std::size_t i = 0; i < items.size(); ++i)
+        ranks.needed[i] = ranks.of_item[i] == ranks.here;
+      ranks.add_needed(ranks.needed);
     }
 
 
@@ -345,16 +377,8 @@ namespace Touchstone
               ghosts.vertices.back()[v] = cell->vertex_index(v);
           }
       }
-    // All ranks integrate the cells that change before any of them goes on to the solution, to
-    // which all cells count alike: each kind is cut for itself. Explicit runs compute cells in one
-    // pass.
-    std::stable_sort(items.begin(), items.end(), [](const Item &a, const Item &b) {
-      return a.kind < b.kind;
-    });
-    const bool of_several_kinds = !items.empty() && items.front().kind != items.back().kind;
     // Of coarse cells a second layer of neighbours is needed for the first one to know which of its
-    // faces are at the boundary of the body; a refined mesh is described as a whole. Neighbours of
-    // another kind may have been cut before: then all are needed.
+    // faces are at the boundary of the body; a refined mesh is described as a whole.
     Ranks ranks{here,
                 std::vector<unsigned int>(items.size(), numbers::invalid_unsigned_int),
                 [&](std::vector<char> &needed) {
@@ -364,23 +388,8 @@ namespace Touchstone
                     for (unsigned int layer = 0; layer < 2; ++layer)
                       add_neighbours(mesh, needed);
                 },
-                std::vector<char>(items.size(), of_several_kinds)};
-    for (auto begin = items.begin(); begin != items.end();)
-      {
-        const auto end = std::find_if(begin, items.end(), [&](const Item &item) {
-          return item.kind != begin->kind;
-        });
-        bisect(begin, end, 0, n_ranks, ghosts, ranks);
-        begin = end;
-      }
-    if (of_several_kinds)
-      {
-        std::transform(ranks.of_item.begin(),
-                       ranks.of_item.end(),
-                       ranks.needed.begin(),
-                       [&](const unsigned int rank) { return rank == here; });
-        ranks.add_needed(ranks.needed);
-      }
+                std::vector<char>(items.size(), 0)};
+    bisect_kinds(items, n_ranks, ghosts, ranks);
 
     TriangulationDescription::Description<dim, dim> description;
     const auto describe = [&](Triangulation<dim> &triangulation, const auto &rank_of) {

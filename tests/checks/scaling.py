@@ -9,36 +9,26 @@ import subprocess
 from touchstone_test import (FACTOR, GAP, RESIDUAL, STEPS, below, check, checks, fail, finish, folder, launch, prm,
                              settings_options, tests)
 
+PLATE = """subsection Body {name}
+  set Fixed = {side}
+  subsection Geometry
+    set Type = box
+    set Lower corner = 0, 0, {start}
+    set Upper corner = 1, 1, {end}
+    set Cells = {cells}, {cells}, 1
+  end
+  subsection Material
+    set Young modulus = 1000
+    set Poisson ratio = 0.3
+  end
+end
+"""
 # Two plates, the master's of many nodes, apart by more than what is searched.
 APART = """
 set Bodies = upper, lower
 set Contact pairs = c
-subsection Body upper
-  set Fixed = top
-  subsection Geometry
-    set Type = box
-    set Lower corner = 0, 0, 5
-    set Upper corner = 1, 1, 6
-    set Cells = 2, 2, 1
-  end
-  subsection Material
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
-subsection Body lower
-  set Fixed = bottom
-  subsection Geometry
-    set Type = box
-    set Lower corner = 0, 0, 0
-    set Upper corner = 1, 1, 0.1
-    set Cells = 24, 24, 1
-  end
-  subsection Material
-    set Young modulus = 1000
-    set Poisson ratio = 0.3
-  end
-end
+""" + PLATE.format(name="upper", side="top", start=5, end=6, cells=2) + PLATE.format(
+    name="lower", side="bottom", start=0, end=0.1, cells=24) + """
 subsection Contact pair c
   set Slave body = upper
   set Slave boundaries = bottom

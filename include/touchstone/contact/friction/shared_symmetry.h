@@ -34,7 +34,7 @@ namespace Touchstone
 
     /** @brief With an obstacle: no point of the plane is moved across it, by formulas (at equal
      * times until the end of the run) or by forces.
-     * @param end Time at the end of the run. Must not live longer than the others. */
+     * @param obstacle Must live as long as this. @param end Time at the end of the run. */
     SharedSymmetry(const Pairing &pairing, const ObstacleParameters &obstacle, double end);
 
     /** @brief Whether the plane with this unit normal that a slave node lies on is one of the
