@@ -3,6 +3,7 @@
 // message with section, key, value, line and remedy.
 
 #include "scene_support.h"
+#include <regex>
 
 int
 main()
@@ -12,6 +13,10 @@ main()
             "\xEF\xBB\xBFSET\tBodies = a # only one\r\n"
             "SUBSECTION  Body  a\r\nsubsection Geometry\r\nend\r\nsubsection Material\r\n"
             "# nothing\r\nset Young  modulus = \\\r\n  2\r\nend\r\nEND\r\n");
+  try_scene("underscores, dots and signs in names",
+            std::regex_replace(std::regex_replace(good_scene, std::regex("upper"), "the_upper 50%"),
+                               std::regex("below"),
+                               "part_2.below"));
 
   try_change("misspelt key", "set Young modulus = 210000", "set Young modulos = 1");
   try_change("key in the wrong section", "set Title         = Two blocks", "set Degree = 2");

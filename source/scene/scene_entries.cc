@@ -53,7 +53,7 @@ namespace Touchstone
 
 
     /** (section, key) of the keys that take a formula. Patterns of declared entries can be had from
-     * the listing as JSON alone. */
+     * the listing as JSON alone, in which names are not mangled. */
     std::set<std::pair<std::string, std::string>>
     formula_keys(const dealii::ParameterHandler &prm)
     {
@@ -70,12 +70,12 @@ namespace Touchstone
                 pattern != child.not_found())
               {
                 if (pattern->second.data() == FormulaPattern().description())
-                  keys.emplace(join_path(path), demangle(name));
+                  keys.emplace(join_path(path), name);
               }
             else
               {
                 std::vector<std::string> inner = path;
-                inner.push_back(demangle(name));
+                inner.push_back(name);
                 walk(child, inner);
               }
         };
