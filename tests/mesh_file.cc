@@ -5,6 +5,7 @@
 #include "mesh_common.h"
 #include <fstream>
 #include <functional>
+#include <set>
 
 using namespace Touchstone;
 using namespace dealii;
@@ -164,6 +165,37 @@ namespace
     for (const char *node : {"5 nan 0.5 0", "5 0.5 1e400 0", "5 0.5 0.5x 0", "-5 0.5 0.5 0"})
       print_damaged("two_blocks_v2.msh", [&](Lines &lines) { *find(lines, "5 0.5") = node; });
   }
+
+  /** Parts of Abaqus, with numbers and sets of their own, where their instances place them. */
+  void
+  print_assembly()
+  {
+    for (const char *instance : {"Cube-1", "Cube-2", "Bar_1"})
+      {
+        const std::string text = std::string("set File = assembly.inp\nset Volume = ") + instance;
+        print(text);
+        std::set<std::vector<double>> nodes;
+        const BodyMesh                mesh = read(text);
+        for (const CellData<3> &cell : mesh.cells)
+          for (const unsigned int v : cell.vertices)
+            nodes.insert({mesh.vertices[v][0], mesh.vertices[v][1], mesh.vertices[v][2]});
+        for (const auto &x : nodes)
+          std::cout << "    " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
+        for (const auto &[name, set] : mesh.node_sets)
+          std::cout << "    " << name << ": " << set.size() << " nodes\n";
+      }
+    const std::pair<const char *, const char *> faults[] = {
+      {"*Instance, name=Cube-1", "*Instance, name=Cube-1, part=Cylinder"},
+      {"         10.,           0.,           0.,          10", "10, 0, 0, 10, 0, 0, 90"},
+      {"*Nset, nset=Foot_of_cubes", "*Nset, nset=Foot_of_cubes, instance=Cube-3"},
+      {"Cube-2.1, S1", "Cube-3.1, S1"},
+      {"*Element", "*Element, type=C3D8R, input=elements.txt"},
+      {"*Node", "*Node, system=C"},
+      {"*Solid Section", "*Ngen\n1, 8"}};
+    for (const auto &[line, fault] : faults)
+      print_damaged("assembly.inp",
+                    [line = line, fault = fault](Lines &lines) { *find(lines, line) = fault; });
+  }
 } // namespace
 
 int
@@ -176,6 +208,7 @@ main()
   print("set File = two_blocks_v4.msh\nset Volume = upper block");
   print("set File = two_blocks.inp\nset Volume = LOWER");
   print("set File = two_blocks.inp\nset Volume = UPPER");
+  print_assembly();
   print("set File = two_blocks.vtk\nset Volume = 1\nset Boundary names = base: 1");
   print("set File = two_blocks.vtk\nset Volume = 2\nset Boundary names = lid: 3");
   print("set File = left_handed.msh");

@@ -43,9 +43,13 @@ namespace Touchstone
         const auto equals    = words[i].find('=');
         const bool has_value = equals != std::string::npos;
         const auto parameter = split_abaqus(words[i].substr(0, equals));
-        const auto value     = split_abaqus(has_value ? words[i].substr(equals + 1) : "");
+        auto       value     = split_abaqus(has_value ? words[i].substr(equals + 1) : "");
+        value.resize(1);
+        // Names with blanks stand between quotation marks.
+        if (value[0].size() > 1 && value[0].front() == '"' && value[0].back() == '"')
+          value[0] = value[0].substr(1, value[0].size() - 2);
         if (!parameter.empty())
-          parameters[in_capitals(parameter[0])] = value.empty() ? "" : value[0];
+          parameters[in_capitals(parameter[0])] = value[0];
       }
   }
 

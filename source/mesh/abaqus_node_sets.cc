@@ -10,58 +10,65 @@ namespace Touchstone
   {
     /** A larger set is taken for a damaged number, which must not fill the memory. */
     constexpr unsigned long largest_set = 100000000;
-
-    bool
-    is_number(const std::string &word)
-    {
-      return !word.empty() && word.size() < 18 &&
-             word.find_first_not_of("0123456789") == std::string::npos;
-    }
   } // namespace
 
 
 
   void
-  AbaqusNodeSets::add(const std::string              &name,
+  AbaqusNodeSets::add(const AbaqusName               &name,
                       const std::vector<std::string> &words,
+                      const unsigned int              instance,
                       const bool                      generate)
   {
-    auto &set = sets.insert({name, std::set<unsigned long>()}).first->second;
+    auto &set = sets.insert({name, Set()}).first->second;
     if (!set)
       return;
+    std::vector<std::optional<AbaqusNumber>> numbers;
+    for (const std::string &word : words)
+      numbers.push_back(assembly.number(word, instance));
     if (generate)
       {
-        const bool          numbers = std::all_of(words.begin(), words.end(), is_number);
-        const unsigned long step    = numbers && words.size() > 2 ? std::stoul(words[2]) : 1;
-        if (!numbers || words.size() < 2 || step == 0 || std::stoul(words[1]) / step > largest_set)
+        const bool all_numbers =
+          std::all_of(numbers.begin(), numbers.end(), [](const auto &n) { return n.has_value(); });
+        const unsigned long step = all_numbers && words.size() > 2 ? numbers[2]->second : 1;
+        if (!all_numbers || words.size() < 2 || step == 0 ||
+            numbers[1]->second / step > largest_set)
           set.reset();
         else
-          for (unsigned long n = std::stoul(words[0]); n <= std::stoul(words[1]); n += step)
-            set->insert(n);
+          for (unsigned long n = numbers[0]->second; n <= numbers[1]->second; n += step)
+            set->insert({instance, n});
         return;
       }
-    for (const std::string &word : words)
-      if (is_number(word))
-        set->insert(std::stoul(word));
-      else if (const auto other = sets.find(word); other != sets.end() && other->second)
-        set->insert(other->second->begin(), other->second->end());
+    for (unsigned int i = 0; i < words.size(); ++i)
+      if (numbers[i])
+        set->insert(*numbers[i]);
       else
         {
-          set.reset();
-          return;
+          auto other = sets.find({instance, words[i]});
+          if (other == sets.end())
+            other = sets.find(assembly.outer_name(words[i]));
+          if (other == sets.end() || !other->second)
+            {
+              set.reset();
+              return;
+            }
+          set->insert(other->second->begin(), other->second->end());
         }
   }
 
 
 
   void
-  AbaqusNodeSets::put_into(MeshFile &mesh, const std::map<unsigned long, unsigned int> &node) const
+  AbaqusNodeSets::put_into(MeshFile &mesh, const std::map<AbaqusNumber, unsigned int> &node) const
   {
+    std::vector<AbaqusName> names;
+    for (const auto &set : sets)
+      names.push_back(set.first);
     for (const auto &[name, numbers] : sets)
-      if (numbers && std::all_of(numbers->begin(), numbers->end(), [&node](const unsigned long n) {
+      if (numbers && std::all_of(numbers->begin(), numbers->end(), [&node](const auto &n) {
             return node.count(n) > 0;
           }))
-        for (const unsigned long n : *numbers)
-          mesh.node_sets[name].insert(node.at(n));
+        for (const AbaqusNumber &n : *numbers)
+          mesh.node_sets[assembly.short_name(name, names)].insert(node.at(n));
   }
 } // namespace Touchstone

@@ -30,7 +30,8 @@ namespace Touchstone
       return parameters.count(parameter) > 0;
     }
 
-    /** @brief The value of a parameter as written, empty if it is not there. */
+    /** @brief The value of a parameter as written, without quotation marks around it; empty if it
+     * is not there. */
     std::string
     value(const char *parameter) const;
 

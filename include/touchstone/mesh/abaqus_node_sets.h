@@ -3,6 +3,7 @@
 #ifndef touchstone_mesh_abaqus_node_sets_h
 #define touchstone_mesh_abaqus_node_sets_h
 
+#include <touchstone/mesh/abaqus_assembly.h>
 #include <touchstone/mesh/mesh_file.h>
 
 #include <map>
@@ -13,23 +14,35 @@
 
 namespace Touchstone
 {
-  /** @brief The NSETs of an Abaqus file. A set may name nodes that come later; one that cannot be
-   * read, as it names nodes of instances for example, is left out. */
+  /** @brief The NSETs of an Abaqus file. A set may name nodes that come later; one that names what
+   * is not there is left out. */
   class AbaqusNodeSets
   {
   public:
+    explicit AbaqusNodeSets(const AbaqusAssembly &assembly)
+      : assembly(assembly)
+    {
+    }
+
     /** @brief Add a data line of *NSET.
+     * @param instance That of its nodes.
      * @param generate Whether it holds first, last and step instead of numbers and names. */
     void
-    add(const std::string &name, const std::vector<std::string> &words, bool generate);
+    add(const AbaqusName               &name,
+        const std::vector<std::string> &words,
+        unsigned int                    instance,
+        bool                            generate);
 
     /** @brief Put the sets into the mesh.
      * @param node Index of a node's number. */
     void
-    put_into(MeshFile &mesh, const std::map<unsigned long, unsigned int> &node) const;
+    put_into(MeshFile &mesh, const std::map<AbaqusNumber, unsigned int> &node) const;
 
   private:
-    std::map<std::string, std::optional<std::set<unsigned long>>> sets;
+    using Set = std::set<AbaqusNumber>;
+
+    const AbaqusAssembly                    &assembly;
+    std::map<AbaqusName, std::optional<Set>> sets;
   };
 } // namespace Touchstone
 
