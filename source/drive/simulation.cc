@@ -3,6 +3,7 @@
 #include <touchstone/base/input_error.h>
 #include <touchstone/contact/results.h>
 #include <touchstone/drive/adjusted_start.h>
+#include <touchstone/drive/complete_parameters.h>
 #include <touchstone/drive/model_report.h>
 #include <touchstone/drive/simulation.h>
 #include <touchstone/mesh/geometry.h>
@@ -10,8 +11,6 @@
 #include <touchstone/scene/parameter_changes.h>
 
 #include <deal.II/base/mpi.h>
-
-#include <sstream>
 
 /**
  * @file
@@ -41,14 +40,6 @@ namespace Touchstone
                          "there is no such reference solution",
                          "choose one of " + ReferenceRegistry::selection() + ".");
       return result;
-    }
-
-    std::string
-    complete_parameters(const Scene &scene)
-    {
-      std::ostringstream text;
-      scene.print(text);
-      return text.str();
     }
   } // namespace
 
@@ -88,9 +79,7 @@ namespace Touchstone
     , repeated_failure(scene.newton)
   {
     reference->check_mesh(solid);
-    // The complete scene with all defaults, so that a result can be reproduced with a version whose
-    // defaults differ.
-    folder.write_file_atomically("parameters.prm", complete_parameters(scene));
+    folder.write_file_atomically("parameters.prm", complete_parameters(scene, folder_of_scene));
     summary.title    = scene.title;
     summary.version  = TOUCHSTONE_VERSION;
     summary.ranks    = Utilities::MPI::n_mpi_processes(communicator);

@@ -2,7 +2,7 @@
 """Shipped scenes that no golden runs: a mesh of 20-node hexahedra by Gmsh itself, a seal under an STL tool that a
 force moves, a bolt with pretension, a ring that touches itself; their figures follow from statics."""
 
-from touchstone_test import below, check, finish, prm, relative, run
+from touchstone_test import below, check, finish, folder, launch, prm, relative, run
 
 # A quarter of the lug's cross-section of 40 x 8 under 100 MPa; the volume of the curved mesh is exact to 1e-5.
 lug = run("lug", prm / "lug.prm", {"Output/Unsmoothed values": "points"}, vtu=1000)
@@ -26,4 +26,9 @@ check(bolt.cuts() == 0 and abs(bolt.force("parting line")[2]) < 1e-6, f"bolt: {b
 ring = run("ring", prm / "self_contact.prm")
 check(ring.contact("itself", "active") >= 20, "ring: it does not touch itself")
 below("ring: balance", relative(ring.force("top")[2], -ring.force("bottom")[2]), 1e-6)
+
+# What a run has written down can be run again from there: names of mesh and STL files are those of the scene.
+for name in "lug", "seal":
+    done = launch("--validate", folder / name / "parameters.prm")
+    check(done.returncode == 0, f"{name}: parameters.prm of the run: {done.stdout}")
 finish()
