@@ -94,6 +94,12 @@ namespace Touchstone
                 found |= (part > 0.);
                 field(dim * node) = part;
               }
+        if (const CoverOfNodes *const cover = pairs[p]->pairing().cover())
+          for (const Index node : cover->keep_rows)
+            {
+              found                 = 1;
+              field(dim * node + 1) = 1.;
+            }
         field.compress(VectorOperation::insert);
       }
     if (Utilities::MPI::max(found, solid.communicator) == 0)

@@ -6,7 +6,7 @@ pairs."""
 
 import math
 
-from touchstone_test import (CG, ENFORCEMENT, EXACT_ENFORCEMENTS, GAP, GMRES, PENALTY, below,
+from touchstone_test import (CG, ENFORCEMENT, EXACT_ENFORCEMENTS, GAP, GMRES, PENALTY, below, check, checks,
                              finish, folder, relative, run)
 
 E, NU = 1000., 0.3
@@ -302,4 +302,12 @@ for way, law, several in (("smooth", {}, [(OUTER, {}, 1), (ELIMINATION, CG, 1)])
         below(f"{result}, balance", relative(result.reaction("low", "bottom")[2], result.force("a")[2]), 1e-6)
 soft = run("driven_penalty", DRIVEN, {**POINTS, **PENALTY})
 below("driven, penalty", relative(soft.force("a")[2], result.force("a")[2]), 0.2)
+
+# Forces of two bricks on a third that is pushed across their joint: its weight and tractions, without a cut.
+for enforcement, n_ranks in (LAGRANGE, 1), (ELIMINATION, 2):
+    brick = run(f"brick_{n_ranks}", checks / "brick_on_joint.prm", settings(enforcement, {GAP: 1e-10}), n_ranks)
+    check(brick.cuts() == 0, f"{brick}: steps were cut")
+    for d, expected in (0, -2), (2, 8):
+        below(f"{brick}, force {d}", relative(sum(brick.force(side)[d] for side in ("bed left", "bed right")), expected),
+              1e-7)
 finish()

@@ -13,7 +13,8 @@ namespace Touchstone
   /**
    * @brief For each pair, at the slave nodes of which it covers a part, how far other pairs cover
    * the rest: from 0 to 1 in the first component of the node, no unit (doc/theory.md 3.1, "Faces
-   * that several pairs cover"). It is a function of the present positions alone.
+   * that several pairs cover"). It is a function of the present positions alone. In the second
+   * component, 1 for CoverOfNodes::keep_rows.
    *
    * @param pairs After an update.
    * @return One field of owned dofs for each pair, or nothing where there are no such nodes.

@@ -193,6 +193,21 @@ namespace Touchstone
           for (unsigned int m = 0; m < face.face->n_nodes(); ++m)
             face.at_once.before[m] =
               face.cover[m] < 0. ? -1 : static_cast<int>(CoverShares::keeps(face.cover[m], -1));
+        set_keep_rows();
+      }
+      /** The areas of nodes that are to leave their rows to others, on faces that cannot take them:
+       * of the last update. */
+      CoverOfNodes::Areas left_alone;
+      /** The committed state, or the first one, decides which nodes keep their rows. */
+      bool first_cover = true;
+
+      void
+      set_keep_rows()
+      {
+        covered_nodes.keep_rows.clear();
+        for (const auto &[node, area] : left_alone)
+          if (area.norm() > Tolerances::least_cover * covered_nodes.whole.at(node).norm())
+            covered_nodes.keep_rows.insert(node);
       }
       bool others_changed = false;
 
@@ -340,7 +355,11 @@ namespace Touchstone
                            face.whole,
                            face.at_once,
                            /*with_derivative=*/false);
-      face.cover         = dual.shares.cover;
+      face.cover = dual.shares.cover;
+      // As if none of its nodes kept their rows.
+      CoverShares::Whole could_give = face.at_once;
+      could_give.gives              = slave.without_row;
+      const bool takes   = CoverShares::gives_away(n, dual.areas, face.whole, could_give);
       const auto present = whole_areas(slave, face.basis, /*reference=*/false);
 
       for (unsigned int k = 0; k < n; ++k)
@@ -351,8 +370,12 @@ namespace Touchstone
           RowSums &sum = sums[face.row[k]];
           sum.shared   = face.at_once.part[k];
           if (input.one_of_several)
-            covered_nodes.add<n>(
-              input.slave->owned_nodes()[face.row[k]], k, plane, dual, masters, parts);
+            {
+              const SurfaceNode &node = input.slave->owned_nodes()[face.row[k]];
+              covered_nodes.add<n>(node, k, plane, dual, masters, parts);
+              if (could_give.gives[k] && !takes)
+                left_alone[node.node] -= dual.areas[k] * plane;
+            }
           // Where the node hangs the row is that of another node, which is not on this face.
           FaceShare *share = nullptr;
           if (!face.basis || face.basis->nodes[k] == slave.nodes[k])
@@ -367,6 +390,8 @@ namespace Touchstone
           const double kept = dual.shares.share[k][k];
           sum.kept += kept;
           sum.given += dual.areas[k] - kept;
+          if (face.at_once.gives[k] && !tied)
+            sum.left_to_others += dual.areas[k] - kept;
           sum.reference += kept * face.whole[k] / present[k];
         }
       if (dual.shares.partial)
@@ -388,9 +413,11 @@ namespace Touchstone
             // What hanging nodes follow may lie beyond what this rank sees.
             const bool known = part && part->trilinos_partitioner().MyGID(
                                          static_cast<TrilinosWrappers::types::int_type>(dof));
-            const double value   = known ? (*part)(dof) : 0.;
-            changed              = changed || value != face.at_once.part[m];
-            face.at_once.part[m] = value;
+            const double value = known ? (*part)(dof) : 0.;
+            const bool   gives = face.face->without_row[m] && !(known && (*part)(dof + 1) > 0.);
+            changed = changed || value != face.at_once.part[m] || gives != face.at_once.gives[m];
+            face.at_once.part[m]  = value;
+            face.at_once.gives[m] = gives;
           }
       others_changed = others_changed || changed;
       return changed;
@@ -457,6 +484,7 @@ namespace Touchstone
       for (RowSums &sum : sums)
         sum.clear();
       covered_nodes.clear();
+      left_alone.clear();
 
       // Bring the copies of the slave faces to the present state. Master faces are wanted around
       // the nodes where they are and where they were at the start of the step, for SweptSearch.
@@ -509,7 +537,9 @@ namespace Touchstone
         sum.finish();
       if (step_begins)
         set_before();
-      step_begins = false;
+      else if (first_cover)
+        set_keep_rows();
+      step_begins = first_cover = false;
     }
 
 

@@ -6,6 +6,7 @@
 #include <touchstone/contact/tolerances.h>
 
 #include <Sacado.hpp>
+#include <algorithm>
 #include <limits>
 
 namespace Touchstone
@@ -17,8 +18,11 @@ namespace Touchstone
   {
     // A row needs some covered area of its own, at most r = 3 of it given away (doc/theory.md 3.1),
     // and a normal. Without the rows of parts that are kept as a whole a pressure would be lost.
+    // What a node that leaves its row to others comes to touch within a step, beyond the edge of
+    // its faces, is a sliver without a row until the step ends.
     return kept >= Tolerances::least_cover * whole &&
-           Tolerances::most_given * kept >= (1. - shared) * given && normal.norm_square() > 0.;
+           Tolerances::most_given * kept >= std::max((1. - shared) * given, left_to_others) &&
+           normal.norm_square() > 0.;
   }
 
 

@@ -18,32 +18,6 @@ namespace Touchstone
 
   namespace
   {
-    /** Whether nodes without rows give what they have to the others: not where none of these would
-     * keep its own part beside them. At the edge of a cover that begins there they have next to
-     * nothing. */
-    template <typename Number>
-    bool
-    gives_away(const unsigned int                         n,
-               const std::array<Number, Face::max_nodes> &covered,
-               const std::array<double, Face::max_nodes> &whole,
-               const CoverShares::Whole                  &at_once)
-    {
-      // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
-      double sum = 0., squares = 0., most = 0.;
-      int    before = -1;
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          const double theta = whole[i] > 0. ? value_of(covered[i]) / whole[i] : 0.;
-          sum += theta * whole[i];
-          squares += theta * theta * whole[i];
-          if (!at_once.gives[i])
-            most = std::max(most, theta);
-          else if (at_once.before[i] >= 0)
-            before = (before == 0 || at_once.before[i] == 1) ? 0 : 1;
-        }
-      return CoverShares::keeps(most * sum / squares, before);
-    }
-
     /** beta_i and w_k of CoverShares. */
     template <typename Number>
     struct Division
@@ -56,7 +30,11 @@ namespace Touchstone
                const std::array<double, Face::max_nodes> &whole,
                const CoverShares::Whole                  &at_once)
       {
-        const bool leaves = gives_away(n, covered, whole, at_once);
+        std::array<double, Face::max_nodes> values;
+        std::transform(covered.begin(), covered.end(), values.begin(), [](const Number &a) {
+          return value_of(a);
+        });
+        const bool leaves = CoverShares::gives_away(n, values, whole, at_once);
         Number     sum = 0., squares = 0., receivers = 0., most = 0.;
         for (unsigned int i = 0; i < n; ++i)
           if (whole[i] > 0.)
@@ -108,6 +86,30 @@ namespace Touchstone
       }
     };
   } // namespace
+
+
+
+  bool
+  CoverShares::gives_away(const unsigned int                         n,
+                          const std::array<double, Face::max_nodes> &covered,
+                          const std::array<double, Face::max_nodes> &whole,
+                          const Whole                               &at_once)
+  {
+    // The mean cover is squares / sum = sum a_i theta_i / sum a_i, theta_i = a_i / A_i.
+    double sum = 0., squares = 0., most = 0.;
+    int    before = -1;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const double theta = whole[i] > 0. ? covered[i] / whole[i] : 0.;
+        sum += theta * whole[i];
+        squares += theta * theta * whole[i];
+        if (!at_once.gives[i])
+          most = std::max(most, theta);
+        else if (at_once.before[i] >= 0)
+          before = (before == 0 || at_once.before[i] == 1) ? 0 : 1;
+      }
+    return keeps(most * sum / squares, before);
+  }
 
 
 

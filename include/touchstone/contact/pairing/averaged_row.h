@@ -43,6 +43,9 @@ namespace Touchstone
     /** The integral of psi'_k, and the parts of it and of the area a_k of its own node
      * that are kept and given away; area. */
     double area = 0., kept = 0., given = 0.;
+    /** That which is given away since the node leaves its row to others (Face::without_row), area.
+     */
+    double left_to_others = 0.;
     /** The kept area in the reference state. */
     double reference = 0.;
     /** How far other pairs cover the rest of the node, from 0 to 1, or 1 if its parts of faces are

@@ -11,6 +11,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace Touchstone
@@ -34,7 +35,12 @@ namespace Touchstone
     /** Of slave nodes of this rank: what is covered, closed or open, and all of the slave
      * surface. */
     Areas own, whole;
+    /** Slave nodes of this rank that are to leave their rows to others (Face::without_row), but in
+     * the committed state touch on a face whose other nodes cannot take it: they keep all that they
+     * have (doc/theory.md 3.1, "Edges where pairs meet"). */
+    std::unordered_set<Index> keep_rows;
 
+    /** @brief Forget the areas. */
     void
     clear()
     {

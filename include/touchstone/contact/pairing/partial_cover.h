@@ -61,6 +61,15 @@ namespace Touchstone
     std::array<std::array<std::array<double, Face::max_nodes>, Face::max_nodes>, Face::max_nodes>
       derivative;
 
+    /** @brief Whether the nodes that Whole::gives marks give what they have: not where none of the
+     * others would keep its own part beside them. At the edge of a cover that begins there these
+     * have next to nothing. The parameters are those of the constructor. */
+    static bool
+    gives_away(unsigned int                               n,
+               const std::array<double, Face::max_nodes> &covered,
+               const std::array<double, Face::max_nodes> &whole,
+               const Whole                               &at_once);
+
     /** @brief Whether a node keeps its part as a whole.
      * @param cover Of the node, CoverShares::cover. @param before Whole::before. */
     static bool
